@@ -6,6 +6,12 @@ takes is counted, without what making a file takes, in pairs of both ways one af
 median of the pairs' ratios is told, since others use the disk and the cores: of processor time, and
 beside it by the clock.
 
+Beside the guardian the same stream is watched and recorded as in a run: interlocks with vibration
+and motors on, preview, a heartbeat with every poll to a guardian in its own process, which reads
+the supplies. Samples are handed over as fast as they are taken, so that what is told is how many
+times the stream's own rate one core keeps while it streams: blocks are joined to a file once it
+has ended, which `recording` counts and this does not.
+
 A file of six cells is run at each of three speeds, at 20 kS/s on eight channels, by the whole
 procedure: interlocks, journal, recording, compression. The rest of the thesis's thirty files differ
 in nothing that takes time. Files are compressed and noise is drawn in threads beside;
@@ -13,6 +19,7 @@ in nothing that takes time. Files are compressed and noise is drawn in threads b
 nobody else uses. ``times_real_time_by_the_clock`` is what they did.
 """
 
+import dataclasses
 import tempfile
 import time
 from pathlib import Path
@@ -23,6 +30,11 @@ from _common import finish
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.runs import Run
+from asperity.tribometer.guardian.backends import open_bench
+from asperity.tribometer.instruments.protocols import Poll
+from asperity.tribometer.live import Preview, units_of
+from asperity.tribometer.procedure.interlock import Expected, Interlock
+from asperity.tribometer.procedure.logger import Logger
 from asperity.tribometer.procedure.study import answer, prepare
 from asperity.tribometer.recording import Recorder, Source
 from asperity.tribometer.signals import SIGNALS
@@ -32,7 +44,10 @@ FILES = (
     "plan.excluded=[]", "plan.repeats=1",
 )  # fmt: skip
 BRIEF = ('plan.before="1 s"', 'plan.shaken="1 s"', 'plan.idle="0 s"', 'plan.frequencies=["750 Hz"]')
-LEAST = {"times_real_time": 50.0, "of_a_plain_write": 1.0 / 3.0, "times_8_x_500_kS_per_s": 10.0}
+LEAST = {
+    "times_real_time": 50.0, "of_a_plain_write": 1.0 / 3.0, "times_8_x_500_kS_per_s": 10.0,
+    "times_8_x_500_kS_per_s_guarded": 10.0,
+}  # fmt: skip
 RATE, CHANNELS, BLOCK, BLOCKS = 500e3, 8, 0.5, (10, 50)
 PAIRS = 9
 
@@ -85,6 +100,82 @@ def recording():
     }
 
 
+class Handed:
+    """An oscilloscope that has always sampled already, in a time of its own."""
+
+    by_hand = False
+    name = "samples that are there"
+
+    def __init__(self, inputs, counts):
+        self.inputs, self._counts = inputs, counts
+        self._now, self._given, self._begun = 0.0, 0, 0.0
+
+    def now(self):
+        return self._now
+
+    def sleep(self, seconds):
+        self._now += seconds
+
+    def start(self, interval):
+        self._interval, self._given, self._begun = interval, 0, self._now
+        return interval
+
+    def poll(self):
+        count = round((self._now - self._begun) / self._interval) - self._given
+        self._given += count
+        over = (False,) * len(self.inputs)
+        return Poll(tuple(one[:count] for one in self._counts), self._now, over)
+
+    def stop(self):
+        pass
+
+    close = safe = stop
+
+
+def guarded():
+    """Return how many times the rate of the stream is kept beside a guardian."""
+    case = read_case("rig-final", case_tables(), FILES)
+    rng, frequency = np.random.default_rng(0), 750.0
+    with tempfile.TemporaryDirectory() as folder:
+        bench = open_bench(case, "sim")
+        try:
+            inputs = bench.scope.inputs
+            interlock = Interlock.from_case(case, inputs)
+            counts = rng.integers(-30, 30, (len(inputs), round(BLOCK * RATE)), dtype=np.int16)
+            place = [one.signal for one in inputs].index("drive_voltage")
+            times = np.arange(counts.shape[1]) / RATE
+            volts = interlock.swing * np.sin(2.0 * np.pi * frequency * times)
+            counts[place] = (volts - interlock.offsets[place]) / interlock.gains[place]
+            scope = Handed(inputs, counts)
+            bench = dataclasses.replace(bench, scope=scope, clock=scope)
+            for motor in bench.motors.values():
+                motor.set(1.0)
+                motor.on()
+            bench.vibration.configure("sine", frequency)
+            bench.vibration.on()
+            preview = Preview(
+                Path(folder), units_of([one.signal for one in inputs]), simulated=True
+            )
+
+            def watched(blocks):
+                path = Path(folder, "run.nc")
+                logger = Logger(bench, interlock, 1.0 / RATE, path, "{}", lambda: None, preview)
+                logger.expect(Expected(frequency, "sine", dict.fromkeys(bench.motors, 1.0)))
+                began = time.process_time()
+                logger.watch(blocks * BLOCK)
+                took = time.process_time() - began
+                logger.close()
+                return took
+
+            watched(2)
+            few, many = (np.array([watched(blocks) for _ in range(3)]) for blocks in BLOCKS)
+            assert not bench.safe()
+        finally:
+            bench.close()
+    seconds = BLOCK * (BLOCKS[1] - BLOCKS[0]) / (np.median(many) - np.median(few))
+    return {"channels": len(inputs), "times_8_x_500_kS_per_s_guarded": seconds * len(inputs) / 8}
+
+
 def done(*settings):
     """Run a plan; returns recorded seconds, and those of the busier core and of the clock."""
     case = read_case("rig-final", case_tables(), settings)
@@ -107,6 +198,7 @@ def main():
     recorded, busy, clock = done(*FILES)
     report = {
         "recording": recording(),
+        "beside the guardian": guarded(),
         "simulated rig": {
             "recorded_s": recorded,
             "busier_core_s": busy,

@@ -58,8 +58,12 @@ def lines():
     return list(dict.fromkeys([*ROOMS, *command_lines("ordinary"), *command_lines("slow")]))
 
 
-def called(line):
-    """Return what a command line calls: names of kernels with types, in order."""
+def noted(line):
+    """Run a command line and return what its processes note: names of kernels with types, in order.
+
+    Types are None where no list holds them; a name is None with the compilers that a process has
+    loaded at its end.
+    """
     with tempfile.TemporaryDirectory() as folder:
         # The package may stand on the path alone.
         paths = [str(HERE / "harvesting"), str(HERE / "answers"), os.environ.get("PYTHONPATH", "")]
@@ -72,8 +76,12 @@ def called(line):
         # The command's own process first, which began before those that it began.
         files = sorted(Path(folder).glob("*.jsonl"), key=lambda file: int(file.stem))
         texts = [text for file in files for text in file.read_text("utf-8").splitlines()]
-    found = map(json.loads, dict.fromkeys(texts))
-    return [(name, types) for name, types in found if types is not None]
+    return list(map(json.loads, dict.fromkeys(texts)))
+
+
+def called(line):
+    """Return what a command line calls: names of kernels with types, in order."""
+    return [(name, types) for name, types in noted(line) if None not in (name, types)]
 
 
 def main():

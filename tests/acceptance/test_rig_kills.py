@@ -1,5 +1,6 @@
 """Killed at any moment, procedure and guardian lose nothing and leave nothing unreadable."""
 
+import contextlib
 import os
 import random
 import signal
@@ -83,7 +84,9 @@ class Killed:
 
         def with_it():
             if who == "both" and noted.exists():
-                os.kill(int(noted.read_text()), signal.SIGKILL)
+                # At the very end it has gone by itself.
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(int(noted.read_text()), signal.SIGKILL)
 
         kinds = [line["kind"] for line in rigs.whole_lines(self._folder)]
         self._rig.left("done" not in kinds)

@@ -1,6 +1,7 @@
 """Off means off: whatever ends a run, everything was read back to be off, or is named."""
 
 import os
+import select
 import signal
 
 import pytest
@@ -433,3 +434,39 @@ def test_a_guardian_after_which_no_other_begins_names_all_that_may_be_on(begun, 
     assert lines_of(tmp_path / "run", "latched")[-1]["still_on"]
     # The next start switches off.
     gone_on_with(begun, rig, tmp_path / "run", acknowledge="looked at")
+
+
+def arrived(end):
+    assert select.select([end], [], [], LONG)[0], "nothing came"
+    return os.read(end, 100)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["", "stuck on"])
+def test_a_relay_has_power_cut_at_the_end_and_at_once_where_something_stays_on(
+    rig, dials, tmp_path, fault
+):
+    pytest.importorskip("serial", reason="pyserial (extra daq) is missing")
+    end, other = os.openpty()
+    names = {"port": os.ttyname(other), "on": "A0 01 01 A2", "off": "A0 01 00 A1"}
+    case = rigs.small_case(
+        f'guardian.patience="{LONG} s"', f'guardian.deadline="{LONG} s"',
+        *(f'guardian.relay_{key}="{value}"' for key, value in names.items()),
+    )  # fmt: skip
+    procedure = Procedure(case, tmp_path / "run", rig, dials=dials)
+    try:
+        vibrating(rig)
+        assert arrived(end) == b"\xa0\x01\x01\xa2"
+        if fault:
+            rig.fault("steel", fault)
+        procedure.kill(signal.SIGTERM)
+        # It is there while the procedure has yet to end.
+        assert arrived(end).startswith(b"\xa0\x01\x00\xa1")
+        assert procedure.ended() == (4 if fault else 130)
+        assert (OUTPUTS & set(rig.on()) == {"steel"}) == bool(fault)
+    finally:
+        rig.sound()
+        procedure.end()
+        procedure.gone()
+        for each in (end, other):
+            os.close(each)

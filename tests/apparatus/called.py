@@ -6,6 +6,9 @@ import copy
 import numpy as np
 
 from asperity.compiled import _Lazy
+from asperity.native import kept, load
+from asperity.native.target import FEATURES
+from asperity.native.types import UnlistedTypeError, types_of
 
 # How far a number is moved, of itself.
 SHARE = 1e-3
@@ -25,6 +28,32 @@ def recorded(most=20):
     _Lazy.__call__ = call
     try:
         yield calls
+    finally:
+        _Lazy.__call__ = before
+
+
+@contextlib.contextmanager
+def left_to_numba():
+    """Give a list of kernels with the types of calls that Numba answers, though a library could."""
+    found, before = [], _Lazy.__call__
+    is_on = load._is_wanted() and load.is_for_here(kept._MADE_HERE, FEATURES)
+
+    def call(self, *arguments):
+        answer = self._native(arguments)
+        if answer is not NotImplemented:
+            return answer
+        try:
+            called = f"{self.__module__}.{self.__qualname__}", types_of(arguments)
+        except UnlistedTypeError as unlisted:
+            called = f"{self.__module__}.{self.__qualname__}", str(unlisted)
+        if called not in found:
+            found.append(called)
+        return self._dispatcher(*arguments)
+
+    if is_on:
+        _Lazy.__call__ = call
+    try:
+        yield found
     finally:
         _Lazy.__call__ = before
 
@@ -60,7 +89,9 @@ def _change(numbers, change):
         for name in numbers.dtype.names:
             _change(numbers[name], change)
     elif numbers.dtype.kind == "f":
-        numbers[...] = change(numbers)
+        # What is to be filled may hold anything.
+        with np.errstate(all="ignore"):
+            numbers[...] = change(numbers)
 
 
 def words(value):

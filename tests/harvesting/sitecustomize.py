@@ -1,11 +1,15 @@
 """Python runs this first where its folder is on the path: calls of kernels are written down.
 
 So those of a command's own processes are seen as well. Each process writes a file of lines into the
-folder that ``HARVEST`` names: a kernel's name and what it was called with.
+folder that ``HARVEST`` names: a kernel's name and what it was called with; at its end null, and
+which compilers it has loaded.
 """
 
+import atexit
+import contextlib
 import json
 import os
+import sys
 
 from asperity import compiled
 from asperity.native.types import UnlistedTypeError, types_of
@@ -22,10 +26,22 @@ def _noted(self, *arguments):
     text = json.dumps([f"{self.__module__}.{self.__qualname__}", types])
     if text not in _seen:
         _seen.add(text)
-        with open(os.path.join(os.environ["HARVEST"], f"{os.getpid()}.jsonl"), "a") as file:
-            file.write(text + "\n")
+        _write(text)
     return _plain(self, *arguments)
 
 
-if "HARVEST" in os.environ:
+def _write(text):
+    with open(os.path.join(os.environ["HARVEST"], f"{os.getpid()}.jsonl"), "a") as file:
+        file.write(text + "\n")
+
+
+def _ends():
+    # A process that others share may end after the command that began it.
+    with contextlib.suppress(FileNotFoundError):
+        _write(json.dumps([None, sorted({"numba", "llvmlite"}.intersection(sys.modules))]))
+
+
+# What makes kernels needs compilers and calls none.
+if "HARVEST" in os.environ and "asperity.building.worker" not in sys.orig_argv:
     compiled._Lazy.__call__ = _noted
+    atexit.register(_ends)

@@ -236,6 +236,30 @@ def test_a_supply_at_a_visa_address(plugged):
         opened_line("supply", table.outputs["steel"].model_copy(update={"address": "NONE::1"}))
 
 
+@pytest.mark.parametrize("name", ["tti-pl", "rs-hmp"])
+def test_a_supply_on_a_serial_line_of_visa(name, plugged):
+    pytest.importorskip("pyvisa_py", reason="pyvisa-py (extra daq) is missing")
+    device = SUPPLIES[name]()
+    table = Supplies.model_validate(
+        {
+            "instrument": name, "address": f"ASRL{plugged(device).port}::INSTR", "steel": "1",
+            "timeout": "0.5 s",
+        }
+    )  # fmt: skip
+    steel = open_described(table.outputs)["steel"]
+    assert device.name in steel.identify()
+    steel.safe()
+    steel.set(3.0)
+    steel.on()
+    assert steel.reading().current == pytest.approx(1.5)
+    steel.safe()
+    assert off.supply_off("steel", off.tried(lambda: off.read_back(steel))).proven
+    device.fault = "silent"
+    with pytest.raises(InstrumentError, match="did not answer"):
+        steel.reading()
+    steel.close()
+
+
 @pytest.mark.parametrize(
     ("answer", "value"),
     [("1.001V", 1.001), ("V1 1.000", 1.0), ("+1.50000000E+00", 1.5), ("0.001A", 0.001), ("-2", -2)],
@@ -375,7 +399,7 @@ def test_what_a_slow_supply_takes_is_the_guardians_deadline():
     slow = 'supplies.amplifier={instrument="korad",port="p"}'
     fast = ('supplies.instrument="tti-pl"', 'supplies.port="q"', 'supplies.steel="1"')
     for given, due in (
-        ((*fast, slow), 0.5), (fast, 0.1), ((*fast, slow, 'guardian.deadline="0.2 s"'), 0.2)
+        ((*fast, slow), 0.5), (fast, 0.3), ((*fast, slow, 'guardian.deadline="0.2 s"'), 0.2)
     ):  # fmt: skip
         assert deadline_of(rigs.small_case(*given), simulated=False) == due
     assert deadline_of(rigs.small_case(*fast, slow), simulated=True) == 60.0

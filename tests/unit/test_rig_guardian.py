@@ -2,6 +2,7 @@
 
 import os
 import queue
+import select
 import threading
 import time
 
@@ -71,7 +72,9 @@ class Fake:
 class Made:
     """A guardian in a thread, and the procedure's end of its line."""
 
-    def __init__(self, *, absent=(), by_hand=(), patience=60.0, deadline=20.0, limit=20.0):
+    def __init__(
+        self, *, absent=(), by_hand=(), patience=60.0, deadline=20.0, limit=20.0, relay=None
+    ):  # fmt: skip
         self.told, self.said = [], []
         self.fakes = {key: Fake(key, self.told) for key in (*KEYS, LISTENER)}
         pipes = os.pipe(), os.pipe()
@@ -80,7 +83,7 @@ class Made:
         wire = Wire(os.fdopen(hears, "rb", 0), os.fdopen(tells, "wb", 0))
         self.guardian = Guardian(
             [self._device(key, key in absent) for key in self.fakes], by_hand, wire,
-            patience=patience, deadline=deadline, say=self.said.append,
+            patience=patience, deadline=deadline, say=self.said.append, relay=relay,
         )  # fmt: skip
         self.guardian._switching._limit = limit
         self.heard = queue.Queue()
@@ -332,6 +335,118 @@ class Port:
         self.done.append(("closed", True))
 
 
+@pytest.fixture
+def terminal():
+    """Both ends of a pseudo-terminal, and the name of the one that is a port."""
+    pty = pytest.importorskip("pty", reason="pseudo-terminals are those of POSIX")
+    pytest.importorskip("serial", reason="pyserial (extra daq) is missing")
+    end, other = pty.openpty()
+    yield end, other, os.ttyname(other)
+    for each in (end, other):
+        os.close(each)
+
+
+def arrived(end):
+    assert select.select([end], [], [], 60.0)[0], "nothing came"
+    return os.read(end, 100)
+
+
+def test_commands_of_a_relay_arrive_at_its_port(terminal):
+    end, _, name = terminal
+    relay = Relay(
+        Guard(relay_port=name, relay_on="A0 01 01 A2", relay_off="A0 01 00 A1", units="SI")
+    )
+    relay.hold()
+    assert arrived(end) == b"\xa0\x01\x01\xa2"
+    relay.close()
+    assert arrived(end) == b"\xa0\x01\x00\xa1"
+
+
+def test_a_line_is_set_and_falls_with_the_port_whatever_the_ports_settings_were(
+    terminal, monkeypatch
+):
+    import struct
+    import termios
+
+    from serial import serialposix
+
+    _, other, name = terminal
+    before = termios.tcgetattr(other)
+    before[2] &= ~termios.HUPCL
+    termios.tcsetattr(other, termios.TCSANOW, before)
+    real, lines = serialposix.fcntl.ioctl, []
+
+    def ioctl(file, request, *given):
+        # A pseudo-terminal has no such lines.
+        if request in (serialposix.TIOCMBIS, serialposix.TIOCMBIC):
+            (line,) = struct.unpack("I", given[0])
+            if line == termios.TIOCM_RTS:
+                lines.append(request == serialposix.TIOCMBIS)
+            return 0
+        return real(file, request, *given)
+
+    monkeypatch.setattr(serialposix.fcntl, "ioctl", ioctl)
+    relay = Relay(Guard(relay_port=name, relay_line="RTS", relay_pulses=True, units="SI"))
+    assert termios.tcgetattr(other)[2] & termios.HUPCL
+    lines.clear()
+    relay.hold()
+    for _ in range(3):
+        relay.pulse()
+    relay.open()
+    relay.pulse()
+    relay.close()
+    assert lines == [True, False, True, False, False, False]
+
+
+def test_a_port_without_the_line_is_refused_by_its_key(terminal):
+    *_, name = terminal
+    relay = Relay(Guard(relay_port=name, relay_line="DTR", units="SI"))
+    with pytest.raises(InstrumentError, match=r"relay_line, DTR, cannot be set: .*Errno"):
+        relay.hold()
+    relay.close()
+    with pytest.raises(InstrumentError, match=r"cannot be opened: .*guardian\.relay_port"):
+        Relay(Guard(relay_port="/dev/none", relay_line="DTR", units="SI"))
+
+
+class Watchdog:
+    """A relay that notes how it is told that somebody is there."""
+
+    name = "watchdog"
+
+    def __init__(self):
+        self.pulses, self.opened = [], False
+
+    def pulse(self):
+        self.pulses.append(time.monotonic())
+
+    def open(self):
+        self.opened = True
+
+    def close(self):
+        self.opened = True
+
+
+def test_a_watchdog_is_pulsed_while_an_instrument_blocks_and_no_more_once_something_is_wrong(made):
+    dog = Watchdog()
+    one = made(limit=2.0, relay=dog)
+    one.fakes["steel"].fault = "blocked"
+    one.fakes["vibration"].fault = "blocked"
+    threading.Timer(1.0, one.fakes["vibration"].stands.set).start()
+    threading.Timer(1.0, one.fakes["steel"].stands.set).start()
+    one.begin()
+    # It stays closed through the first switching off, whose instruments need power to answer.
+    assert len(dog.pulses) > 5
+    one.guardian.signal(15)
+    one.hears("tripped")
+    count = len(dog.pulses)
+    for _ in range(3):
+        one.ask("guardian", "started")
+    assert len(dog.pulses) == count
+    assert not dog.opened
+    one.leave()
+    assert dog.opened
+
+
 def test_a_relay_is_held_pulsed_and_opened(monkeypatch):
     serial = pytest.importorskip("serial", reason="pyserial (extra daq) is missing")
     monkeypatch.setattr(serial, "Serial", Port)
@@ -340,6 +455,8 @@ def test_a_relay_is_held_pulsed_and_opened(monkeypatch):
     held.pulse()
     held.pulse()
     held.close()
+    # What was opened is closed by no pulse.
+    held.pulse()
     assert held._port.done == [
         ("rts", True), ("rts", False), ("rts", True), ("rts", False), ("closed", True)
     ]  # fmt: skip
@@ -347,6 +464,7 @@ def test_a_relay_is_held_pulsed_and_opened(monkeypatch):
     told.hold()
     told.pulse()
     told.open()
+    told.pulse()
     assert told._port.done == [("write", b"\xa0\x01"), ("write", b"\xa0\x00")]
 
 

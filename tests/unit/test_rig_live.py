@@ -136,6 +136,7 @@ def test_a_stop_is_heard_once_and_one_of_before_not_at_all(tmp_path):
     while (tmp_path / stop.NAME).exists():
         came.clear()
         came.wait(0.01)
+    button.leave()
     assert heard == [1]
 
 

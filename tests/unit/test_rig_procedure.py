@@ -20,6 +20,7 @@ from asperity.tribometer.guardian import journal as journals
 from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure import study
+from asperity.tribometer.procedure.columns import over_time
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.study import Reducible, reduce_recording
 
@@ -430,3 +431,13 @@ def test_a_second_run_into_the_same_folder_touches_no_instrument(tmp_path, monke
     with held, pytest.raises(InputError, match="is written by a run that goes on; choose"):
         study.answer(problem, Run(folder=tmp_path, stem="rig-run"))
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("samples", [1, 63, 64, 65, 1000])
+def test_sums_and_bounds_over_time_are_those_of_each_column(samples):
+    rng = np.random.default_rng(samples)
+    counts = rng.integers(-32767, 32768, (samples, 7), dtype=np.int16)
+    assert np.array_equal(over_time(np.add, counts, np.int64), counts.sum(axis=0, dtype=np.int64))
+    assert np.array_equal(over_time(np.maximum, counts), counts.max(axis=0))
+    assert np.array_equal(over_time(np.minimum, counts[1:] if samples > 1 else counts),
+                          (counts[1:] if samples > 1 else counts).min(axis=0))  # fmt: skip

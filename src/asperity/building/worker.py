@@ -44,6 +44,10 @@ def main() -> None:
     # Ctrl-C is for who waits; what is begun is wanted the next time.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ["ASPERITY_NATIVE"] = "0"
+    # Of what it tries in vain Numba makes coloured messages, and of BLAS, which no entry may need,
+    # it looks for all of SciPy's.
+    os.environ["NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING"] = "1"
+    sys.modules["scipy.linalg.cython_blas"] = None  # type: ignore[assignment]
     folder, processes = Path(sys.argv[1]), int(sys.argv[2])
     wanted = _Wanted()
     threading.Thread(target=wanted.listen, daemon=True).start()

@@ -14,7 +14,7 @@ def print_instrument(name: str, *, as_json: bool) -> None:
     if as_json:
         show.print_json(_json(found) | {"words": dict(found.words)})
         return
-    from asperity.start.write import toml
+    from asperity.casefile.written import toml
 
     words = (f"{key} = {toml(value)}" for key, value in found.words.items())
     head = [f"# {found.title}", f"# {found.source}", f"[{_TABLES[found.kind]}]"]

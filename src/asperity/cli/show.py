@@ -11,6 +11,8 @@ from asperity.cli.outcome import tell, unwritten
 from asperity.errors import StorageError
 
 if TYPE_CHECKING:
+    from rich.progress import Progress
+
     from asperity.results.table import Table
 
 
@@ -58,7 +60,19 @@ def progress_bar(what: str = "points") -> Iterator[Callable[[int, int], None]]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
+    from asperity.runs.asking import shown
+
     columns = BarColumn(), MofNCompleteColumn(), what, TimeRemainingColumn()
-    with Progress(*columns, console=Console(stderr=True)) as progress:
+    with (
+        Progress(*columns, console=Console(stderr=True)) as progress,
+        shown(lambda: _off(progress), progress.start),
+    ):
         bar = progress.add_task("", total=None)
         yield lambda done, total: progress.update(bar, completed=done, total=total)
+
+
+def _off(progress: "Progress") -> None:
+    """Take a bar off the terminal, leaving nothing of it."""
+    progress.live.transient = True
+    progress.stop()
+    progress.live.transient = False

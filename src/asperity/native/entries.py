@@ -6,6 +6,7 @@ whose answers are recorded.
 
 import dataclasses
 import functools
+import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -65,12 +66,15 @@ class Listed:
 def listed() -> Listed:
     """Return the list as it stands."""
     held = json.loads(LIST.read_text("utf-8"))
-    types = held["types"]
+    types, rows = held["types"], held["entries"]
     entries = (
         Entry(number, name, [types[each] for each in arguments], seconds)
-        for number, (name, arguments, seconds) in enumerate(held["entries"])
+        for number, (name, arguments, seconds) in enumerate(rows.values())
     )
-    lines = {line: tuple(numbers) for line, numbers in held["lines"].items()}
+    numbers = {mark: number for number, mark in enumerate(rows)}
+    lines = {
+        line: tuple(numbers[mark] for mark in called) for line, called in held["lines"].items()
+    }
     return Listed(tuple(entries), lines)
 
 
@@ -78,22 +82,31 @@ def write(
     entries: Iterable[tuple[str, list[Any], float]], lines: Mapping[str, Sequence[int]]
 ) -> None:
     """Write the list: names with types of arguments and seconds; numbers of entries by line."""
-    types: dict[str, int] = {}
-    rows = []
+    # By marks that follow from what they stand for, so that two lists can be merged as texts.
+    types: dict[str, str] = {}
+    rows: dict[str, str] = {}
     for name, arguments, seconds in entries:
         texts = [json.dumps(each) for each in arguments]
-        numbers = [types.setdefault(text, len(types)) for text in texts]
-        rows.append(json.dumps([name, numbers, seconds]))
-    told = [f"{json.dumps(line)}: {json.dumps(list(numbers))}" for line, numbers in lines.items()]
+        marks = [_mark(text) for text in texts]
+        types |= dict(zip(marks, texts, strict=True))
+        rows[_mark(json.dumps([name, marks]))] = json.dumps([name, marks, seconds])
+    numbered = list(rows)
+    called = {line: [numbered[number] for number in numbers] for line, numbers in lines.items()}
     parts = (
-        '"types": [\n' + ",\n".join(types) + "\n]",
-        '"entries": [\n' + ",\n".join(rows) + "\n]",
-        '"lines": {\n' + ",\n".join(told) + "\n}",
+        '"types": {\n' + ",\n".join(f'"{mark}": {text}' for mark, text in types.items()) + "\n}",
+        '"entries": {\n' + ",\n".join(f'"{mark}": {row}' for mark, row in rows.items()) + "\n}",
+        '"lines": {\n'
+        + ",\n".join(f"{json.dumps(line)}: {json.dumps(marks)}" for line, marks in called.items())
+        + "\n}",
     )
     new = LIST.with_suffix(".new")
     new.write_text("{\n" + ",\n".join(parts) + "\n}\n", "utf-8")
     # Whoever reads it meanwhile reads all of it.
     new.replace(LIST)
+
+
+def _mark(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()[:8]
 
 
 def likely(asked: Iterable[int]) -> list[Entry]:

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from asperity.closure import source_key
-from asperity.compiled import machine
 from asperity.errors import AsperityError, ConvergenceError, InputError
+from asperity.processor import machine
 from asperity.results import Result
 from asperity.runs.rows import Row
 from asperity.sweep.subject import Subject, named

@@ -1,5 +1,6 @@
 """What is answered at which address."""
 
+import asyncio
 import errno
 import filecmp
 import json
@@ -60,7 +61,7 @@ class Page:
             "POST /api/save": self._save,
             "GET /api/files/{name}": _file(lambda at: folder.file(at["name"])),
             "PUT /api/files/{name}": self._upload,
-            "GET /api/runs": _told(lambda _: runs(folder.path)),
+            "GET /api/runs": self._runs,
             "POST /api/runs/stop": self._stop_run,
             "GET /api/jobs": _told(lambda _: jobs.listed()),
             "POST /api/jobs": self._submit,
@@ -152,6 +153,10 @@ class Page:
             return named
         told = json.loads(bytes(named.body))
         return JSONResponse(self.jobs.submit(told["id"], told["line"], object_of(body)))
+
+    async def _runs(self, request: Request) -> Response:
+        # A folder may hold many others.
+        return JSONResponse(await asyncio.to_thread(runs, self.folder.path))
 
     async def _stop_run(self, request: Request) -> Response:
         """Have a run of the rig switched off, whoever began it."""

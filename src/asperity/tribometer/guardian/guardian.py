@@ -95,7 +95,8 @@ class Guardian:
         self._tripped = ""
         self._kind = SWITCHED_OFF
         self._heard = self._looked = self._tried = now()
-        self._writing = Writing(StopButton(self.stop).watch)
+        self._stop_button = StopButton(self.stop)
+        self._writing = Writing(self._stop_button.watch)
         self._last: Verdict | None = None
         self._orderly = False
         self._left: int | None = None
@@ -318,6 +319,7 @@ class Guardian:
 
     def _close(self) -> None:
         """Let go of everything; what does not let go is left."""
+        self._stop_button.leave()
         written = self._writing.all_written()
         cf.wait([device.close() for device in self._devices], timeout=_CLOSED)
         cf.wait([written], timeout=_WRITTEN)

@@ -29,7 +29,7 @@ class Relay:
     def __init__(self, table: Guard) -> None:
         self.name = f"relay at {table.relay_port}"
         self._says = table
-        self._level = False
+        self._level = self._held = False
         try:
             import serial
         except ImportError:
@@ -45,21 +45,40 @@ class Relay:
                 f"{self.name} cannot be opened: {error}; look at guardian.relay_port",
                 kind="line lost",
             ) from None
+        self._falls_when_closed()
+
+    def _falls_when_closed(self) -> None:
+        """Have the system let the lines fall with the port, which a setting of it may prevent."""
+        try:
+            import termios
+        except ImportError:  # of another system, which lets them fall
+            return
+        with contextlib.suppress(OSError, AttributeError, termios.error):
+            told = termios.tcgetattr(self._port.fileno())
+            told[2] |= termios.HUPCL
+            termios.tcsetattr(self._port.fileno(), termios.TCSANOW, told)
 
     def hold(self) -> None:
-        """Let the outputs have power."""
-        if self._says.relay_line:
-            self._set(True)
-        else:
-            self._port.write(bytes.fromhex(self._says.relay_on))
+        """Let the outputs have power; raises InstrumentError where that cannot be."""
+        line = self._says.relay_line
+        try:
+            if line:
+                self._set(True)
+            else:
+                self._port.write(bytes.fromhex(self._says.relay_on))
+        except (OSError, ValueError) as error:
+            what = f"guardian.relay_line, {line}, cannot be set" if line else "it takes no command"
+            raise InstrumentError(f"{self.name}: {what}: {error}", kind="line lost") from None
+        self._held = True
 
     def pulse(self) -> None:
-        """Tell a watchdog that somebody is there."""
-        if self._says.relay_pulses:
+        """Tell a watchdog that somebody is there, while the outputs are to have power."""
+        if self._says.relay_pulses and self._held:
             self._set(not self._level)
 
     def open(self) -> None:
         """Cut the power."""
+        self._held = False
         if self._says.relay_line:
             self._set(False)
         else:

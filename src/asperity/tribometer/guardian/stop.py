@@ -7,7 +7,6 @@ a disk may hang as well.
 import contextlib
 import os
 import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -45,6 +44,7 @@ class StopButton:
     def __init__(self, pressed: Callable[[], None]) -> None:
         self._pressed = pressed
         self._file: Path | None = None
+        self._left = threading.Event()
 
     def watch(self, folder: Path) -> None:
         """Look into a folder from now on; what was asked of an earlier run there is forgotten."""
@@ -56,9 +56,12 @@ class StopButton:
         if not begun:
             threading.Thread(target=self._look, name="stop", daemon=True).start()
 
+    def leave(self) -> None:
+        """Look no more."""
+        self._left.set()
+
     def _look(self) -> None:
-        while True:
-            time.sleep(_EVERY)
+        while not self._left.wait(_EVERY):
             file = self._file
             if file is None or not file.exists():
                 continue

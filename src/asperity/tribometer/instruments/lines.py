@@ -14,6 +14,7 @@ _SILENCE = 0.02  # s, after which an answer without an end has ended.
 _OPENING = 2.0  # s, for a VISA device to be reached.
 _NOTHING = 1  # ms, in which what is there already is read.
 _MOST_LEFT = 64
+_FLOWS = {"none": 0, "xon-xoff": 1, "rts-cts": 2}  # VI_ASRL_FLOW_...
 
 
 class Line(Protocol):
@@ -100,8 +101,9 @@ class SerialLine(_Line):
         super().__init__(name, words)
         try:
             self._port = _serial().Serial(
-                words.port, words.baud, timeout=words.timeout, write_timeout=words.timeout
-            )
+                words.port, words.baud, timeout=words.timeout, write_timeout=words.timeout,
+                rtscts=words.handshake == "rts-cts", xonxoff=words.handshake == "xon-xoff",
+            )  # fmt: skip
         except (OSError, ValueError) as error:
             raise InstrumentError(
                 f"{name} cannot be opened: {error}; look at {words.table}.port", kind="line lost"
@@ -178,6 +180,7 @@ class VisaLine(_Line):
             self._device.timeout = 1e3 * words.timeout
             if words.address.upper().startswith("ASRL"):
                 self._device.baud_rate = words.baud
+                self._device.flow_control = _FLOWS[words.handshake]
             self._device.write_termination = None
             self._device.read_termination = self._answer_end.decode() or None
         except Exception as error:  # of whichever VISA library there is

@@ -5,6 +5,7 @@ from collections.abc import Callable
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, shown
+from asperity.runs.asking import asking
 from asperity.tribometer.instruments.protocols import Person, Reading, Waveform
 from asperity.units import split_unit, to_si
 
@@ -75,9 +76,10 @@ def _read(typed: str, unit: str) -> float:
 
 
 def _typed(text: str) -> str:
-    # Standard output may be a file of answers.
-    print(text, end="", file=sys.stderr, flush=True)
-    line = sys.stdin.readline()
+    with asking():
+        # Standard output may be a file of answers.
+        print(text, end="", file=sys.stderr, flush=True)
+        line = sys.stdin.readline()
     if not line:
         raise InputError("the terminal was closed while a question stood open")
     return line.strip()

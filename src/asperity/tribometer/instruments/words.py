@@ -39,6 +39,8 @@ class Spoken(Table):
         VISA address, such as ``TCPIP::192.168.1.7::5025::SOCKET``; one of the two.
     baud : int
         Bits a second of a serial line.
+    handshake : {'none', 'rts-cts', 'xon-xoff'}
+        Of a serial line.
     timeout : float or str
         How long an answer may take, s.
     line_end : {'CR', 'LF', 'CRLF', 'none'}
@@ -70,6 +72,7 @@ class Spoken(Table):
     port: str = ""
     address: str = ""
     baud: Annotated[int, Field(strict=True, ge=50, le=4_000_000)] = 9600
+    handshake: Literal["none", "rts-cts", "xon-xoff"] = "none"
     timeout: Time = 0.05
     line_end: End = "LF"
     answer_end: Literal["CR", "LF", "CRLF", "none", ""] = ""

@@ -17,6 +17,7 @@ from asperity.tribometer.channels import Channels
 from asperity.tribometer.instruments.inputs import lines_of, volts_a_count
 from asperity.tribometer.instruments.protocols import Counts, Input, InstrumentError, Supply
 from asperity.tribometer.parameters import Limits, Sonotrode
+from asperity.tribometer.procedure.columns import over_time
 
 _SPIKES = 2  # Samples of a poll that noise may take beyond a limit.
 _SUPPLY_SHARE, _SUPPLY_VOLTS = 0.05, 0.1
@@ -116,7 +117,7 @@ class Interlock:
         if self.limits.motor_current is not None:
             for name in ("current_steel", "current_bronze"):
                 bounds[name] = "limits.motor_current", self.limits.motor_current, "A", "current"
-        most_counts, least_counts = counts.max(axis=0), counts.min(axis=0)
+        most_counts, least_counts = over_time(np.maximum, counts), over_time(np.minimum, counts)
         for column, given in enumerate(self.inputs):
             if given.signal not in bounds:
                 continue

@@ -20,6 +20,7 @@ from asperity.tribometer.instruments.stream import Stream
 from asperity.tribometer.live import Preview
 from asperity.tribometer.options import Plan
 from asperity.tribometer.plan.matrix import PlannedFile
+from asperity.tribometer.procedure.columns import over_time
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.recording import Recorder, Source
 
@@ -56,7 +57,8 @@ class Window:
         self.crc32 = zlib.crc32(counts.data, self.crc32)
         used = counts[max(0, self._skip - self.samples) :]
         self.samples += len(counts)
-        self._sum += used.sum(axis=0, dtype=np.int64)
+        if len(used):
+            self._sum += over_time(np.add, used, np.int64)
         self._summed += len(used)
 
     def means(self) -> FloatArray:
@@ -191,7 +193,8 @@ class Logger:
             behind -= min(behind, len(counts))
             if len(counts):
                 lasting = len(counts) * self.interval
-                self._preview.levels(now, lasting, self._interlock.levels(counts.mean(axis=0)))
+                means = over_time(np.add, counts, np.int64) / len(counts)
+                self._preview.levels(now, lasting, self._interlock.levels(means))
         return window
 
     def _behind(self) -> int:

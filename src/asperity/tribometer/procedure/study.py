@@ -175,6 +175,9 @@ def _listening(
             "and look at the instruments",
             kind="not safe",
         )
+    if not bench.simulated and isinstance(bench, GuardedBench):
+        # What is not there is told before a person has weighed and built anything.
+        bench.identities()
     if not (folder / NAME).exists():
         if problem.resume:
             raise InputError(f"{folder} holds no run to go on with; leave --resume out")

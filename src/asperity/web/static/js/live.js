@@ -54,7 +54,7 @@ function Run({ run, look, lost }) {
     : age > HANGS && asks ? "it waits for a person at the rig"
     : age > HANGS ? `nothing new for ${age.toFixed(0)} s: it may hang; stop works all the same` : "it goes on";
   return html`<section class="panel live" aria-label="live">
-    <h2>The rig, live: ${name}${simulated ? ", simulated" : ""}</h2>
+    <h2>The rig, live: ${name.replace(/^jobs\/(.{6}).*/, "job $1…")}${simulated ? ", simulated" : ""}</h2>
     ${lost ? html`<p class="fault" role="alert">✗ What is shown is old: ${lost.message}</p>` : null}
     <div class="row">
       ${runs ? html`<button type="button" class="stop" onClick=${stop}>stop: switch everything off</button>` : null}
