@@ -253,12 +253,14 @@ def test_what_no_repository_takes_is_refused_in_a_line(asperity, run, tmp_path, 
     assert all(word in " ".join(errors.split()) for word in words), errors
 
 
-def test_a_package_goes_into_a_folder_of_its_own(asperity, run, tmp_path):
-    (tmp_path / "notes.txt").write_text("mine")
+@pytest.mark.parametrize("name", ["datacite.json", "journal.jsonl"])
+def test_a_package_goes_into_a_folder_of_its_own(asperity, run, tmp_path, name):
+    (tmp_path / name).write_text("mine")
     given = "--config", run / "case.toml"
     code, _, errors = asperity("rig", "package", run / "run", *given, "--out", tmp_path)
-    assert (code, (tmp_path / "notes.txt").read_text()) == (2, "mine")
-    assert "holds files already" in errors
+    assert (code, [one.name for one in tmp_path.iterdir()]) == (2, [name])
+    assert (tmp_path / name).read_text() == "mine"
+    assert f"has {name} already" in " ".join(errors.split())
     code, _, errors = asperity("rig", "package", run / "run", *given)
     assert code == 2
     assert "--out" in errors

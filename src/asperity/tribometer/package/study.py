@@ -15,14 +15,15 @@ from asperity.runs import Run
 from asperity.tribometer.deposit import Package
 from asperity.tribometer.journal_lines import NAME
 from asperity.tribometer.package.instruments import instruments
-from asperity.tribometer.package.metadata import About
-from asperity.tribometer.package.result import Content, Packaged
+from asperity.tribometer.package.metadata import CRATE, DATACITE, About
+from asperity.tribometer.package.result import SUMS, ZIPPED, Content, Packaged
 from asperity.tribometer.parameters import Conditions
 from asperity.tribometer.report import study as report
 from asperity.tribometer.report.result import Report
 from asperity.tribometer.report.study import Gathered
 
 _RECORDINGS, _RESULTS = "recordings", "results"
+_OWN = NAME, _RECORDINGS, _RESULTS, DATACITE, CRATE, SUMS, ZIPPED  # of a package, or of a run
 _MEANINGS = {
     "reduce.json": "What vibration did in each segment: numbers with units in their names.",
     "reduce.nc": "The same, with units, meanings and uncertainties of every number.",
@@ -59,9 +60,9 @@ def answer(problem: Packing, run: Run) -> Packaged:
     """Reduce the recordings and lay the package out."""
     if run.folder is None:
         raise InputError("a package needs --out DIR: a new or empty folder")
-    if any(one.suffix != ".tmp" and not one.name.startswith(".") for one in run.folder.iterdir()):
+    if there := [name for name in _OWN if (run.folder / name).exists()]:
         raise InputError(
-            f"{plain(str(run.folder))} holds files already; give --out a new or empty folder"
+            f"{plain(str(run.folder))} has {there[0]} already; give --out a new or empty folder"
         )
     gathered = problem.gathered
     found = report.answer(gathered, run)
