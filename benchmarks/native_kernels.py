@@ -1,0 +1,108 @@
+"""How fast whole kernels run from a library of machine code, against what Numba compiles here.
+
+Run it with ``make bench``. Both are given copies of what a command calls the kernel with, in the
+same process and in turn; the time is the processor's, the best of several.
+"""
+
+import contextlib
+import io
+import os
+import shlex
+import sys
+import tempfile
+import time
+from pathlib import Path
+from unittest import mock
+
+from _common import finish, on_one_core
+
+from asperity.cli.main import main as command
+from asperity.compiled import _Lazy
+
+TESTS = Path(__file__).parents[1] / "tests"
+sys.path[:0] = [str(TESTS), str(TESTS / "answers")]
+
+from apparatus.called import copied  # noqa: E402
+from observe import new_cache  # noqa: E402
+
+REPEATS = 7
+LEAST = 0.97
+KERNELS = {
+    "march": ("asperity.slider.kernels.march_stretches", "slide table-4.3"),
+    "lanes": (
+        "asperity.slider.batch_kernels.march_batch",
+        "sweep table-4.3 --over vibration.velocity_ratio=1:8:1 --set solve.duration='0.2 s'",
+    ),
+    "flank": (
+        "asperity.flanks.meshing.kernels.transmission.least_each",
+        "flank gearset-3b --density coarse",
+    ),
+    "increment": (
+        "asperity.contact.motion.march.march",
+        "block block-longitudinal --set block.elements='[4, 3, 3]' --set block.element=hex8 "
+        "--set vibration.start='2 ms' --set solve.step='4 us' --set solve.duration='3 ms'",
+    ),
+    "teeth": (
+        "asperity.contact.candidates.several.solve_all",
+        "drive drive-screw --static --set drive.teeth=1 --set drive.phases=1",
+    ),
+}
+
+
+def main():
+    on_one_core()
+    report = {}
+    for name in [each for each in sys.argv[1:] if each in KERNELS] or KERNELS:
+        called, line = KERNELS[name]
+        kernel, arguments = dearest(called, line)
+        if kernel._native(copied(arguments)) is NotImplemented:
+            report[name] = {"from a library": "no"}
+            continue
+        kernel._dispatcher(*copied(arguments))
+        ways = {
+            "library": kernel._native,
+            "numba": lambda given, made=kernel._dispatcher: made(*given),
+        }
+        best = dict.fromkeys(ways, float("inf"))
+        for _ in range(REPEATS):
+            for way, call in ways.items():
+                given = copied(arguments)
+                start = time.process_time()
+                call(given)
+                best[way] = min(best[way], time.process_time() - start)
+        report[name] = {
+            "s of a call": best["library"],
+            "Numba's time over it": best["numba"] / best["library"],
+        }
+    finish(report, least={"Numba's time over it": LEAST})
+
+
+def dearest(name, line):
+    """Return a kernel and what a command line calls it with where that takes longest."""
+    found, before = {}, _Lazy.__call__
+
+    def call(self, *arguments):
+        if f"{self.__module__}.{self.__qualname__}" != name:
+            return before(self, *arguments)
+        given, start = copied(arguments), time.process_time()
+        answer = before(self, *arguments)
+        found[time.process_time() - start] = self, given
+        return answer
+
+    _Lazy.__call__ = call
+    try:
+        # Without what is kept of runs before.
+        with (
+            tempfile.TemporaryDirectory() as folder,
+            mock.patch.dict(os.environ, ASPERITY_CACHE=str(new_cache(Path(folder)))),
+            contextlib.redirect_stdout(io.StringIO()),
+            contextlib.suppress(SystemExit),
+        ):
+            command([*shlex.split(line), "--json"])
+    finally:
+        _Lazy.__call__ = before
+    return found[max(found)]
+
+
+if __name__ == "__main__":
+    main()
