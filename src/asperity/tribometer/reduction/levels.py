@@ -101,6 +101,8 @@ class _Fit:
         self.member = np.zeros((window.size, shaken.size))
         self.member[np.arange(window.size), window] = 1.0
         self.levels = self.member.T @ signal / self.member.sum(axis=0)
+        self.under = shaken[window]
+        self.rows = np.empty((0, 0))
         self.shape = np.zeros(shared.shape[1])
         self.scale = float(np.var(signal - self.member @ self.levels)) or 1e-12
         self.span = float(times[-1] - times[0])
@@ -129,10 +131,11 @@ class _Fit:
             one is found where it is not a number.
         """
         share, memory, size = _noise(given, self.block)
-        sizes = np.where(self.shaken[self.window], size, 1.0)
+        sizes = np.where(self.under, size, 1.0)
         width = columns.shape[1]
         products = np.empty((width, width))
-        self.rows = np.empty_like(columns)
+        if self.rows.shape != columns.shape:
+            self.rows = np.empty_like(columns)
         logarithm = whitened(self.times, columns, sizes, share, memory, self.rows, products)
         normal, right, square = products[:-1, :-1], products[:-1, -1], float(products[-1, -1])
         free = self.signal.size - width + 1
@@ -140,7 +143,8 @@ class _Fit:
         # What is expected of run-out and drift counts as data of its own, of a weight that hangs
         # on the noise.
         for _ in range(_ROUNDS if math.isnan(given[3]) else 1):
-            information = normal + np.diag(scale * self.prior)
+            information = normal.copy()
+            information.flat[::width] += scale * self.prior
             estimate = np.linalg.solve(information, right)
             rest = max(square - float(estimate @ right), free * _FLOOR)
             if math.isnan(given[3]):

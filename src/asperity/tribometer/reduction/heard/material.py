@@ -83,6 +83,16 @@ class Material:
 
     def level(self, signal: str, stretch: Stretch) -> Level:
         """Return the level of a signal over a stretch, of speeds as soon as they have settled."""
+        key = signal, stretch.first, stretch.last
+        if key not in self._levels:
+            self._levels[key] = self._level(signal, stretch)
+        return self._levels[key]
+
+    @functools.cached_property
+    def _levels(self) -> dict[tuple[str, int, int], Level]:
+        return {}
+
+    def _level(self, signal: str, stretch: Stretch) -> Level:
         first = stretch.first
         if signal.startswith("speed"):
             late = self.blocks.at_least(max(self.given.speed_settling - self.given.settling, 0.0))

@@ -103,7 +103,8 @@ def _dead(of: Material, rest: Rest, constant: list[str]) -> Iterator[Finding]:
 def _held(of: Material, signal: str, rest: Rest) -> Iterator[Finding]:
     """Yield windows in which a signal stands still or ends at a value, as elsewhere it does not."""
     low, high = of.blocks.lowest[signal], of.blocks.highest[signal]
-    flat = low == high
+    # What is past its range is told by the windows that need it.
+    flat = (low == high) & ~of.blocks.lost[signal]
     places = [(place, one) for place, *both in of.windows for one in both]
     shares = [float(flat[one.first : one.last].mean()) for _, one in places]
     shares_at_rest = [float(flat[one.first : one.last].mean()) for one in rest.stretches]
@@ -120,7 +121,10 @@ def _held(of: Material, signal: str, rest: Rest) -> Iterator[Finding]:
             evidence = f"{value:.3g} {unit} without any noise for {100.0 * share:.0f} % of a window"
             if int(high[here].max()) == int(high.max()) or int(low[here].min()) == int(low.min()):
                 name = f"{signal} saturates"
-        elif (end := _ended(of, signal, low[here], high[here], window)) is not None:
+        elif (
+            not of.blocks.lost[signal][here].any()
+            and (end := _ended(of, signal, low[here], high[here], window)) is not None
+        ):
             name, evidence = f"{signal} saturates", end
         else:
             continue
@@ -163,14 +167,15 @@ def _jumping(of: Material, signal: str) -> Iterator[Finding]:
         for window in both:
             here = slice(window.first, window.last)
             values = of.blocks.means[signal][here]
-            if place in told or values.size < wide:
+            if place in told or values.size < wide or of.blocks.lost[signal][here].any():
+                continue
+            level, spread = abs(float(np.median(values))), ranges[here]
+            spiked: BoolArray = spread > max(_SPIKE * float(np.median(spread)), _LEAST_NOISE)
+            if not spiked.any() and float(np.ptp(values)) <= _JUMP_SHARE * level:
                 continue
             left = values - median_filter(values, wide, mode="nearest")
             deviation = 1.4826 * float(np.median(np.abs(left)))
-            level = abs(float(np.median(values)))
             off = np.abs(left) > max(_JUMP * deviation, _JUMP_SHARE * level, 1e-12)
-            spread = ranges[here]
-            spiked: BoolArray = spread > max(_SPIKE * float(np.median(spread)), _LEAST_NOISE)
             if not (off | spiked).any():
                 continue
             told.add(place)
