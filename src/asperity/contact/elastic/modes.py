@@ -25,6 +25,8 @@ _DENSE_UNKNOWNS = 600
 _DEGREE = 2
 # Squared length of what is new in a shape, at which it counts as made of the others.
 _DEPENDENT = 1e-8
+# Modes of equal frequency come in twos and threes, by the symmetry of a body; equal to this.
+_MORE, _EQUAL = 3, 1e-6
 
 
 def shapes_with_inertia(
@@ -111,10 +113,34 @@ def natural_modes(body: ElasticBody, count: int) -> tuple[FloatArray, FloatArray
         operator = LinearOperator((size, size), matvec=body.response, dtype=np.float64)
         mass = LinearOperator((size, size), matvec=body.mass_times, dtype=np.float64)
         squared, shapes = eigsh(
-            operator, count, M=mass, sigma=0.0, OPinv=operator, which="LM", v0=start
+            operator, count + _MORE, M=mass, sigma=0.0, OPinv=operator, which="LM", v0=start
         )
-    order = np.argsort(squared)[:count]
-    return _signed(shapes[:, order]), np.sqrt(squared[order]) / (2.0 * np.pi)
+    order = np.argsort(squared)[: count + _MORE]
+    frequency = np.sqrt(squared[order]) / (2.0 * np.pi)
+    shapes = _told_apart(body, frequency, shapes[:, order])
+    return _signed(shapes[:, :count]), frequency[:count]
+
+
+def _told_apart(body: ElasticBody, frequency: FloatArray, shapes: FloatArray) -> FloatArray:
+    """Return shapes combined, where frequencies are equal, in one way out of all that would do.
+
+    A solver gives any combination, by its rounding; where only some are taken, as the last of the
+    lowest, another combination is another body. Here each answers to one more of some fixed forces
+    than the one behind it.
+    """
+    apart = np.diff(frequency) > _EQUAL * frequency[1:]
+    ends = np.concatenate([np.flatnonzero(apart) + 1, [len(frequency)]])
+    forces = np.random.default_rng(1).standard_normal(
+        (len(shapes), int(np.diff(ends, prepend=0).max()))
+    )
+    found, begin = shapes.copy(), 0
+    for end in ends:
+        if end - begin > 1:
+            answer = shapes[:, begin:end].T @ body.mass_times(forces[:, : end - begin])
+            turn, triangle = np.linalg.qr(answer)
+            found[:, begin:end] = shapes[:, begin:end] @ (turn * np.sign(np.diag(triangle)))
+        begin = end
+    return found
 
 
 def _all_modes(body: ElasticBody) -> tuple[FloatArray, FloatArray]:
