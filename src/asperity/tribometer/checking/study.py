@@ -11,7 +11,7 @@ from asperity.runs import Run
 from asperity.tribometer.checking.result import Checked, Found
 from asperity.tribometer.reduction import study as reduction
 from asperity.tribometer.reduction.heard.finding import Course
-from asperity.tribometer.reduction.study import Reducible
+from asperity.tribometer.reduction.study import Series
 
 _POINTS = 240  # of a picture's course
 
@@ -30,8 +30,9 @@ def read(
     return reduction.read(case, known, settings, recordings=recordings, config=config)
 
 
-def answer(problem: Sequence[Reducible], run: Run) -> Checked:
+def answer(series: Series, run: Run) -> Checked:
     """Listen to recordings, one after the other."""
+    problem = series.reducible
     found, courses, notes = [], [], []
     segments = 0
     for done, one in enumerate(problem):
