@@ -71,6 +71,7 @@ def asked(name, lot):
         "locking": (["drive-actuator"], [*TEETH]),
         "fit": ([ANSWERS / "ratios.csv", "table-4.3", "--free", "friction.max_deflection"], []),
         "rig plan": (["rig-final"], [f"plan.repeats={lot.randint(1, 4)}"]),
+        "rig check": ([ANSWERS / "rig.nc"], []),
         "rig reduce": ([ANSWERS / "rig.nc"], []),
     }  # fmt: skip
     given, settings = words[name]

@@ -507,7 +507,7 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "bronze torque is a copy": (_copied("torque_bronze", "torque_steel"), {}),
     "bronze speed is a copy": (_copied("speed_bronze", "speed_steel"), {}),
     "torque told twice as large": (_gain("torque_steel", 2.0), {}),
-    "speed told ten times as large": (_gain("speed_steel", 4.0), {}),
+    "speed told four times as large": (_gain("speed_steel", 4.0), {}),
     "samples missing in the torque": (_nan, {}),
     "samples missing in the drive": (_nan_in_drive, {}),
     "torque hears the vibration's amplifier": (_noisy, {}),

@@ -18,7 +18,7 @@ _LEVELS = 0.5, 2.0  # of the torques themselves, in which bearings are
 _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vibration
 _ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be told
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
-_FASTER, _SLOWER = 1.4, 0.5  # back voltage over what the supply leaves for it
+_FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are together
 _MAP = "look at the cables and at the map of [channels]"
 
 
@@ -186,11 +186,11 @@ def _supplied(of: Material) -> Iterator[Finding]:
             drop = twin.motor_resistance * max(_middle(of, f"current_{disc}")[0], 0.0)
         if volts <= 0.0 or turning < least_of(name):
             continue
-        if back > _FASTER * volts or back + drop < _SLOWER * volts:
+        if not _SLOWER * volts <= back + drop <= _FASTER * volts:
             yield Finding(
                 f"{name} does not fit its supply",
                 f"{turning:.3g} rad/s are {back:.2g} V with twin.motor_constant, and "
                 f"{drop:.2g} V fall in the motor, of {volts:g} V",
                 "look at its scale and channel, at the supply's volts, and at twin.motor_constant",
-                (name,), of.course(name), spoils=disc == "steel" or back > _FASTER * volts,
+                (name,), of.course(name), spoils=disc == "steel" or back + drop > _FASTER * volts,
             )  # fmt: skip

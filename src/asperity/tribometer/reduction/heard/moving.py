@@ -25,6 +25,8 @@ _LEAST_NOISE = 4  # steps between least and largest sample of a block
 _JUMP, _JUMP_SHARE = 10.0, 0.05  # robust deviations, and share of the level
 _SPIKE = 6.0  # of the usual range of a block
 _AROUND = 0.5  # s over which a course is smooth
+_NOISE = 0.3  # of a level, that its samples vary by within a block
+_NOISE_TOLD = "torque_steel", "current_steel"
 _LOOK = 4096  # samples in which copies are sought
 _COPY = 0.97  # correlation of noises
 _LEAST_CHANGES = 0.02  # share of samples that differ from their neighbours
@@ -52,6 +54,8 @@ def findings(of: Material, rest: Rest) -> Iterator[Finding]:
             yield from _held(of, signal, rest)
             if signal.startswith(("torque", "current")):
                 yield from _jumping(of, signal)
+            if signal in _NOISE_TOLD:
+                yield from _noisy(of, signal)
     yield from _copies(of)
 
 
@@ -154,6 +158,25 @@ def _ended(of: Material, signal: str, low: Counts, high: Counts, window: Stretch
         f"{100.0 * max(tops, bottoms):.0f} % of {window.count * of.blocks.length:.2g} s end at "
         f"{value:.4g} {SIGNALS[signal].unit}"
     )
+
+
+def _noisy(of: Material, signal: str) -> Iterator[Finding]:
+    """Yield segments in which a signal's noise is of its own size."""
+    for place, *both in of.windows:
+        level = abs(of.level(signal, both[0]).value)
+        noises = [
+            float(np.median(of.blocks.deviations[signal][one.first : one.last])) for one in both
+        ]
+        if level < least_of(signal) or max(noises) <= _NOISE * level:
+            continue
+        unit = SIGNALS[signal].unit
+        yield Finding(
+            f"{signal} is noisy",
+            f"from sample to sample it varies by {noises[0]:.2g} {unit} before and {noises[1]:.2g} "
+            f"{unit} with vibration, of {level:.2g} {unit}",
+            "look at its screen and at what runs beside its cable", (signal,),
+            of.course(signal, both, part=of.around(place)), place,
+        )  # fmt: skip
 
 
 def _jumping(of: Material, signal: str) -> Iterator[Finding]:
