@@ -18,6 +18,7 @@ import numpy as np
 
 from asperity.leftovers import temporary_beside
 from asperity.store import read_bytes
+from asperity.tribometer.guardian.stop import press
 from asperity.tribometer.journal_lines import ENDED, NAME, Line, last_lines
 from asperity.tribometer.signals import SIGNALS
 
@@ -153,6 +154,20 @@ def look(folder: Path) -> dict[str, Any] | None:
         return None
     lines = last_lines(folder / NAME)
     return told | {"age": max(0.0, round(age, 3)), **_ended(lines)}
+
+
+def stop(folder: Path) -> bool:
+    """Have the run in a folder switched off by its guardian; False where a folder holds none.
+
+    Raises
+    ------
+    OSError
+        The folder cannot be written to.
+    """
+    if look(folder) is None:
+        return False
+    press(folder)
+    return True
 
 
 def _ended(lines: Sequence[Line]) -> dict[str, Any]:

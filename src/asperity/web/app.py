@@ -20,8 +20,7 @@ from asperity.errors import AsperityError
 from asperity.leftovers import temporary_beside
 from asperity.start.listed import listed
 from asperity.store import read_text, reason, write_atomically, write_text
-from asperity.tribometer.guardian.stop import press
-from asperity.tribometer.live import look, runs
+from asperity.tribometer.live import runs, stop
 from asperity.web.folder import CASE, MOST_FILE, Folder
 from asperity.web.guard import Refused, body_of, parts_of, refusal
 from asperity.web.jobs import Jobs
@@ -163,10 +162,8 @@ class Page:
         name = object_of(await body_of(request)).get("run")
         if not isinstance(name, str):
             raise Refused(400, "run must be the name of one that is listed")
-        home = self.folder.inside(name)
-        if look(home) is None:
+        if not stop(self.folder.inside(name)):
             raise Refused(404, "there is no such run")
-        press(home)
         return JSONResponse({"run": name})
 
     async def _events(self, request: Request) -> Response:

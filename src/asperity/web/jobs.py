@@ -14,8 +14,7 @@ from typing import Any
 from asperity.errors import AsperityError, StorageError
 from asperity.processes import begun, end, heard
 from asperity.store import read_bytes, read_text, reason, write_text
-from asperity.tribometer.guardian.stop import press
-from asperity.tribometer.live import look
+from asperity.tribometer.live import stop
 from asperity.web.folder import ANSWER, REQUEST, STATE, Folder
 from asperity.web.guard import Refused
 from asperity.web.record import ENDED, Job
@@ -117,10 +116,9 @@ class Jobs:
             job.set("stopped")
         elif job.state == "running" and not job.stopping:
             job.stopping = True
-            if look(job.home) is not None:
+            with contextlib.suppress(OSError):
                 # A rig is switched off by its guardian, whatever its process does.
-                with contextlib.suppress(OSError):
-                    press(job.home)
+                stop(job.home)
             if job.process is not None and job.begun:
                 with contextlib.suppress(ProcessLookupError, ValueError):
                     job.process.send_signal(signal.SIGINT)
