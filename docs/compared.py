@@ -44,17 +44,25 @@ class SizedTable(Directive):
 class CatalogueTable(Directive):
     """A row for each position of a catalogue: the maker's numbers and the standards'."""
 
+    positions = staticmethod(gear_cases.catalogue)
+
     def run(self):
         rows = [
             ("a (mm), ratio", "torque (N m)", "BS 721 wear", "AGMA 6034", "efficiency (%)",
              "BS 721 teeth", "ISO gearbox")
         ]  # fmt: skip
-        for each in gear_cases.catalogue():
+        for each in self.positions():
             numbers = (each.torque, each.bs_wear, each.agma_torque, each.efficiency,
                        each.bs_teeth, each.iso_gearbox)  # fmt: skip
             shown = ("none" if n is None else f"{n:.3g}" for n in numbers)
             rows.append((f"{each.centre_distance:g}, {each.ratio:g}", *shown))
         return _table(self, (16, 14, 14, 14, 14, 14, 14), rows)
+
+
+class SelectionTable(CatalogueTable):
+    """The same for the table of a program that selects gearboxes."""
+
+    positions = staticmethod(gear_cases.selection)
 
 
 class TextbookTable(Directive):
@@ -92,6 +100,7 @@ def setup(app):
     app.add_directive("compared", ComparedTable)
     app.add_directive("sized", SizedTable)
     app.add_directive("catalogue", CatalogueTable)
+    app.add_directive("selection", SelectionTable)
     app.add_directive("textbook-gear", TextbookTable)
     app.add_directive("trust", TrustTable)
     return {"parallel_read_safe": True}

@@ -1,9 +1,10 @@
 """Worm gearsets of others, and how far the numbers that rate them can be trusted.
 
 Sources: a catalogue of worm gearboxes of the NMRV kind (rated torques and efficiencies at 1400
-rpm; its starts and teeth, and a worm of 0.43 centre distances, are from memory); R. Mott, Machine
-Elements in Mechanical Design, 4th edition, examples 10-7 and 10-8 (pages 343, 437); U. C. Jindal,
-Machine Design, example 28-2.
+rpm; its starts and teeth, and a worm of 0.43 centre distances, are from memory); the table of
+DKM Power Transmission's program that selects worm gearboxes (DKM025 to DKM150, of the same kind,
+with 4-pole motors, as of 20 August 2026); R. Mott, Machine Elements in Mechanical Design, 4th
+edition, examples 10-7 and 10-8 (pages 343, 437); U. C. Jindal, Machine Design, example 28-2.
 """
 
 import importlib
@@ -33,6 +34,24 @@ CATALOGUE = (
 # Where the torque is not at hand, one between its neighbours.
 _BETWEEN = {50: 133.0, 80: 119.0}
 
+# Centre distance in mm, ratio, power of the motor in kW, the torque that it gives in N m, and the
+# service factor: how many times that torque the gearbox may have.
+SELECTION = (
+    (30, 7.5, 0.18, 7.7, 2.3), (30, 15, 0.18, 14, 1.3), (30, 30, 0.12, 16, 1.3),
+    (30, 60, 0.06, 13, 1.3),
+    (40, 7.5, 0.25, 11, 3.6), (40, 15, 0.25, 20, 2.0), (40, 30, 0.18, 25, 1.8),
+    (40, 60, 0.09, 21, 1.7), (40, 100, 0.09, 29, 1.0),
+    (50, 15, 0.37, 31, 2.4), (50, 30, 0.25, 36, 2.3), (50, 60, 0.18, 43, 1.6),
+    (50, 100, 0.18, 59, 0.9),
+    (63, 15, 0.55, 47, 3.0), (63, 30, 0.37, 55, 2.9), (63, 60, 0.25, 63, 2.0),
+    (63, 100, 0.25, 87, 1.4),
+    (75, 15, 0.75, 65, 3.2), (75, 30, 0.55, 86, 2.7), (75, 60, 0.37, 97, 2.1),
+    (75, 100, 0.37, 139, 1.3),
+    (90, 30, 0.75, 120, 3.5), (90, 60, 0.55, 155, 2.0), (90, 100, 0.55, 221, 1.2),
+    (110, 60, 0.75, 221, 2.8), (110, 100, 0.75, 322, 1.5),
+)  # fmt: skip
+_MOTOR = 1400.0  # rpm
+
 
 class Position(NamedTuple):
     """A position of a catalogue and what the standards have for it; None without an answer."""
@@ -50,17 +69,32 @@ class Position(NamedTuple):
 def catalogue():
     """Yield each position with the torque that BS 721 and AGMA 6034 permit for 12,000 h."""
     for distance, ratio, torque, efficiency in CATALOGUE:
-        found = _rated(distance, ratio, torque or _BETWEEN[ratio])
-        yield Position(
-            distance,
-            ratio,
-            torque,
-            efficiency,
-            _number(found.bs721, "M_w_Nm"),
-            _number(found.agma6034, "allowable_torque_Nm"),
-            _number(found.bs721, "eta", 100.0),
-            _number(found.iso14521, "eta_ges", 100.0),
-        )
+        yield _position(distance, ratio, torque, efficiency)
+
+
+def selection():
+    """Yield each position of the table that selects, as `catalogue` does.
+
+    The torque is that of the motor times the service factor, the efficiency the power of that
+    torque over the motor's.
+    """
+    for distance, ratio, power, torque, service in SELECTION:
+        out = torque * _MOTOR / ratio * math.pi / 30.0
+        yield _position(distance, ratio, service * torque, 0.1 * out / power)
+
+
+def _position(distance, ratio, torque, efficiency):
+    found = _rated(distance, ratio, torque or _BETWEEN[ratio])
+    return Position(
+        distance,
+        ratio,
+        torque,
+        efficiency,
+        _number(found.bs721, "M_w_Nm"),
+        _number(found.agma6034, "allowable_torque_Nm"),
+        _number(found.bs721, "eta", 100.0),
+        _number(found.iso14521, "eta_ges", 100.0),
+    )
 
 
 def _rated(distance, ratio, torque):
@@ -73,7 +107,7 @@ def _rated(distance, ratio, torque):
         worm_material="case-hardened steel", wheel_material="CuSn12-C-GZ",
     )  # fmt: skip
     operation = Operation(
-        worm_speed="1400 rpm", output_torque=f"{torque} N m", life="12000 h",
+        worm_speed=f"{_MOTOR} rpm", output_torque=f"{torque} N m", life="12000 h",
         lubricant="ISO VG 320 polyglycol",
     )  # fmt: skip
     return rate(gearset, operation)

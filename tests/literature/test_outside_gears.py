@@ -1,6 +1,6 @@
 """Worm gearsets of others against the three standards, and how far numbers can be trusted.
 
-Sources: a catalogue of worm gearboxes of the NMRV kind, at 1400 rpm (ratios 7.5 to 100; starts,
+Sources: catalogues of worm gearboxes of the NMRV kind, at 1400 rpm (ratios 7.5 to 100; starts,
 teeth and the worm's size from memory); R. Mott, Machine Elements in Mechanical Design, 4th
 edition, examples 10-7 and 10-8; U. C. Jindal, Machine Design, examples 28-2 (tooth heights of BS
 721) and 28-5 (efficiency); J. Carvill, Mechanical Engineer's Data Handbook, 2.10.6, RoyMech and
@@ -42,6 +42,34 @@ def test_wear_by_bs_721_is_a_makers_torque_in_level_and_trend(positions):
     own = [p for p in positions if p.centre_distance == 63 and p.torque and p.bs_wear]
     highest = max(own, key=lambda p: p.bs_wear), max(own, key=lambda p: p.torque)
     assert highest[0].ratio == highest[1].ratio == 30
+
+
+def test_wear_by_bs_721_is_another_makers_torque_too():
+    # DKM Power Transmission: 26 positions of 30 to 110 mm.
+    found = [p for p in gear_cases.selection() if p.bs_wear]
+    shares = [p.bs_wear / p.torque for p in found]
+    assert len(shares) == 20
+    assert sum(shares) / len(shares) == pytest.approx(1.05, abs=0.02)
+    assert min(shares) > 0.83
+    assert max(shares) < 1.2
+    # With the size, and by AGMA and with the ratio as the makers'.
+    for ratio in (15, 30, 60):
+        of_ratio = [p for p in found if p.ratio == ratio]
+        for own in ("torque", "bs_wear", "agma_torque", "bs_teeth"):
+            values = [getattr(p, own) for p in of_ratio]
+            assert values == sorted(values)
+
+
+def test_two_makers_have_the_same_torques_and_efficiencies(positions):
+    others = {(p.centre_distance, p.ratio): p for p in gear_cases.selection()}
+    both = [(p, others[key]) for p in positions if (key := (p.centre_distance, p.ratio)) in others]
+    found = [(a.torque, b.torque) for a, b in both if a.torque and a.centre_distance == 63]
+    assert len(found) == 4
+    for a, b in found:
+        assert b == pytest.approx(a, rel=0.08)
+    for a, b in both:
+        if a.efficiency:
+            assert b.efficiency == pytest.approx(a.efficiency, abs=1.5)
 
 
 def test_efficiencies_fall_with_the_ratio_as_a_makers_do_and_isos_beyond_60_too_far(positions):
@@ -170,7 +198,9 @@ def test_numbers_from_memory_are_counted_where_they_stand():
     assert found["steels"][1:] == (16, 2, 1)
     assert found["oils"].verified >= 2
     text = (DOCS / "validation.rst").read_text("utf-8")
-    assert all(f".. {name}::" in text for name in ("trust", "catalogue", "textbook-gear"))
+    assert all(
+        f".. {name}::" in text for name in ("trust", "catalogue", "selection", "textbook-gear")
+    )
 
 
 def test_what_is_said_to_be_checked_stands_in_its_table():
