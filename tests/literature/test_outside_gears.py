@@ -146,6 +146,32 @@ def test_efficiency_and_loss_are_those_of_jindals_example():
     assert 4000.0 * (1.0 - eta) / (16.0 * 1.8) == pytest.approx(18.7, abs=0.05)
 
 
+def test_forces_and_power_are_those_of_jindals_examples():
+    # Example 28-3: 2/60, q 10, m 5 mm, mu 0.08, 6 kW at 1440 rpm.
+    gearset = Gearset(
+        starts=2, wheel_teeth=60, axial_module="5 mm", diameter_factor=10.0,
+        worm_material="case-hardened steel", wheel_material="CuSn12-C-GZ",
+    )  # fmt: skip
+    operation = Operation(
+        worm_speed="1440 rpm", output_torque="823.05 N m", lubricant="ISO VG 220 mineral"
+    )
+    found = rate(gearset, operation, RatingOptions(friction=0.08))
+    assert found.agma6034["W_W_N"] == pytest.approx(1591.5, rel=2e-4)
+    assert found.agma6034["W_G_N"] == pytest.approx(5487.0, rel=1e-4)
+    # 1188 N is printed, with the sine of the lead angle where that of the pressure angle belongs.
+    lead, angle = math.atan(0.2), math.radians(20.0)
+    slope = math.cos(angle) * math.sin(lead) + 0.08 * math.cos(lead)
+    assert 1591.5 * math.sin(lead) / slope == pytest.approx(1188.0, abs=0.5)
+    assert found.forces[0].to_json()["worm_radial_N"] == pytest.approx(
+        1591.5 * math.sin(angle) / slope, rel=3e-3
+    )
+    # Example 28-4: 2/40, q 8, mu 0.032: 1.2 kW in, 1.047 kW out.
+    gearset = gearset.model_copy(update={"wheel_teeth": 40, "diameter_factor": 8.0})
+    options = RatingOptions(friction=0.032, bs721_friction_angle="mu_over_cos")
+    eta = rate(gearset, operation, options).bs721["eta"]
+    assert 1.2 * eta == pytest.approx(1.047, abs=5e-4)
+
+
 def test_self_locking_by_bs_721_begins_where_its_efficiency_backwards_ends():
     gearset = Gearset(
         starts=1, wheel_teeth=50, axial_module="5 mm", diameter_factor=12.5,
