@@ -1,5 +1,7 @@
 """The tests nearest to a line: those that call the function it stands in, and little else.
 
+Of those the first are of files that import the function by its name: they look at what it returns.
+
 ``python tests/mutants/near.py`` runs the ordinary tests, notes which functions of the package each
 calls (``reach.py``) and writes ``near.json.gz``; with files or names of tests it runs those, and
 keeps what stands there of others. A function that is not in it, since it has come later, has the
@@ -146,7 +148,10 @@ def make(reached) -> dict:
         size[test] = line.get("size", len(called))
         for name in called:
             callers[name].add(test)
-    near = {name: _nearest(tests, size, lines) for name, tests in sorted(callers.items())}
+    near = {
+        name: _nearest(tests, size, lines, _importing(name))
+        for name, tests in sorted(callers.items())
+    }
     used = sorted({test for tests in near.values() for test in tests})
     number = {test: n for n, test in enumerate(used)}
     return {
@@ -175,9 +180,40 @@ def _plain(name):
     return re.sub(r"(\.<locals>)|(\.<(listcomp|genexpr|dictcomp|setcomp|lambda)>)", "", name)
 
 
-def _nearest(tests, size, lines):
+def _importing(function):
+    """Files of tests that import a function, or its class, by name, or name it by its module."""
+    module, _, name = function.partition(":")
+    dotted = ".".join(("asperity", *module.removesuffix(".py").split("/")))
+    room, _, last = dotted.rpartition(".")
+    own = name.partition(".")[0]
+    return {
+        file
+        for file, (imported, text) in _imports().items()
+        if own in imported.get(dotted, ())
+        or (last in imported.get(room, ()) and re.search(rf"\b{last}\.{own}\b", text))
+    }
+
+
+@functools.cache
+def _imports():
+    """Names that each file of tests imports, by module, and its text."""
+    found = {}
+    for path in sorted(TESTS.glob("*/test_*.py")):
+        text = path.read_text("utf-8")
+        imported = defaultdict(set)
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                imported[node.module].update(alias.name for alias in node.names)
+        found[path.relative_to(ROOT).as_posix()] = imported, text
+    return found
+
+
+def _nearest(tests, size, lines, importing):
     def close(test):
-        return bool(_REFUSED.search(test)), size[test], lines[test]["seconds"], test
+        return (
+            bool(_REFUSED.search(test)), test.partition("::")[0] not in importing,
+            size[test], lines[test]["seconds"], test,
+        )  # fmt: skip
 
     tests = {test for test in tests if lines[test]["seconds"] <= _DEAREST}
     recorded = {test for test in tests if test.startswith(ANSWERS)}

@@ -117,6 +117,22 @@ def test_increments_are_differences_of_displacements_to_the_last_bit(wave, lead,
     assert found.tolist() == np.diff(there).tolist()
 
 
+@pytest.mark.parametrize("lead", [0.0, 0.3])
+def test_its_amplitude_grows_evenly_from_nothing_and_then_stays(lead):
+    shape = Vibration(velocity_ratio=1.0, **WAVES["sine"], units="SI").shape()
+    grows = shape.wave(lead=lead)._replace(ramp=2.5)
+    for cycles, share in (
+        (-0.3, 0.0),
+        (0.0, 0.0),
+        (0.6, 0.24),
+        (1.9, 0.76),
+        (2.5, 1.0),
+        (7.2, 1.0),
+    ):
+        expected = share * math.sin(2.0 * math.pi * (cycles + lead))
+        assert displacement_at(grows, cycles) == pytest.approx(expected, abs=1e-13)
+
+
 def test_a_step_across_the_start_moves_only_by_the_part_after_it():
     shape = Vibration(velocity_ratio=1.0, **WAVES["sine"], units="SI").shape()
     (across,) = shape.increments(-0.004, 0.01, 1)
@@ -140,6 +156,17 @@ def test_a_square_wave_dwells_between_flanks_of_its_rise_time():
     assert u[460:541] == pytest.approx(np.linspace(1.0, -1.0, 81), abs=1e-12)
     assert u[540:961] == pytest.approx(-1.0, abs=1e-12)
     assert u[960:] == pytest.approx(np.linspace(-1.0, 0.0, 41), abs=1e-12)
+
+
+def test_on_the_steps_of_a_cycle_a_flank_is_the_nearest_that_ends_them():
+    shape = Vibration(velocity_ratio=1.0, **WAVES["square"], units="SI").shape()
+    rise = shape.rise
+    for steps in (4, 8, 10, 25, 38, 100, 1000):
+        near = shape.on_corners(steps)
+        places = near.corners() * steps
+        assert places == pytest.approx(np.round(places), abs=1e-12)
+        # Within a step, since both corners of a flank move; or the shortest that there is, of two.
+        assert abs(near.rise - rise) <= (1.0 + 1e-12) / steps or near.rise == 2.0 / steps > rise
 
 
 def test_a_square_wave_that_rises_all_the_time_is_a_triangle():
