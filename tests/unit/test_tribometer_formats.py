@@ -186,6 +186,14 @@ def test_what_is_not_read_is_named_with_what_to_export(tmp_path, what):
         read_export(tmp_path / name, name)
 
 
+def dated(clock, separator=","):
+    """Rows of a clock that holds a place for milliseconds, and two channels."""
+    return [
+        separator.join((clock.format(n), f"{one:g}", f"{other:g}"))
+        for n, (one, other) in enumerate(zip(A, B, strict=True))
+    ]
+
+
 REFUSED = {
     "segments": (lambda: [lecroy()[0], "Segments,3,SegmentSize,20", *lecroy()[2:]], "3 segments"),
     "no analog channels": (lambda: None, "no analog channels"),
@@ -196,6 +204,20 @@ REFUSED = {
     "rates that differ": (
         lambda: [row.replace("0.001000\t0.001000", "0.001000\t0.002000") for row in labview()],
         "2 different Delta_X",
+    ),
+    "LabVIEW's segments": (lambda: [*labview(), "", *labview()[12:]], "2 segments.*header only"),
+    "a date beside the time": (
+        lambda: ["Date,Time,A [V],B [V]", *dated("2026/03/02,12:04:05.{:03d}")],
+        "row 2: '2026/03/02' is a date in a column of its own; export one column of time",
+    ),
+    "a date beside the time, LabVIEW": (
+        lambda: [*labview()[:22], "Date\tTime\tTorque\tForce\tComment",
+                 *dated("02.03.2026\t12:04:05.{:03d}", "\t")],
+        "row 24: '02.03.2026' is a date in a column of its own",
+    ),
+    "a first row with more cells": (
+        lambda: [*labview()[:23], labview()[23] + "\t\t1", *labview()[24:]],
+        "row 24 has 5 cells for 4 columns",
     ),
     "no increment": (
         lambda: ["X,CH1,Start,", "Sequence,VOLT,0", *rigol_ds1054z()[2:]], "no increment"

@@ -25,6 +25,7 @@ _CLOCK = re.compile(
     r"(\d{1,4}[-./]\d{1,2}[-./]\d{1,4}[T ]+)?\d{1,2}:\d{2}:\d{2}([.,]\d+)?( ?[AaPp][Mm])?"
     r"(Z|[+-]\d{2}:?\d{2})?"
 )
+_DATE = re.compile(r"\d{4}[-./]\d{1,2}[-./]\d{1,2}|\d{1,2}[-./]\d{1,2}[-./](\d{4}|\d{2})")
 _IN_HEADING = (
     re.compile(r"(?P<name>.*\S)\s*\[(?P<unit>[^\]]*)\]"),
     re.compile(r"(?P<name>.*\S)\s*\((?P<unit>[^)]*)\)"),
@@ -81,6 +82,17 @@ def is_clock(cell: str) -> bool:
     (True, True, False)
     """
     return _CLOCK.fullmatch(cell) is not None
+
+
+def is_date(cell: str) -> bool:
+    """Whether a cell is a date and no time of day.
+
+    Examples
+    --------
+    >>> is_date("2026/03/01"), is_date("01.03.26"), is_date("2026-03-01 12:30:05"), is_date("1.5")
+    (True, True, False, False)
+    """
+    return _DATE.fullmatch(cell) is not None
 
 
 def marks_of(cells: list[list[str]], separator: str) -> tuple[str, str]:

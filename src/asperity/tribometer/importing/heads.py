@@ -14,6 +14,7 @@ from asperity.tribometer.importing.cells import (
     cells_of,
     is_bracketed,
     is_clock,
+    is_date,
     is_number,
     names_time,
     names_unit,
@@ -24,6 +25,12 @@ from asperity.tribometer.importing.cells import (
 
 MOST_ABOVE = 400
 """Rows that may stand above the numbers."""
+
+ONE_COLUMN = (
+    "is a date in a column of its own; export one column of time: in seconds, or date and time of "
+    "day together"
+)
+"""What is said of a date beside the time."""
 
 _COMMENT = ("#", "%", ";", "//", "!")
 
@@ -126,6 +133,7 @@ def found_in(lines: Sequence[str], name: str, *, narrow: bool = False) -> Found:
         )
         if best[0] >= least:
             return _found(lines, begin, best[1])
+    _refuse_dates(lines, name)
     separator = max(SEPARATORS[:-1], key=lines[first].count)
     headings = trimmed(cells_of(lines[first], separator))
     if len(headings) < 2:
@@ -136,9 +144,20 @@ def found_in(lines: Sequence[str], name: str, *, narrow: bool = False) -> Found:
     raise InputError(f"{name} holds no samples: no row of its first {len(lines)} is numbers")
 
 
+def _refuse_dates(lines: Sequence[str], name: str) -> None:
+    """Raise InputError where rows would be numbers if no date stood among them."""
+    for number, line in enumerate(lines[:MOST_ABOVE]):
+        for separator in SEPARATORS:
+            cells = cells_of(line, separator)
+            dates = [cell for cell in cells if is_date(cell)]
+            others = [cell for cell in cells if cell not in dates]
+            if dates and _numeric(others, separator) and any(map(is_clock, others)):
+                raise InputError(f"{name}: row {number + 1}: {shown(dates[0])} {ONE_COLUMN}")
+
+
 def _numbers(lines: Sequence[str], row: int, separator: str) -> int:
     """Return how many cells a row has that holds nothing but numbers, as the next one does."""
-    width = _numeric(lines[row], separator)
+    width = _numeric(cells_of(lines[row], separator), separator)
     below = next((line for line in lines[row + 1 :] if line.strip()), None)
     # A last row may be cut off, and one further down may hold what is no number.
     if width and below is not None and not _begins_alike(below, separator):
@@ -146,8 +165,8 @@ def _numbers(lines: Sequence[str], row: int, separator: str) -> int:
     return width
 
 
-def _numeric(line: str, separator: str) -> int:
-    cells = trimmed(cells_of(line, separator))
+def _numeric(row: list[str], separator: str) -> int:
+    cells = trimmed(row)
     numbers = [is_number(cell, separator) for cell in cells]
     fit = all(
         number or cell in BLANK or is_clock(cell)

@@ -15,7 +15,7 @@ from asperity.units import to_si
 
 _CHANNEL = re.compile(r"(?:^|[^a-z])(ch?)[ _-]?(\d)(?!\d)", re.IGNORECASE)
 _TDS_DATA = 3  # columns of words beside the numbers
-_END = "***End_of_Header***"
+_LABVIEW, _END = "LabVIEW measurement", "***End_of_Header***"
 
 
 def channel_of(stem: str) -> str:
@@ -128,11 +128,23 @@ def _labview(lines: Sequence[str], stem: str, name: str) -> Layout | None:
     ]
     named = dict(zip(columns, units, strict=False))
     return Layout(
-        "LabVIEW measurement", separator, tuple(heads),
+        _LABVIEW, separator, tuple(heads),
         tuple(unit_of(named.get(n, "")) for n in range(len(heads))), ends[1] + 2, len(heads),
         skipped=frozenset(range(len(heads))) - {*columns},
         interval=_number(words, "delta_x", name), start=_number(words, "x0", name),
     )  # fmt: skip
+
+
+def refuse_segments(text: str, layout: Layout, name: str) -> None:
+    """Refuse a LabVIEW measurement of several segments: each has a head, a start and a rate."""
+    if layout.program != _LABVIEW:
+        return
+    segments = text.count("\n" + _END) - 1
+    if segments > 1:
+        raise InputError(
+            f"{name}: {segments} segments stand in it, each with a head of its own; save it again "
+            "with 'One header only' under Segment Headers, or export a segment a file"
+        )
 
 
 def _infiniium(lines: Sequence[str], stem: str, name: str) -> Layout | None:

@@ -3,6 +3,7 @@
 import dataclasses
 import io
 import re
+import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -16,14 +17,27 @@ from asperity.tribometer.importing.cells import (
     BLANK,
     INFINITY,
     cells_of,
+    is_date,
     is_number,
     is_time,
     marks_of,
     trimmed,
 )
 from asperity.tribometer.importing.columns import Columns
-from asperity.tribometer.importing.heads import Layout, Told, found_in, plain_layout, timed
-from asperity.tribometer.importing.programs import own_layout, readable, told_above
+from asperity.tribometer.importing.heads import (
+    ONE_COLUMN,
+    Layout,
+    Told,
+    found_in,
+    plain_layout,
+    timed,
+)
+from asperity.tribometer.importing.programs import (
+    own_layout,
+    readable,
+    refuse_segments,
+    told_above,
+)
 from asperity.units import to_si
 
 _MOST_BYTES = 4_000_000_000
@@ -56,6 +70,7 @@ def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
     if len(text) > _HEAD:
         head = head[:-1]
     layout = _laid_out(head, path.stem, name, told)
+    refuse_segments(text, layout, name)
     rows_shown = [cells_of(line, layout.separator) for line in head[layout.begin :]]
     decimal, thousands = marks_of(rows_shown[:_ROWS_LOOKED_AT], layout.separator)
     frame = _numbers(text, name, layout, decimal, thousands)
@@ -162,8 +177,11 @@ def _numbers(text: str, name: str, layout: Layout, decimal: str, thousands: str)
     if thousands:
         options["thousands"] = thousands
     try:
-        return pd.read_csv(io.StringIO(text), **options)
-    except (ValueError, OverflowError, pd.errors.ParserError) as error:
+        # What it only warns of is cells that it leaves out.
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", pd.errors.ParserWarning)
+            return pd.read_csv(io.StringIO(text), **options)
+    except (ValueError, OverflowError, pd.errors.ParserError, pd.errors.ParserWarning) as error:
         raise InputError(f"{name}: {_wrong(text, layout, error)}") from None
 
 
@@ -191,6 +209,8 @@ def _wrong(text: str, layout: Layout, error: Exception) -> str:
             return f"row {number + 1} has {len(cells)} cells for {layout.width} columns"
         for place, cell in enumerate(cells):
             counts = place not in layout.skipped and not (layout.clock and place == layout.time)
+            if counts and is_date(cell):
+                return f"row {number + 1}: {shown(cell)} {ONE_COLUMN}"
             if counts and cell not in BLANK and not is_number(cell, layout.separator):
                 return f"row {number + 1}: {shown(cell)} is not a number"
     return f"it cannot be read as a table: {plain(str(error).splitlines()[0])[:120]}"
