@@ -44,18 +44,20 @@ def main() -> None:
     # Ctrl-C is for who waits; what is begun is wanted the next time.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ["ASPERITY_NATIVE"] = "0"
-    # Of what it tries in vain Numba makes coloured messages, and of BLAS, which no entry may need,
-    # it looks for all of SciPy's.
+    # Of what it tries in vain Numba makes coloured messages.
     os.environ["NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING"] = "1"
-    sys.modules["scipy.linalg.cython_blas"] = None  # type: ignore[assignment]
     folder, processes = Path(sys.argv[1]), int(sys.argv[2])
     wanted = _Wanted()
     threading.Thread(target=wanted.listen, daemon=True).start()
+
+    from numba.np import linalg
 
     from asperity.building import making
     from asperity.native import keys
     from asperity.native.entries import listed
 
+    # Numba looks for BLAS, which no entry may need, and loads all of SciPy's linear algebra for it.
+    linalg.ensure_blas = linalg.ensure_lapack = _no_blas
     # Of all, before a kernel is imported: sources may change while this process lives.
     entries = {keys.key(entry): entry for entry in listed().entries}
     while (key := wanted.next()) is not None:
@@ -64,6 +66,10 @@ def main() -> None:
         _say(key)
         making.keep(folder, entries[key], key, processes)
         _say("")
+
+
+def _no_blas() -> None:
+    raise ImportError("a kernel that is kept calls no library")
 
 
 def _say(word: str) -> None:
