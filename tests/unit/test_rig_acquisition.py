@@ -8,6 +8,7 @@ import pytest
 from apparatus import fake_nidaqmx, rigs
 
 from asperity.errors import InputError, MissingExtraError
+from asperity.tribometer.guardian import folder_scope
 from asperity.tribometer.guardian.devices import devices_of
 from asperity.tribometer.guardian.folder_scope import FolderScope
 from asperity.tribometer.guardian.owned import LISTENER
@@ -134,8 +135,9 @@ def test_a_case_opens_its_ni_device_and_listens_by_it(ni):
         heard[-1].start_ = heard[-1].start
 
         def start(interval):
-            heard[-1].start_(interval)
+            taken = heard[-1].start_(interval)
             fake_nidaqmx.Task.made[-1].waiting = 1000
+            return taken
 
         heard[-1].start = start
         return heard[-1]
@@ -319,3 +321,73 @@ def test_a_folder_that_is_none_is_one_line(tmp_path):
     case = rigs.small_case(f'scope.folder="{tmp_path}"')
     assert isinstance(opened_scope(case, inputs_for(case)), FolderScope)
     assert LISTENER not in {key for one in devices_of(case, "hardware", None) for key in one.keys}
+
+
+def test_a_file_is_begun_when_the_one_before_is_read_to_its_end(watched):
+    folder, clock, scope = watched
+    path, text = folder / "run.csv", HEAD + rows(0, 1000)
+    path.write_text(text)
+    got = [polled(scope, clock)]
+    for count in range(1050, 2000, 50):
+        text += rows(count - 50, 50)
+        path.write_text(text)
+        got.append(polled(scope, clock, 0.05))
+        if got[-1].size:
+            break
+    # Read just now it is not looked at again at once, while the next file is.
+    path.write_text(text + rows(count, 50))
+    (folder / "run-2.csv").write_text(HEAD + rows(count + 50, 500))
+    got.append(polled(scope, clock, 2.0 * LATE))
+    every = np.concatenate(got, axis=1)
+    assert every.shape == (2, count + 550)
+    assert np.abs(every - counted(0, count + 550)).max() <= 1
+
+
+def test_a_file_that_gets_another_name_meanwhile_ends_no_run(watched, monkeypatch):
+    folder, clock, scope = watched
+    (folder / "run.part.csv").write_text(HEAD + rows(0, 500))
+    wide = folder_scope._wide
+
+    def renamed(path):
+        if path.name == "run.part.csv":
+            path.rename(folder / "run.csv")
+        return wide(path)
+
+    monkeypatch.setattr(folder_scope, "_wide", renamed)
+    assert np.abs(polled(scope, clock) - counted(0, 500)).max() <= 1
+
+
+class Heard:
+    """An oscilloscope that hands over what it is given."""
+
+    def __init__(self, parts, over=False):
+        self.parts, self.over = list(parts), over
+
+    def start(self, interval):
+        return interval
+
+    def poll(self):
+        part = self.parts.pop(0) if self.parts else np.empty(0)
+        return Poll((np.asarray(part, np.int16),), 0.0, (self.over,))
+
+    def close(self):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("parts", "over", "said"),
+    [
+        ([np.zeros(2)], False, "2 samples have come, too few to tell"),
+        ([np.full(1000, 32767)], True, "is beyond the range of"),
+        ([[], np.zeros(1000)], False, False),
+        ([np.arange(0, 32000, 32)], True, True),
+    ],
+)
+def test_a_drive_is_still_by_samples_that_can_tell(parts, over, said):
+    case = rigs.small_case()
+    ear = ScopeListener(inputs_for(case), case["sonotrode"], lambda some: Heard(parts, over))
+    if isinstance(said, bool):
+        assert ear.moves() is said
+    else:
+        with pytest.raises(InstrumentError, match=said):
+            ear.moves()

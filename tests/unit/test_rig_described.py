@@ -1,7 +1,9 @@
 """Supplies and generators that are described by what is said to them, on fakes by their manuals."""
 
+import os
 import re
 import textwrap
+import threading
 from pathlib import Path
 
 import pytest
@@ -108,6 +110,17 @@ def test_a_limit_that_a_supply_refuses_is_refused(name, plugged):
     assert off.supply_off("steel", off.tried(lambda: off.read_back(steel))).proven
 
 
+def test_a_supply_that_is_silent_as_it_gets_its_limit_refuses_nothing(plugged):
+    device = by_the_manual.TTi()
+    steel = opened(
+        plugged(device).port, instrument="tti-pl", steel="1", current_limit="2 A", timeout="0.1 s"
+    )["steel"]
+    device.fault = "silent"
+    with pytest.raises(InstrumentError, match="did not answer") as told:
+        steel.set(1.0)
+    assert told.value.kind == "no answer"
+
+
 @pytest.mark.parametrize("name", ["tti-pl", "rs-hmp", "korad"])
 @pytest.mark.parametrize("fault", ["stuck", "welded", "silent", "garbling", "half"])
 def test_a_supply_with_a_fault_is_not_proven_off(name, fault, plugged):
@@ -128,6 +141,22 @@ def test_a_supply_with_a_fault_is_not_proven_off(name, fault, plugged):
         return
     assert not found.proven
     assert "\n" not in str(found)
+
+
+def test_the_rest_of_an_answer_is_none_to_the_next_question(plugged):
+    device = by_the_manual.TTi()
+    end = plugged(device)
+    given = {"instrument": "tti-pl", "port": end.port, "steel": "1", "timeout": "1 s"}
+    line = opened_line("supply", Supplies.model_validate(given).outputs["steel"])
+    device.fault = "half"
+    with pytest.raises(InstrumentError, match="broke off its answer"):
+        line.ask("I1O?")
+    # The rest comes before the answer to what is asked next.
+    device.fault, device.late = "late", 0.3
+    threading.Timer(0.1, os.write, (end._end, b"00A\r\n")).start()
+    assert line.ask("OP1?") == "0"
+    assert line.ask("V1?") == "V1 1.000"
+    line.close()
 
 
 @pytest.mark.parametrize("name", GENERATORS)

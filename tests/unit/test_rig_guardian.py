@@ -1,5 +1,7 @@
 """The guardian switches off in order, reads back, names what is not proven, waits for nobody."""
 
+import concurrent.futures as cf
+import json
 import os
 import queue
 import select
@@ -8,15 +10,18 @@ import time
 
 import pytest
 
-from asperity.errors import InputError
+from asperity.errors import InputError, StorageError
 from asperity.tribometer.guardian import switching
 from asperity.tribometer.guardian.guardian import Guardian
-from asperity.tribometer.guardian.owned import LISTENER, Device
+from asperity.tribometer.guardian.journal import Journal
+from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
 from asperity.tribometer.guardian.wire import Wire
+from asperity.tribometer.guardian.writing import Writing
 from asperity.tribometer.instruments import off
 from asperity.tribometer.instruments.parameters import Guard
 from asperity.tribometer.instruments.protocols import InstrumentError, Reading
+from asperity.tribometer.journal_lines import NAME
 
 KEYS = "vibration", "amplifier", "steel", "bronze"
 
@@ -445,6 +450,62 @@ def test_a_watchdog_is_pulsed_while_an_instrument_blocks_and_no_more_once_someth
     assert not dog.opened
     one.leave()
     assert dog.opened
+
+
+def test_a_watchdog_that_is_lost_keeps_nothing_on(made, monkeypatch):
+    dog = Watchdog()
+
+    def lost():
+        raise InstrumentError("watchdog cannot be told that somebody is there: unplugged")
+
+    monkeypatch.setattr(dog, "pulse", lost)
+    one = made(relay=dog)
+    found = one.begin()["gave"]
+    assert "still_on" not in found
+    assert not any(fake.on_ for key, fake in one.fakes.items() if key in KEYS)
+    tripped = one.hears("tripped")["tripped"]
+    assert tripped == "watchdog cannot be told that somebody is there: unplugged"
+    assert one.leave() == 0
+    assert dog.opened
+
+
+def test_a_verdict_that_a_full_disk_does_not_take_is_written_when_it_does(tmp_path, monkeypatch):
+    writing = Writing(lambda folder: None)
+    opened = {"to": "journal", "do": "open", "with": [str(tmp_path)]}
+    writing.asked(opened).result(60.0)
+
+    def full(journal, kind, **what):
+        raise StorageError("no space is left")
+
+    with monkeypatch.context() as disk:
+        disk.setattr(Journal, "write", full)
+        writing.verdict(Verdict("signal SIGTERM", 0.0, 0.1, ()))
+        writing.all_written().result(60.0)
+    writing.verdict(Verdict("the end", 0.0, 0.1, ()))
+    writing.all_written().result(60.0)
+    found = [line["why"] for line in map(json.loads, (tmp_path / NAME).read_text().splitlines())]
+    assert found == ["signal SIGTERM", "the end"]
+
+
+def test_an_answer_that_came_as_everything_is_switched_off_is_handed_on(made):
+    one = made()
+    one.begin()
+    steel = one.guardian._of["steel"]
+    begin = steel.begin
+
+    def begun(key, act):
+        steel.begin = begin
+        future = begin(key, act)
+        cf.wait([future])
+        # It stands before the answer in what the guardian is told.
+        one.guardian.signal(15)
+        return future
+
+    steel.begin = begun
+    answer = one.ask("steel", "on")
+    assert "gave" in answer
+    assert "tripped" in one.hears("tripped")
+    assert not one.fakes["steel"].on_
 
 
 def test_a_relay_is_held_pulsed_and_opened(monkeypatch):

@@ -1,5 +1,6 @@
 """A preview is small, whole, of numbers only, and tells the journal's last word on what is off."""
 
+import errno
 import json
 import os
 
@@ -138,6 +139,27 @@ def test_a_stop_is_heard_once_and_one_of_before_not_at_all(tmp_path):
         came.wait(0.01)
     button.leave()
     assert heard == [1]
+
+
+def test_a_disk_that_answers_with_an_error_ends_no_stop_button(tmp_path, monkeypatch):
+    import threading
+
+    came, failed = threading.Event(), threading.Event()
+    stat = os.stat
+
+    def stale(path, *args, **given):
+        if str(path).endswith(stop.NAME) and not failed.is_set():
+            failed.set()
+            raise OSError(errno.ESTALE, "Stale file handle")
+        return stat(path, *args, **given)
+
+    monkeypatch.setattr(os, "stat", stale)
+    button = stop.StopButton(came.set)
+    button.watch(tmp_path)
+    assert failed.wait(60.0)
+    stop.press(tmp_path)
+    assert came.wait(20.0)
+    button.leave()
 
 
 def test_journal_lines_stay_json(shown):

@@ -96,10 +96,12 @@ class FolderScope:
         there = [path for path in self._listed() if path not in self._old]
         for path in there:
             state = self._files.setdefault(path, _Watched())
-            # Behind one that grows no other is begun.
             new = self._new_of(path, state, last=path == there[-1])
             if new is not None:
                 parts.append(new)
+            if not state.done:
+                # Behind one that may yet grow no other is begun, or samples change places.
+                break
         none = np.empty((0, len(self.inputs)), np.int16)
         counts = np.concatenate([none, *parts])
         over = tuple(bool(one) for one in np.any(np.abs(counts) >= FULL_SCALE, axis=0))
@@ -145,10 +147,13 @@ class FolderScope:
                 state.done = not grows and not last
                 return counts
             if grows or not size:
+                state.done = not grows and not last
                 return None
             columns = read_export(path, path.name)
             state.done = True
             return self._counts(columns, path.name)
+        except FileNotFoundError:
+            return None  # it has got another name meanwhile
         except InputError as error:
             # Half of a head is none yet.
             state.failed = now if state.failed is None else state.failed

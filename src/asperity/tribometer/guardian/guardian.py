@@ -87,7 +87,7 @@ class Guardian:
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
         self._switching = Switching(
-            devices, by_hand, limit=longest(deadline), now=now, tick=self._pulse
+            devices, by_hand, limit=longest(deadline), now=now, tick=self._tick
         )
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._awaited: dict[cf.Future[Any], _Asked] = {}
@@ -129,6 +129,8 @@ class Guardian:
             try:
                 self._next()
                 self._look()
+            except InstrumentError as error:
+                self._trip(str(error), self._now())
             except Exception as error:
                 # Of ours: whatever it is, nothing is to stay on.
                 self._trip(f"a fault of the guardian: {said(error)}", self._now())
@@ -176,6 +178,11 @@ class Guardian:
         """Show a watchdog that somebody is there, as long as nothing has been found wrong."""
         if self._relay is not None and not self._tripped:
             self._relay.pulse()
+
+    def _tick(self) -> None:
+        # Switching off goes on without a relay; whoever looks next finds that it is lost.
+        with contextlib.suppress(Exception):
+            self._pulse()
 
     def _take(self, head: Head, came: float) -> None:
         self._heard = came
@@ -255,10 +262,12 @@ class Guardian:
         self, why: str, event: float, *, listen: bool, alone: bool = False, last: bool = True
     ) -> Verdict:
         """Switch everything off; ``last``: nobody will listen afterwards."""
-        for future, asked in list(self._awaited.items()):
+        for future, asked in self._awaited.items():
             # What an instrument has not begun is not to be waited for.
-            if (future.cancel() or not future.done()) and asked.number:
-                del self._awaited[future]
+            answered = not future.cancel() and future.done()
+            if answered and asked.number:
+                self._send(wires.answered(asked.number, future.result)[0])
+            elif asked.number:
                 self._send(wires.failed(asked.number, self._off_already()))
         self._awaited.clear()
         found = self._switching.off(why, event, listen=listen, alone=alone)

@@ -72,9 +72,21 @@ class Relay:
         self._held = True
 
     def pulse(self) -> None:
-        """Tell a watchdog that somebody is there, while the outputs are to have power."""
+        """Tell a watchdog that somebody is there, while the outputs are to have power.
+
+        Raises
+        ------
+        InstrumentError
+            Its line cannot be set any more.
+        """
         if self._says.relay_pulses and self._held:
-            self._set(not self._level)
+            try:
+                self._set(not self._level)
+            except (OSError, ValueError) as error:
+                raise InstrumentError(
+                    f"{self.name} cannot be told that somebody is there: {error}",
+                    kind="line lost",
+                ) from None
 
     def open(self) -> None:
         """Cut the power."""

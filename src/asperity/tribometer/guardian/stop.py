@@ -63,7 +63,8 @@ class StopButton:
     def _look(self) -> None:
         while not self._left.wait(_EVERY):
             file = self._file
-            if file is None or not file.exists():
+            # Of a disk that answers with an error nothing is known, and the next look may tell.
+            if file is None or not os.path.exists(file):
                 continue
             self._pressed()
             with contextlib.suppress(OSError):

@@ -66,7 +66,9 @@ class Writing:
 
     def _write_down(self) -> None:
         while self._unwritten and self._journal is not None:
-            self._journal.write("off", **self._unwritten.pop(0).line())
+            self._journal.write("off", **self._unwritten[0].line())
+            # What a full disk does not take is written when it does.
+            del self._unwritten[0]
 
     def _write_end(self, why: str, found: Verdict) -> None:
         journal = self._journal

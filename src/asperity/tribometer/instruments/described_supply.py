@@ -46,6 +46,8 @@ class DescribedSupply:
                 try:
                     self._set("current_limit", limit, "A")
                 except InstrumentError as error:
+                    if error.kind != "refused":
+                        raise
                     raise InputError(
                         f"{self._words.table}.current_limit is refused: {error}"
                     ) from (None)

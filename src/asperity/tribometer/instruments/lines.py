@@ -52,7 +52,7 @@ class _Line:
         self._words = words
         self._end, self._answer_end = words.ends
         self._free = 0.0
-        # A question was not answered in time: what comes next may be its answer.
+        # A question was not answered in time, or not to its end: what comes next may be the rest.
         self._owed = False
 
     def _waited(self) -> None:
@@ -125,7 +125,7 @@ class SerialLine(_Line):
             self._port.reset_input_buffer()
             self.tell(text)
             answer = self._answer()
-            self._owed = not answer
+            self._owed = not answer or not answer.endswith(self._answer_end)
             return self._whole(text, answer)
 
     def _answer(self) -> bytes:
@@ -206,9 +206,9 @@ class VisaLine(_Line):
                 self._answer()
             self.tell(text)
             answer = self._answer()
-            self._owed = not answer
             if not self._needs_end and answer and not answer.endswith(self._answer_end):
                 answer = answer.rstrip(b"\r\n") + self._answer_end
+            self._owed = not answer or not answer.endswith(self._answer_end)
             return self._whole(text, answer)
 
     def _answer(self) -> bytes:

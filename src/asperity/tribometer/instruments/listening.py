@@ -10,6 +10,7 @@ from asperity.tribometer.parameters import Sonotrode
 
 _INTERVAL = 1e-4  # s, a quarter of the shortest cycle of a sonotrode
 _LASTING = 0.1  # s
+_HEARD, _LOOKS = 0.5, 3  # of that, at least, and looks until so much has come
 _STILL = 0.05  # Of the drive signal's swing, which is no vibration.
 
 
@@ -49,15 +50,32 @@ class ScopeListener:
         import time
 
         scope = self._opened((self._input,))
+        counts, over = np.empty(0, int), False
         try:
-            scope.start(_INTERVAL)
-            time.sleep(_LASTING)
-            counts = scope.poll().counts[0]
+            interval = scope.start(_INTERVAL)
+            for _ in range(_LOOKS):
+                time.sleep(_LASTING)
+                poll = scope.poll()
+                counts = np.append(counts, poll.counts[0].astype(int))
+                over = over or any(poll.overrange)
+                if counts.size * interval >= _HEARD * _LASTING:
+                    break
         finally:
             scope.close()
-        if counts.size < 2:
-            raise InstrumentError(f"{self.name}: no samples have come", kind="samples lost or late")
-        return float(np.ptp(counts.astype(int))) * volts_a_count(self._input) > self._still
+        if counts.size and float(np.ptp(counts)) * volts_a_count(self._input) > self._still:
+            return True
+        # Nothing moves in a part of a cycle, nor at the end of a range.
+        if counts.size * interval < _HEARD * _LASTING:
+            raise InstrumentError(
+                f"{self.name}: {counts.size} samples have come, too few to tell",
+                kind="samples lost or late",
+            )
+        if over:
+            raise InstrumentError(
+                f"{self.name}: the signal is beyond the range of {self._input.range:g} V",
+                kind="sensor at its limit",
+            )
+        return False
 
     def safe(self) -> None:
         """Nothing is open."""
