@@ -8,13 +8,12 @@ in the journal, which the guardian writes whether the procedure goes on or not.
 import contextlib
 import datetime
 import json
+import math
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from asperity.leftovers import temporary_beside
 from asperity.store import read_bytes
@@ -60,7 +59,7 @@ class Preview:
         self._path = folder / PREVIEW
         self._units = units
         self._now = now
-        self._due = -np.inf
+        self._due = -math.inf
         self._told: dict[str, Any] = {"simulated": simulated, "state": "runs"}
         self._outputs: dict[str, str] = {}
         self._times: list[float] = []
