@@ -17,8 +17,8 @@ if "PYTEST_XDIST_WORKER" in os.environ:
     for _library in ("OMP", "OPENBLAS", "MKL"):
         os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
-# What is started in the background of a script, or by nohup, ignores these signals, and so would all
-# that it starts; tests send them.
+# What is started in the background of a script, or by nohup, ignores these signals, and so would
+# all that it starts; tests send them.
 for _name, _default in {
     "SIGINT": signal.default_int_handler,
     "SIGQUIT": signal.SIG_DFL,
