@@ -16,6 +16,7 @@ from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
 from asperity.gearset import Gearset, Geometry
 from asperity.rating import Operation, RatingOptions
+from asperity.rating.tables import operation_of
 from asperity.rating.driven import driven
 from asperity.slider.parameters import Solve
 from asperity.vibration import Vibration
@@ -97,7 +98,7 @@ class DriveProblem:
         """
         require_all(case, shaken=shaken)
         with told(case):
-            run = case.require(Operation)
+            run = operation_of(case)
             operation = driven(case.require(Gearset), run, case.get(RatingOptions))
             vibration = shape = None
             if shaken and Vibration.table in case:

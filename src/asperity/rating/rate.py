@@ -28,6 +28,7 @@ from asperity.rating.levers import Lever, levers
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
+from asperity.rating.tables import operation_of
 from asperity.rating.verdict import Verdict, screen
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
@@ -315,7 +316,7 @@ def rate(
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     """Rate the worm gearset of a case file; as `rate`."""
     options = case.get(RatingOptions)
-    gearset, operation = case.require(Gearset), case.require(Operation)
+    gearset, operation = case.require(Gearset), _run_of(case)
     with told(case):
         return rate(gearset, operation, options, standards, folder=case.folder)
 
@@ -328,7 +329,7 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
             f"--standard {standard}: it must be one of {choices(allowed)}"
             f"{suggestion(standard, allowed)}"
         )
-    gearset, operation = case.require(Gearset), case.require(Operation)
+    gearset, operation = case.require(Gearset), _run_of(case)
     options = case.get(RatingOptions, RatingOptions())
     wanted = STANDARDS if standard == ALL else (standard,)
     with told(case):
@@ -363,6 +364,11 @@ def _with_changes(
     tables[table] = tables[table].model_copy(update={key: thing})
     changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
     return other._replace(changes=changed_words(rated, changed))
+
+
+def _run_of(case: Case) -> Operation:
+    with told(case):
+        return operation_of(case)
 
 
 def tables_of(options: RatingOptions, folder: Path | None) -> Tables:

@@ -4,10 +4,7 @@ Loads go by the rated torque times the application factor, powers and temperatur
 torque itself.
 """
 
-import functools
 import math
-
-import numpy as np
 
 from asperity.errors import InputError
 from asperity.gearset import oil
@@ -51,10 +48,10 @@ def rated(given: Inputs) -> Values:
     v = _rated(given)
     parts = [_rated(part) for part in given.parted()]
     if parts:
-        for place, own in enumerate(parts, 1):
+        for place, own in enumerate(() if given.together else parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
-        for key, of in (("safety_torque", np.minimum), ("t_s_degC", np.maximum)):
-            v[key] = functools.reduce(of, [own[key] for own in parts])
+        v["safety_torque"] = given.least(own["safety_torque"] for own in parts)
+        v["t_s_degC"] = given.greatest(own["t_s_degC"] for own in parts)
     return v
 
 
@@ -88,7 +85,10 @@ def _rated(given: Inputs) -> Values:
         v["C_v"],
     )
     v["allowable_torque_Nm"] = capacity.wheel_torque(v["W_t_all_N"], given.wheel_mean_diameter)
-    torque = given.operation.application_factor * given.output_torque
+    factor = given.operation.service_factor
+    torque = (
+        given.operation.application_factor if factor is None else factor
+    ) * given.output_torque
     v["safety_torque"] = strength.safety(v["allowable_torque_Nm"], torque)
     v["W_G_N"] = 2000.0 * torque / given.wheel_mean_diameter
     v["W_W_N"] = forces.worm_tangential_load(v["W_G_N"], *teeth)
@@ -130,7 +130,7 @@ def _sources(given: Inputs) -> dict[str, Source]:
 
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
-    fastest = max(part.worm_speed for part in given.parted() or (given,))
+    fastest = max(given.speeds)
     at = {
         "sliding_velocity": values["sliding_velocity_m_s"] * (fastest / given.worm_speed),
         "worm_speed": fastest,

@@ -9,17 +9,18 @@ temperature, see `_over_the_parts`; deflection and root by the rated torque, whi
 exceeds, with the friction at the speed of the part that has the greatest and the wear of all.
 """
 
-import functools
+import dataclasses
 import math
-import operator
 from typing import Any
 
 import numpy as np
 
 from asperity.arrays import Real, smaller
+from asperity.formulas import current_mask, masking
 from asperity.gearset import oil
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import (
+    balance,
     contact,
     efficiency,
     film,
@@ -96,7 +97,12 @@ def _powers(given: Inputs, v: Values) -> None:
     mesh = given.output_torque, given.worm_speed, given.gear_ratio
     v["output_power_W"] = losses.output_power(*mesh)
     v["loss_meshing_W"] = losses.meshing_loss(*mesh, v["eta_z1_2"])
+    housing = given.operation.housing
     v["loss_idle_W"] = losses.idle_loss(given.centre_distance, given.worm_speed)
+    if housing is not None and housing.idle_loss is not None:
+        v["loss_idle_W"] = balance.measured_idle_loss(
+            housing.idle_loss, given.measured_at, given.worm_speed
+        )
     v["loss_bearing_W"] = losses.bearing_loss(
         v["output_power_W"],
         given.centre_distance,
@@ -107,6 +113,10 @@ def _powers(given: Inputs, v: Values) -> None:
     v["loss_seal_W"] = losses.seal_loss(
         given.worm_pitch_diameter, given.worm_speed, given.operation.seals
     )
+    if housing is not None and housing.seal_loss is not None:
+        v["loss_seal_W"] = balance.measured_seal_loss(
+            housing.seal_loss, given.measured_at, given.worm_speed
+        )
     others = v["loss_idle_W"] + v["loss_bearing_W"] + v["loss_seal_W"]
     v["loss_total_W"] = v["loss_meshing_W"] + others
     v["input_power_W"] = v["output_power_W"] + v["loss_total_W"]
@@ -156,7 +166,7 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
     _forces(given, v, rated)
     parts, friction_of_bending = parts_of(given, v), v["mu_zm"]
     if parts:
-        _over_the_parts(parts, v)
+        _over_the_parts(given, parts, v)
         friction_of_bending = given.most_of_hardest([own["mu_zm"] for own in parts])
     else:
         _temperatures(given, v)
@@ -165,8 +175,48 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
     _deflection(given, v, friction_of_bending)
     _root(given, v)
     hottest = v.get("theta_S_max_degC", v["theta_S_degC"])
+    if given.operation.housing is not None:
+        hottest = _balance(given, v)
     v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], hottest)
     return v
+
+
+def _balance(given: Inputs, v: Values) -> Real:
+    """Find how warm the housing gets by its heat balance; returns the highest temperature, degC."""
+    housing, spectrum = given.operation.housing, given.operation.spectrum
+    assert housing is not None
+    v["A_h_m2"] = housing.area
+    if housing.area is None:
+        v["A_h_m2"] = balance.housing_area(given.centre_distance)
+    v["k_h_W_m2K"] = housing.heat_transfer
+    v["kA_W_K"] = balance.conductance(v["k_h_W_m2K"], v["A_h_m2"], housing.base)
+    v["loss_heating_W"] = v.get("loss_max_W", v["loss_total_W"])
+    if spectrum is not None and spectrum.oil_temperature == "mean" and given.duty:
+        v["loss_heating_W"] = v["loss_mean_W"]
+    v["rise_h_K"] = balance.steady_rise(v["loss_heating_W"], v["kA_W_K"])
+    # What the standard's own formula would ask the housing to give off.
+    by_formula = v.get("theta_S_max_degC", v["theta_S_degC"]) - given.ambient_temperature
+    if given.oil_temperature is None:
+        v["k_S_W_m2K"] = v["loss_heating_W"] / (by_formula * v["A_h_m2"])
+    top = v["rise_h_K"]
+    capacity = housing.capacity
+    how = spectrum.how if spectrum is not None else None
+    if capacity is not None:
+        v["tau_s"] = balance.time_constant(capacity, v["kA_W_K"])
+        if how is not None and how.kind == "S2":
+            top = v["rise_top_K"] = balance.rise_after(v["rise_h_K"], how.time, v["tau_s"])
+        elif how is not None and how.kind == "S3":
+            rest = v["tau_s"]
+            if housing.at_rest is not None:
+                cooled = balance.conductance(housing.at_rest, v["A_h_m2"], housing.base)
+                rest = balance.time_constant(capacity, cooled)
+            cycle = given.cycle
+            top = v["rise_top_K"] = balance.rise_in_cycles(
+                v["rise_h_K"], how.share, cycle, v["tau_s"], rest
+            )
+            v["rise_low_K"] = balance.rise_before_load(top, how.share, cycle, rest)
+    v["theta_h_degC"] = given.ambient_temperature + top
+    return v["theta_h_degC"]
 
 
 def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
@@ -179,9 +229,31 @@ def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
     v : Values
         ``p_m_star`` and ``E_red_MPa``, which are those of all parts.
     """
+    if not given.together:
+        return _parts_of(given, v)
+    outer = current_mask()
+    if outer is None:
+        return _parts_of(given, v)
+    with masking((len(given.duty),)) as own:
+        found = _parts_of(given, v)
+    for sentence in own.legend.values():
+        outer.refuse(True, sentence)
+    return found
+
+
+def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
+    parted = given.parted()
+    spectrum = given.operation.spectrum
+    if spectrum is not None and spectrum.oil_temperature == "mean" and len(given.duty) > 1:
+        hours = given.total(part.life for part in parted)
+        sumps = (part.life * sump_of(part) for part in parted)
+        mean = given.total(sumps) / hours
+        parted = tuple(dataclasses.replace(part, sump=mean) for part in parted)
     found = []
-    for part in given.parted():
+    for part in parted:
         own = rated_efficiency(part)
+        if np.any(part.load_drives):
+            _let_down(part, own)
         own |= {key: v[key] for key in ("p_m_star", "E_red_MPa")}
         own["part_hours"] = part.life
         _temperatures(part, own)
@@ -190,23 +262,40 @@ def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
     return tuple(found)
 
 
-def _over_the_parts(parts: tuple[Values, ...], v: Values) -> None:
+def _let_down(part: Inputs, own: Values) -> None:
+    """Put the losses of a load that drives in the place of those of the worm."""
+    forward = own["loss_meshing_W"]
+    back = own["loss_meshing_back_W"]
+    if np.ndim(part.load_drives):
+        back = np.where(part.load_drives, back, forward)
+    own["loss_meshing_W"] = back
+    own["loss_total_W"] = own["loss_total_W"] - forward + back
+
+
+def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None:
     """Add up the wear of a duty cycle and find its hottest part.
 
     Depths worn off add up, each by torque, speed and temperature of its part; what leads to them is
     told of the part that wears most. Each part lasts long enough for the sump to settle.
     """
-    for place, own in enumerate(parts, 1):
-        v |= {f"part_{place}.{key}": value for key, value in own.items()}
-    most = _place_of_most([own["delta_Wn_mm"] for own in parts])
-    for key in _OF_WEAR:
-        v[key] = _chosen(most, [own[key] for own in parts])
-    v["delta_Wn_mm"] = functools.reduce(operator.add, [own["delta_Wn_mm"] for own in parts])
+    if given.together:
+        worst = int(np.nanargmax(np.append(parts[0]["delta_Wn_mm"], -1.0)))
+        place = min(worst, len(given.duty) - 1)
+        for key in _OF_WEAR:
+            v[key] = float(np.broadcast_to(parts[0][key], (len(given.duty),))[place])
+    else:
+        for place, own in enumerate(parts, 1):
+            v |= {f"part_{place}.{key}": value for key, value in own.items()}
+        most = _place_of_most([own["delta_Wn_mm"] for own in parts])
+        for key in _OF_WEAR:
+            v[key] = _chosen(most, [own[key] for own in parts])
+    v["delta_Wn_mm"] = given.total(own["delta_Wn_mm"] for own in parts)
     v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
-    v["theta_S_max_degC"] = functools.reduce(np.maximum, [own["theta_S_degC"] for own in parts])
-    hours = functools.reduce(operator.add, [own["part_hours"] for own in parts])
+    v["theta_S_max_degC"] = given.greatest(own["theta_S_degC"] for own in parts)
+    hours = given.total(own["part_hours"] for own in parts)
     heat = (own["part_hours"] * own["loss_total_W"] for own in parts)
-    v["loss_mean_W"] = functools.reduce(operator.add, heat) / hours
+    v["loss_mean_W"] = given.total(heat) / hours
+    v["loss_max_W"] = given.greatest(own["loss_total_W"] for own in parts)
 
 
 def _place_of_most(depths: list[Real]) -> Any:
@@ -225,20 +314,28 @@ def _forces(given: Inputs, v: Values, torque: Real) -> None:
     v["F_rm_N"] = forces.separating_force(v["F_tm1_N"], given.pressure_angle, *mesh)
 
 
+def sump_of(given: Inputs) -> Real:
+    """Return the temperature of the oil sump, degC: as it is given, or by the standard."""
+    if given.sump is not None:
+        return given.sump
+    if given.oil_temperature is not None:
+        return given.oil_temperature
+    lubricant = given.operation.lubricant
+    return thermal.sump_temperature(
+        given.output_torque,
+        given.worm_speed,
+        given.gear_ratio,
+        given.centre_distance,
+        lubricant.viscosity_40 * _MM2,
+        given.ambient_temperature,
+        base_oil=lubricant.base_oil,
+        fan=given.operation.fan,
+    )
+
+
 def _temperatures(given: Inputs, v: Values) -> None:
     operation, lubricant = given.operation, given.operation.lubricant
-    v["theta_S_degC"] = given.oil_temperature
-    if given.oil_temperature is None:
-        v["theta_S_degC"] = thermal.sump_temperature(
-            given.output_torque,
-            given.worm_speed,
-            given.gear_ratio,
-            given.centre_distance,
-            lubricant.viscosity_40 * _MM2,
-            given.ambient_temperature,
-            base_oil=lubricant.base_oil,
-            fan=operation.fan,
-        )
+    v["theta_S_degC"] = sump_of(given)
     v["theta_S_lim_degC"] = given.sump_limit
     v["alpha_L_W_m2K"] = thermal.heat_transfer_coefficient(
         given.worm_speed, immersed=operation.immersed
@@ -286,7 +383,7 @@ def _wear(given: Inputs, v: Values) -> None:
         family=family,
         base_oil=base_oil,
     )
-    v["W_NS"] = wear.start_factor(given.operation.starts_per_hour)
+    v["W_NS"] = wear.start_factor(given.starts_per_hour)
     v["W_ML"] = wheel.wear_factor.get(lubricant.base_oil, 1.0)
     v["J_W"] = wear.wear_intensity(v["J_0T"], v["W_NS"], v["W_ML"])
     v["s_star"] = contact.path_parameter(
@@ -326,7 +423,7 @@ def _pitting(given: Inputs, v: Values) -> None:
 
 def _pitting_life(given: Inputs, v: Values) -> None:
     """Find the life factor; of a duty cycle by the damage of its parts, which is our own rule."""
-    duty = given.duty
+    duty = given.loads
     if not duty:
         v["Z_h"] = pitting.pitting_life_factor(given.life)
         return
@@ -342,8 +439,8 @@ def _pitting_life(given: Inputs, v: Values) -> None:
         for part in duty
     ]
     damage = (part.hours / relief**6 for part, relief in zip(duty, reliefs, strict=True))
-    v["L_He_h"] = functools.reduce(operator.add, damage)
-    v["relief"] = functools.reduce(np.minimum, reliefs)
+    v["L_He_h"] = given.total(damage)
+    v["relief"] = given.least(reliefs)
     v["Z_h"] = pitting.pitting_life_factor_of_parts(v["L_He_h"], v["relief"])
 
 

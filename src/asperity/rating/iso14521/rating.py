@@ -44,11 +44,11 @@ _HOTTEST_GIVEN = 100.0
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     found: dict[str, None] = {}
-    for part in given.parted() or (given,):
+    for speed in given.speeds:
         sentences = violations(
             centre_distance=given.centre_distance,
             profile_shift=given.profile_shift,
-            worm_speed=part.worm_speed,
+            worm_speed=speed,
             ratio=given.gear_ratio,
             geometry_factor=values["Y_G"] if given.friction is None else None,
             sump_by_formula=given.oil_temperature is None,
