@@ -16,8 +16,8 @@ from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
 from asperity.gearset import Gearset, Geometry
 from asperity.rating import Operation, RatingOptions
-from asperity.rating.tables import operation_of
 from asperity.rating.driven import driven
+from asperity.rating.tables import operation_of
 from asperity.slider.parameters import Solve
 from asperity.vibration import Vibration
 from asperity.waveform import Shape

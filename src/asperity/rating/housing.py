@@ -1,5 +1,7 @@
 """The `[housing]` table: how the gearbox gets rid of its heat, and what was measured of it."""
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Annotated, ClassVar
 
 from asperity.casefile import Table
@@ -69,3 +71,14 @@ class Housing(Table):
         masses = {name: getattr(self, name) for name in HEAT}
         whole = sum(HEAT[name] * mass for name, mass in masses.items() if mass is not None)
         return whole or None
+
+    @property
+    def assumed(self) -> Mapping[str, str]:
+        """Which keys were left out, and what was assumed for them."""
+        left_out = {
+            "area": "20 (a/1000)^1.7 m2, with half of the ribs",
+            "heat_transfer": "15 W/(m2 K), of air that moves well",
+        }
+        return MappingProxyType(
+            {key: said for key, said in left_out.items() if key not in self.model_fields_set}
+        )

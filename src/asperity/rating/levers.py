@@ -129,8 +129,8 @@ def _raised(gearset: Gearset, operation: Operation) -> Iterator[Raised]:
             for step in operation.steps
         )
         keys.append("operation.duty_cycle" if spectrum is None else "spectrum.step")
-        raised = operation.with_steps(steps, **torques)
-        yield "torque", tuple(keys), lambda: (gearset, raised)
+        heavier = operation.with_steps(steps, **torques)
+        yield "torque", tuple(keys), lambda: (gearset, heavier)
     oil = operation.lubricant
     thicker = {key: getattr(oil, key) * _GRADE for key in ("viscosity_40", "viscosity_100")}
     yield (

@@ -230,6 +230,11 @@ class Operation(Table):
         return self.model_copy(update=update) if update else self
 
     @property
+    def parts(self) -> tuple[Spectrum | Housing, ...]:
+        """What `with_tables` gave it."""
+        return tuple(table for table in (self.spectrum, self.housing) if table is not None)
+
+    @property
     def service_factor(self) -> float | None:
         """That of AGMA 6034, by the spectrum; None where ``application_factor`` counts."""
         if self.spectrum is None:

@@ -13,7 +13,7 @@ from asperity.gearset.lubricants import Lubricant
 from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.rating.alternatives import Alternative, alternatives
-from asperity.rating.bs721.tables import Tables, read_tables
+from asperity.rating.bs721.tables import Tables
 from asperity.rating.by_standard import PROMISED, judge_of, rate_by
 from asperity.rating.changes import changed_words
 from asperity.rating.driven import driven, told_of
@@ -28,6 +28,7 @@ from asperity.rating.levers import Lever, levers
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
+from asperity.rating.standards import ALL, STANDARDS, known_standards, tables_of
 from asperity.rating.tables import operation_of
 from asperity.rating.verdict import Verdict, screen
 from asperity.results import Result
@@ -38,11 +39,6 @@ from asperity.store import harmless_cell, write_text
 
 if TYPE_CHECKING:
     from asperity.results.report import Heading, Section
-
-STANDARDS = ("iso14521", "bs721", "agma6034")
-"""The standards, by the name they have in results."""
-
-ALL = "all"
 
 
 class Rated(Result):
@@ -369,25 +365,6 @@ def _with_changes(
 def _run_of(case: Case) -> Operation:
     with told(case):
         return operation_of(case)
-
-
-def tables_of(options: RatingOptions, folder: Path | None) -> Tables:
-    """Return the tables of BS 721 that are asked for."""
-    own = options.bs721_tables
-    return read_tables(None if own is None else (folder or Path()) / own)
-
-
-def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
-    """Return the standards in their order; raises InputError for one that is not known."""
-    for name in standards:
-        if name not in STANDARDS:
-            raise InputError(
-                f"standard is {name!r}; it must be one of {choices(STANDARDS)}"
-                f"{suggestion(str(name), STANDARDS)}"
-            )
-    if not standards:
-        raise InputError(f"no standard is asked for; give one of {choices(STANDARDS)}")
-    return tuple(name for name in STANDARDS if name in standards)
 
 
 def _require_consistent(given: Inputs, by_iso: bool) -> None:

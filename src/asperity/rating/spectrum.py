@@ -9,13 +9,14 @@ import functools
 import math
 import re
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError, shown, suggestion
-from asperity.rating.load_steps import LoadStep, SpectrumStep, Starts, Time, steps_of
+from asperity.rating.load_steps import LoadStep, SpectrumStep, Time, steps_of
 from asperity.sources import Source
 from asperity.units import Quantity, to_si
 
@@ -204,6 +205,19 @@ class Spectrum(Table):
         """How it is run."""
         return self._duty
 
+    @property
+    def assumed(self) -> Mapping[str, str]:
+        """Which keys were left out, and what was assumed for them."""
+        left_out = {"oil_temperature": "the sump settles in each step"}
+        if self.duty_class is not None:
+            left_out["stroke"] = "90 deg, or 1 deg at each start of classes C and D"
+            left_out["cycles"] = "the endurance of the class"
+        if self.how.kind == "S3":
+            left_out["cycle"] = "10 min"
+        return MappingProxyType(
+            {key: said for key, said in left_out.items() if key not in self.model_fields_set}
+        )
+
     def steps(self, rated_torque: float | None) -> tuple[LoadStep, ...]:
         """Return the steps, those of a class by the rated torque of the wheel, N m."""
         if self.step is not None:
@@ -263,4 +277,5 @@ def _of_class(
 
 
 def _turned(turns: float, torque: float, starts: float) -> LoadStep:
-    return LoadStep(turns=turns, output_torque=torque, starts_per_hour=starts, units="SI")
+    values = {"turns": turns, "output_torque": torque, "starts_per_hour": starts}
+    return LoadStep.model_validate(values)

@@ -19,7 +19,7 @@ from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, known_standards, tables_of
+from asperity.rating.standards import STANDARDS, known_standards, tables_of
 from asperity.rating.variation import BLOCK, varied
 
 

@@ -20,9 +20,9 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.driven import driven
 from asperity.rating.iso14521.friction import base_friction
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.tables import operation_of
 from asperity.rating.rate import rate
 from asperity.rating.result import Rating
+from asperity.rating.tables import operation_of
 from asperity.rating.variants import variants
 from asperity.runs import Run
 from asperity.slider.parameters import Slider

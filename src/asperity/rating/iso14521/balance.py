@@ -21,7 +21,7 @@ MEASURED = Source("own rule of asperity", "one source", "the exponent is that of
 A_h = Annotated[Real, Symbol("A_h", "m2", positive)]
 k_h = Annotated[Real, Symbol("k_h", "W/(m2 K)", positive)]
 psi = Annotated[Real, Symbol("psi", "", not_negative)]
-kA = Annotated[Real, Symbol("kA", "W/K", positive)]
+K_h = Annotated[Real, Symbol("K_h", "W/K", positive)]
 P_h = Annotated[Real, Symbol("P_h", "W", not_negative)]
 C_h = Annotated[Real, Symbol("C_h", "J/K", positive)]
 tau = Annotated[Real, Symbol("tau", "s", positive)]
@@ -44,14 +44,14 @@ def housing_area(centre_distance: s.a) -> Real:
     return 20.0 * (centre_distance / 1000.0) ** 1.7
 
 
-@formula(symbol="kA", unit="W/K", equation="k_h A_h (1 + psi)", source=STEADY)
+@formula(symbol="K_h", unit="W/K", equation="k_h A_h (1 + psi)", source=STEADY)
 def conductance(heat_transfer: k_h, area: A_h, base: psi = 0.0) -> Real:
     """Heat given off for each kelvin above the air; a bolted metal base adds a share."""
     return heat_transfer * area * (1.0 + base)
 
 
-@formula(symbol="dtheta_h", unit="K", equation="P_h/kA", source=STEADY)
-def steady_rise(loss: P_h, conductance: kA) -> Real:
+@formula(symbol="dtheta_h", unit="K", equation="P_h/K_h", source=STEADY)
+def steady_rise(loss: P_h, conductance: K_h) -> Real:
     """Rise of the housing above the air once it is as warm as it gets.
 
     Examples
@@ -64,8 +64,8 @@ def steady_rise(loss: P_h, conductance: kA) -> Real:
     return loss / conductance
 
 
-@formula(symbol="tau", unit="s", equation="C_h/kA", source=ONE_MASS)
-def time_constant(capacity: C_h, conductance: kA) -> Real:
+@formula(symbol="tau", unit="s", equation="C_h/K_h", source=ONE_MASS)
+def time_constant(capacity: C_h, conductance: K_h) -> Real:
     """Time in which the housing covers 63 % of what is left to its steady temperature."""
     return capacity / conductance
 

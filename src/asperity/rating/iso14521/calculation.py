@@ -17,7 +17,6 @@ import numpy as np
 
 from asperity.arrays import Real, smaller
 from asperity.formulas import current_mask, masking
-from asperity.gearset import oil
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import (
     balance,
@@ -30,9 +29,9 @@ from asperity.rating.iso14521 import (
     losses,
     pitting,
     strength,
-    thermal,
-    wear,
 )
+from asperity.rating.iso14521.housed import housing_of
+from asperity.rating.iso14521.wearing import sump_of, temperatures, wear_of
 
 ROOT_LIFE_FACTOR = 1.0
 """Y_NL, the default of MITCalc; that by wheel and grade has no document."""
@@ -45,7 +44,6 @@ _OF_WEAR = (
 """What leads to the wear of a part of a duty cycle, by the keys of a rating."""
 
 _MPA = 1e-6
-_MM2 = 1e6
 
 
 def rated_efficiency(given: Inputs) -> Values:
@@ -169,54 +167,16 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
         _over_the_parts(given, parts, v)
         friction_of_bending = given.most_of_hardest([own["mu_zm"] for own in parts])
     else:
-        _temperatures(given, v)
-        _wear(given, v)
+        temperatures(given, v)
+        wear_of(given, v)
     _pitting(given, v)
     _deflection(given, v, friction_of_bending)
     _root(given, v)
     hottest = v.get("theta_S_max_degC", v["theta_S_degC"])
     if given.operation.housing is not None:
-        hottest = _balance(given, v)
+        hottest = housing_of(given, v)
     v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], hottest)
     return v
-
-
-def _balance(given: Inputs, v: Values) -> Real:
-    """Find how warm the housing gets by its heat balance; returns the highest temperature, degC."""
-    housing, spectrum = given.operation.housing, given.operation.spectrum
-    assert housing is not None
-    v["A_h_m2"] = housing.area
-    if housing.area is None:
-        v["A_h_m2"] = balance.housing_area(given.centre_distance)
-    v["k_h_W_m2K"] = housing.heat_transfer
-    v["kA_W_K"] = balance.conductance(v["k_h_W_m2K"], v["A_h_m2"], housing.base)
-    v["loss_heating_W"] = v.get("loss_max_W", v["loss_total_W"])
-    if spectrum is not None and spectrum.oil_temperature == "mean" and given.duty:
-        v["loss_heating_W"] = v["loss_mean_W"]
-    v["rise_h_K"] = balance.steady_rise(v["loss_heating_W"], v["kA_W_K"])
-    # What the standard's own formula would ask the housing to give off.
-    by_formula = v.get("theta_S_max_degC", v["theta_S_degC"]) - given.ambient_temperature
-    if given.oil_temperature is None:
-        v["k_S_W_m2K"] = v["loss_heating_W"] / (by_formula * v["A_h_m2"])
-    top = v["rise_h_K"]
-    capacity = housing.capacity
-    how = spectrum.how if spectrum is not None else None
-    if capacity is not None:
-        v["tau_s"] = balance.time_constant(capacity, v["kA_W_K"])
-        if how is not None and how.kind == "S2":
-            top = v["rise_top_K"] = balance.rise_after(v["rise_h_K"], how.time, v["tau_s"])
-        elif how is not None and how.kind == "S3":
-            rest = v["tau_s"]
-            if housing.at_rest is not None:
-                cooled = balance.conductance(housing.at_rest, v["A_h_m2"], housing.base)
-                rest = balance.time_constant(capacity, cooled)
-            cycle = given.cycle
-            top = v["rise_top_K"] = balance.rise_in_cycles(
-                v["rise_h_K"], how.share, cycle, v["tau_s"], rest
-            )
-            v["rise_low_K"] = balance.rise_before_load(top, how.share, cycle, rest)
-    v["theta_h_degC"] = given.ambient_temperature + top
-    return v["theta_h_degC"]
 
 
 def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
@@ -256,8 +216,8 @@ def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
             _let_down(part, own)
         own |= {key: v[key] for key in ("p_m_star", "E_red_MPa")}
         own["part_hours"] = part.life
-        _temperatures(part, own)
-        _wear(part, own)
+        temperatures(part, own)
+        wear_of(part, own)
         found.append(own)
     return tuple(found)
 
@@ -312,94 +272,6 @@ def _forces(given: Inputs, v: Values, torque: Real) -> None:
     mesh = given.lead_angle, v["mu_zm"]
     v["F_tm1_N"] = forces.worm_tangential_force(v["F_tm2_N"], *mesh)
     v["F_rm_N"] = forces.separating_force(v["F_tm1_N"], given.pressure_angle, *mesh)
-
-
-def sump_of(given: Inputs) -> Real:
-    """Return the temperature of the oil sump, degC: as it is given, or by the standard."""
-    if given.sump is not None:
-        return given.sump
-    if given.oil_temperature is not None:
-        return given.oil_temperature
-    lubricant = given.operation.lubricant
-    return thermal.sump_temperature(
-        given.output_torque,
-        given.worm_speed,
-        given.gear_ratio,
-        given.centre_distance,
-        lubricant.viscosity_40 * _MM2,
-        given.ambient_temperature,
-        base_oil=lubricant.base_oil,
-        fan=given.operation.fan,
-    )
-
-
-def _temperatures(given: Inputs, v: Values) -> None:
-    operation, lubricant = given.operation, given.operation.lubricant
-    v["theta_S_degC"] = sump_of(given)
-    v["theta_S_lim_degC"] = given.sump_limit
-    v["alpha_L_W_m2K"] = thermal.heat_transfer_coefficient(
-        given.worm_speed, immersed=operation.immersed
-    )
-    v["A_R_m2"] = thermal.cooling_area(given.rim_width, given.wheel_mean_diameter)
-    v["theta_M_degC"] = thermal.bulk_temperature(
-        v["theta_S_degC"],
-        v["loss_meshing_W"],
-        v["alpha_L_W_m2K"],
-        v["A_R_m2"],
-    )
-    v["nu_M_mm2_s"] = oil.kinematic_viscosity(
-        v["theta_M_degC"],
-        lubricant.viscosity_40 * _MM2,
-        lubricant.viscosity_100 * _MM2,
-    )
-    v["rho_M_kg_m3"] = oil.density(
-        v["theta_M_degC"], given.density_15, lubricant.base.density_coefficient
-    )
-    v["eta_0M_Pas"] = v["nu_M_mm2_s"] * v["rho_M_kg_m3"] / _MM2
-
-
-def _wear(given: Inputs, v: Values) -> None:
-    wheel, lubricant = given.gearset.wheel_material, given.operation.lubricant
-    torque = given.operation.application_factor * given.through_travel_torque
-    v["sigma_Hm_wear_MPa"] = contact.contact_stress(
-        v["p_m_star"], torque, v["E_red_MPa"], given.centre_distance
-    )
-    v["h_min_um"] = film.film_thickness(
-        v["h_star"],
-        lubricant.base.pressure_viscosity,
-        v["eta_0M_Pas"],
-        given.worm_speed,
-        given.centre_distance,
-        v["E_red_MPa"],
-        torque,
-    )
-    family, base_oil = wheel.family, lubricant.base_oil
-    v["W_S"] = wear.lubricant_structure_factor(v["eta_0M_Pas"], family=family, base_oil=base_oil)
-    v["W_H"] = wear.pressure_factor(v["sigma_Hm_wear_MPa"], family=family)
-    v["K_W_um"] = wear.wear_parameter(v["h_min_um"], v["W_S"], v["W_H"])
-    v["J_0T"] = wear.reference_wear_intensity(
-        v["K_W_um"],
-        lubrication=given.operation.lubrication,
-        family=family,
-        base_oil=base_oil,
-    )
-    v["W_NS"] = wear.start_factor(given.starts_per_hour)
-    v["W_ML"] = wheel.wear_factor.get(lubricant.base_oil, 1.0)
-    v["J_W"] = wear.wear_intensity(v["J_0T"], v["W_NS"], v["W_ML"])
-    v["s_star"] = contact.path_parameter(
-        given.gear_ratio, given.lead_angle, flank=given.gearset.flank
-    )
-    v["N_L"] = contact.load_cycles(given.life, given.worm_speed, given.gear_ratio)
-    v["s_Wm_mm"] = contact.sliding_path(
-        v["s_star"],
-        v["sigma_Hm_wear_MPa"],
-        given.centre_distance,
-        v["E_red_MPa"],
-        v["N_L"],
-    )
-    v["delta_Wn_mm"] = wear.flank_wear(v["J_W"], v["s_Wm_mm"])
-    v["delta_Wlim_mm"] = wear.wear_limit(given.axial_module, given.lead_angle)
-    v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
 
 
 def _pitting(given: Inputs, v: Values) -> None:
