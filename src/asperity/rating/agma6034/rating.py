@@ -6,6 +6,9 @@ torque itself.
 
 import math
 
+import numpy as np
+
+from asperity.arrays import Real
 from asperity.errors import InputError
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
@@ -17,6 +20,8 @@ from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import losses, strength
 from asperity.rating.result import Rating
 from asperity.sources import Range, Source
+
+_MOMENTARY = 30.0  # s in all: what lasts no longer is a peak (our own rule)
 
 
 def rate(given: Inputs) -> Rating:
@@ -50,9 +55,23 @@ def rated(given: Inputs) -> Values:
     if parts:
         for place, own in enumerate(() if given.together else parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
-        v["safety_torque"] = given.least(own["safety_torque"] for own in parts)
+        v["safety_torque"] = _least(given, parts)
         v["t_s_degC"] = given.greatest(own["t_s_degC"] for own in parts)
     return v
+
+
+def _least(given: Inputs, parts: list[Values]) -> Real:
+    """Return the least safety of parts, of a spectrum of those above the peaks' time if any is."""
+    safeties = [own["safety_torque"] for own in parts]
+    if given.operation.spectrum is None:
+        return given.least(safeties)
+    lasts = [part.hours * 3600.0 > _MOMENTARY for part in given.loads]
+    if given.together or any(np.ndim(long) for long in lasts):
+        lasting = [np.where(a, b, np.inf) for a, b in zip(lasts, safeties, strict=True)]
+        some, every = given.least(lasting), given.least(safeties)
+        return np.where(np.isinf(some), every, some)
+    kept = [safety for long, safety in zip(lasts, safeties, strict=True) if long]
+    return given.least(kept or safeties)
 
 
 def _rated(given: Inputs) -> Values:

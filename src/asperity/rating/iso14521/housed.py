@@ -19,8 +19,9 @@ def housing_of(given: Inputs, v: Values) -> Real:
         v["loss_heating_W"] = v["loss_mean_W"]
     v["rise_h_K"] = balance.steady_rise(v["loss_heating_W"], v["K_h_W_K"])
     # What the standard's own formula would ask the housing to give off.
-    by_formula = v.get("theta_S_max_degC", v["theta_S_degC"]) - given.ambient_temperature
     if given.oil_temperature is None:
+        sump: Real = v.get("theta_S_max_degC", v["theta_S_degC"])
+        by_formula = sump - given.ambient_temperature
         v["k_S_W_m2K"] = v["loss_heating_W"] / (by_formula * v["A_h_m2"])
     top = v["rise_h_K"]
     capacity = housing.capacity

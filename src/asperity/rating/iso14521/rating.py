@@ -225,9 +225,8 @@ def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
         equations["A_h_m2"] = "input"
     if not given.duty:
         equations["loss_heating_W"] = "P_V"
-    elif given.operation.spectrum is not None:
-        if given.operation.spectrum.oil_temperature == "mean":
-            equations["loss_heating_W"] = "P_Vm"
+    elif _oil(given) == "mean":
+        equations["loss_heating_W"] = "P_Vm"
     if housing.idle_loss is not None:
         equations["loss_idle_W"] = balance.measured_idle_loss.equation
     if housing.seal_loss is not None:
