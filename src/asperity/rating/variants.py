@@ -173,6 +173,8 @@ def _calculate(
                 numbers = rated_bs721(here, tables)[0]
             else:
                 numbers = rated_agma6034(here)
+        # What leads to the numbers of a duty cycle would take more room than the numbers.
+        numbers = {key: one for key, one in numbers.items() if not key.startswith("part_")}
         if start is None:
             return numbers
         for key, value in numbers.items():

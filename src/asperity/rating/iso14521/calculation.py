@@ -46,8 +46,29 @@ _OF_WEAR = (
 _MPA = 1e-6
 
 
-def rated_efficiency(given: Inputs) -> Values:
-    """Return friction, efficiency and losses, by the keys of a rating."""
+_OF_TEETH = (
+    "sliding_velocity_m_s", "mu_0T", "Y_S", "h_star", "Y_G", "Y_W", "Y_R", "mu_zm", "eta_z1_2",
+    "eta_z2_1",
+)  # fmt: skip
+"""What of a load goes by geometry and speed alone."""
+
+
+def rated_efficiency(given: Inputs, teeth: Values | None = None) -> Values:
+    """Return friction, efficiency and losses, by the keys of a rating.
+
+    Parameters
+    ----------
+    given : Inputs
+        The gearset and its load.
+    teeth : Values, optional
+        What was found of it at the same speed; then only powers and losses are.
+    """
+    v = _teeth(given) if teeth is None else {key: teeth[key] for key in _OF_TEETH}
+    _powers(given, v)
+    return v
+
+
+def _teeth(given: Inputs) -> Values:
     wheel, operation = given.gearset.wheel_material, given.operation
     v: Values = {}
     v["sliding_velocity_m_s"] = friction.sliding_velocity(
@@ -72,7 +93,6 @@ def rated_efficiency(given: Inputs) -> Values:
     v["mu_zm"] = mean * given.friction_factor
     v["eta_z1_2"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu_zm"])
     v["eta_z2_1"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu_zm"])
-    _powers(given, v)
     return v
 
 
@@ -209,9 +229,13 @@ def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
         sumps = (part.life * sump_of(part) for part in parted)
         mean = given.total(sumps) / hours
         parted = tuple(dataclasses.replace(part, sump=mean) for part in parted)
-    found = []
+    found: list[Values] = []
+    # A film and a friction that were found at the same speed are those of the part too.
+    known = [(given.worm_speed, v)] if "mu_zm" in v else []
     for part in parted:
-        own = rated_efficiency(part)
+        same = (teeth for speed, teeth in known if _equal(speed, part.worm_speed))
+        own = rated_efficiency(part, next(same, None))
+        known.append((part.worm_speed, own))
         if np.any(part.load_drives):
             _let_down(part, own)
         own |= {key: v[key] for key in ("p_m_star", "E_red_MPa")}
@@ -220,6 +244,11 @@ def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
         wear_of(part, own)
         found.append(own)
     return tuple(found)
+
+
+def _equal(one: Real, other: Real) -> bool:
+    """Whether two speeds are the same number, or the very same array or cell."""
+    return one is other or (isinstance(one, float) and isinstance(other, float) and one == other)
 
 
 def _let_down(part: Inputs, own: Values) -> None:
