@@ -61,7 +61,7 @@ def endurance(given: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ..
     """
     hours = float(given.total(part.hours for part in given.loads) if given.duty else given.life)
     rows = [
-        Endurance(standard, name, hours * max(factor, 0.0))
+        Endurance(standard, name, hours * max(float(factor), 0.0))
         for standard, name, factor in (*_by_iso(given, found), *_by_bs(found))
         if math.isfinite(factor)
     ]
