@@ -21,6 +21,7 @@ from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import ConvergenceError
 
 _MOST = 2000
+_SCALINGS, _ROUNDING = 50, 1e-12
 # Of the gaps of patches that bear, over the approach.
 TOLERANCE = 1e-5
 
@@ -59,7 +60,7 @@ def bear(
     moment : float
         :math:`M`, above 0, N or N m.
     most : ndarray, shape (n,), optional
-        Largest forces, N; none if left out.
+        Largest forces, N, 0 where there is no patch; none if left out.
     start : ndarray, shape (n,), optional
         Forces to begin with, N.
     tolerance : float
@@ -70,84 +71,79 @@ def bear(
     ConvergenceError
         All patches at their caps do not bear the load, or it was not found.
     """
-    if most is not None and not float(arm @ most) > moment:
+    limit = np.full(gap.shape, np.inf) if most is None else most
+    whole = _dot(arm, limit)
+    if not whole > moment:
         raise ConvergenceError(
             "the load is more than the patches bear at the pressure of plastic flow",
-            reached={"load": float(arm @ most)},
+            reached={"load": whole},
         )
-    force = np.full(gap.shape, 1.0) if start is None else np.maximum(start, 0.0)
-    if not float(arm @ force) > 0.0:
-        force = np.ones(gap.shape)
-    force = _loaded(force, arm, moment, most)
+    force = np.minimum(np.ones(gap.shape) if start is None else np.maximum(start, 0.0), limit)
+    force = _loaded(force, arm, moment, limit)
     way = np.zeros(gap.shape)
     before, last = np.inf, np.zeros(gap.shape)
     residual = np.inf
     for iteration in range(1, _MOST + 1):
-        free = _between(force, most)
+        free = (force > 0.0) & (force < limit)
         left = gap + deflection(force)
         theta = _level(left, arm, free)
         left -= arm * theta
-        square = float(left[free] @ left[free])
+        square = _dot(left[free], left[free])
         size = max(float(np.abs(gap + arm * -theta).max(where=free, initial=0.0)), 1e-15)
         residual = np.sqrt(square / max(1, int(free.sum()))) / size
-        wrong = _wrong(force, left, most, tolerance * size)
+        wrong = _wrong(force, left, limit, tolerance * size)
         if residual <= tolerance and not wrong.any():
             return Bearing(force, theta, left, iteration, residual)
         # Polak and Ribiere's: where patches come and go it begins anew by itself.
-        going_on = max(0.0, (square - float(left[free] @ last[free])) / before)
+        going_on = max(0.0, (square - _dot(left[free], last[free])) / before)
         way = np.where(free, left + going_on * way, 0.0)
         before, last = square or 1e-300, left
         sunk = deflection(way)
         sunk -= arm * _level(sunk, arm, free)
-        curvature = float(sunk[free] @ way[free])
-        step = float(left[free] @ way[free]) / curvature if curvature > 0.0 else 0.0
+        curvature = _dot(sunk[free], way[free])
+        step = _dot(left[free], way[free]) / curvature if curvature > 0.0 else 0.0
         trial = force - step * way
-        clipped = np.maximum(trial, 0.0) if most is None else np.clip(trial, 0.0, most)
+        clipped = np.clip(trial, 0.0, limit)
         # Patches that overlap bear again, patches at the cap that part bear less: from anew.
-        back = _wrong(clipped, left, most, 0.0) & ~free
+        back = _wrong(clipped, left, limit, 0.0) & ~free
         size_step = abs(step) if step else 1.0 / max(float(np.abs(sunk).max()), 1e-300)
-        clipped[back] -= size_step * left[back]
-        if most is not None:
-            clipped = np.clip(clipped, 0.0, most)
-        force = _loaded(clipped, arm, moment, most)
+        clipped[back] = np.clip(clipped[back] - size_step * left[back], 0.0, limit[back])
+        force = _loaded(clipped, arm, moment, limit)
     raise ConvergenceError(
         "the pressures of the contact were not found", reached={"residual": residual}
     )
 
 
-def _between(force: FloatArray, most: FloatArray | None) -> BoolArray:
-    some = force > 0.0
-    return some if most is None else some & (force < most)
+def _dot(one: FloatArray, other: FloatArray) -> float:
+    # Threads of BLAS cost more than they save on vectors of this length.
+    return float(np.einsum("i,i->", one, other))
 
 
-def _wrong(force: FloatArray, gap: FloatArray, most: FloatArray | None, slack: float) -> BoolArray:
+def _wrong(force: FloatArray, gap: FloatArray, limit: FloatArray, slack: float) -> BoolArray:
     """Patches that should bear more than nothing, or less than the most."""
-    wrong = (force <= 0.0) & (gap < -slack)
-    if most is not None:
-        wrong |= (force >= most) & (gap > slack)
-    return wrong
+    more = (force <= 0.0) & (gap < -slack)
+    less = (force >= limit) & (gap > slack)
+    return np.asarray((more | less) & (limit > 0.0))
 
 
 def _level(values: FloatArray, arm: FloatArray, free: BoolArray) -> float:
     chosen = arm[free]
-    return float(values[free] @ chosen) / max(float(chosen @ chosen), 1e-300)
+    return _dot(values[free], chosen) / max(_dot(chosen, chosen), 1e-300)
 
 
 def _loaded(
-    force: FloatArray, arm: FloatArray, moment: float, most: FloatArray | None
+    force: FloatArray, arm: FloatArray, moment: float, limit: FloatArray
 ) -> FloatArray:
-    """Forces scaled to the load, those at the cap left there."""
-    for _ in range(50):
-        if most is None:
-            return force * (moment / max(float(arm @ force), 1e-300))
-        capped = force >= most
-        rest = moment - float(arm[capped] @ most[capped])
-        own = float(arm[~capped] @ force[~capped])
+    """Forces scaled to the load, those at their limit left there."""
+    for _ in range(_SCALINGS):
+        capped = force >= limit
+        rest = moment - _dot(arm[capped], limit[capped])
+        own = _dot(arm[~capped], force[~capped])
         if rest <= 0.0 or own <= 0.0:
-            # Too much at the cap, or nothing else: all alike.
-            force = np.minimum(force * moment / float(arm @ force), 0.999 * most) + 1e-6 * most
-            continue
-        force = np.where(capped, most, np.minimum(force * (rest / own), most))
-        if abs(float(arm @ force) - moment) <= 1e-12 * moment:
+            # Too much at the limit, or nothing else: all alike.
+            size = _dot(arm, np.minimum(limit, moment))
+            return np.minimum(limit, moment) * (moment / size)
+        force = np.where(capped, limit, np.minimum(force * (rest / own), limit))
+        if abs(_dot(arm, force) - moment) <= _ROUNDING * moment:
             break
     return force

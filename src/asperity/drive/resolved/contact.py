@@ -21,7 +21,7 @@ from asperity.arrays import BoolArray, FloatArray
 from asperity.contact.halfspace.conjugate_gradients import Bearing, bear
 from asperity.contact.halfspace.influence import HalfSpace
 from asperity.drive.resolved.flank import ExactFlank
-from asperity.drive.resolved.strip import ZONES, Approach, Frame, Strip
+from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Approach, Frame, Strip
 from asperity.drive.static.equilibrium import Balance
 from asperity.errors import ConvergenceError
 
@@ -138,6 +138,8 @@ class ResolvedContact:
         """Whether no peak that counts changes much, or it is at the cap."""
         old, new = before.peaks(), after.peaks()
         counts = np.maximum(before.forces(), after.forces()) > _COUNTS * after.normal
+        # The wheel's edges are sharp: the finer the patches, the higher the peak.
+        counts[[WHEEL_TIP, FACE_END]] = False
         moved = np.abs(new - old) > CLOSE * np.maximum(new, old)
         if self.cap is not None:
             moved &= np.minimum(old, new) < 0.999 * self.cap
@@ -201,7 +203,7 @@ class _Teeth:
         strips: list[Strip | None] = []
         for approach in self.approaches:
             moved = weights @ approach.moved
-            gap, _ = approach.gaps(points + moved)
+            gap, *_ = approach.gaps(points + moved)
             size = float(np.linalg.norm(moved, axis=1).max())
             near = gap < max(_NEAR * size, _LEAST_NEAR)
             if not near.any():
@@ -277,7 +279,8 @@ class _Teeth:
             nodal = np.concatenate(
                 [strip.nodes.T @ force[part] for (_, strip), part in zip(some, parts, strict=True)]
             )
-            moved = smooth @ nodal
+            # Threads of BLAS cost more than they save here.
+            moved = np.einsum("ij,j->i", smooth, nodal)
             out = np.empty_like(force)
             for i, ((_, strip), part, space) in enumerate(
                 zip(some, parts, spaces, strict=True)
@@ -294,9 +297,9 @@ class _Teeth:
             _guess(strip) if first is None else first
             for (_, strip), first in ((pair, start[pair[0]]) for pair in some)
         ]
-        most = None if owner.cap is None else np.where(inside, owner.cap * area, 1e-12)
+        most = np.where(inside, (np.inf if owner.cap is None else owner.cap) * area, 0.0)
         return bear(
-            gap, deflection, np.where(inside, arm, 1e-6), self.moment, most=most,
+            gap, deflection, arm, self.moment, most=most,
             start=np.concatenate(begun),
         )  # fmt: skip
 

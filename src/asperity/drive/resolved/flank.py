@@ -19,9 +19,13 @@ from asperity.gearset.materials import Material
 _MILLIMETRES = 1e3
 _ROWS, _COLUMNS = 41, 61
 _LIMITS = 401
-# Total degree of the polynomial that the flank is fitted with in the frame of a strip; the exact
-# points lie on it to some nanometres.
-_DEGREE = 12
+# Of an edge, in axial modules: as the usual rounding of a worm's tip.
+_EDGE = 0.05
+# Total degree of the polynomial that the flank is fitted with in the frame of a strip, points for
+# the square of it, and how far about the strip they are taken: in its extent and that of the grid.
+# The exact points lie on it to a nanometre.
+_DEGREE, _POINTS = 10, 1.6
+_ABOUT, _BESIDE = 0.15, 2.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -70,6 +74,17 @@ class ExactFlank:
     def half_face(self) -> float:
         """Half the face width, m."""
         return 0.5 * self.sector.wheel.blank.face_width / _MILLIMETRES
+
+    @property
+    def edge(self) -> float:
+        """How far from an edge of the worm or wheel what bears counts as borne by the edge, m."""
+        return _EDGE * self.sector.wheel.pair.geometry.axial_module / _MILLIMETRES
+
+    @cached_property
+    def height(self) -> float:
+        """Of the flank in mid-face, from the fillet to the tip, m."""
+        start, stop = self.sector.wheel.flank(1).limits([0.0])
+        return float(stop[0] - start[0]) / _MILLIMETRES
 
     @property
     def least_reach(self) -> float:
@@ -122,30 +137,37 @@ class ExactFlank:
         x, y : ndarray
             Places of the grid along its axes, m.
         """
-        points = self.grid[0]
-        places = (points - origin) @ axes.T
-        middle = 0.5 * (places.max(axis=0) + places.min(axis=0))
-        reach = 0.5 * np.ptp(places, axis=0)[:2].max() * 1.05
+        places = (self.grid[0] - origin) @ axes.T
+        ends = np.array([[x[0], x[-1]], [y[0], y[-1]]])
+        about = _ABOUT * np.ptp(ends, axis=1) + _BESIDE * self.least_reach
+        near = (np.abs(places[:, :2] - ends.mean(axis=1)) <= 0.5 * np.ptp(ends, axis=1) + about).all(
+            axis=1
+        )
+        # Of the flank's other parts a plane may see the back.
+        places = places[near & (self.grid[1] @ axes[2] > 0.0)]
+        degree = min(_DEGREE, int(np.sqrt(len(places) / _POINTS)))
+        middle = ends.mean(axis=1)
+        reach = 0.5 * np.ptp(ends, axis=1) + about
 
-        def powers(at: FloatArray, centre: float) -> tuple[FloatArray, FloatArray]:
-            u = np.clip((at - centre) / reach, -1.5, 1.5)
-            values = np.polynomial.chebyshev.chebvander(u, _DEGREE)
+        def powers(at: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:
+            u = (at - middle[axis]) / reach[axis]
+            values = np.polynomial.chebyshev.chebvander(u, degree)
             slopes = np.zeros_like(values)
-            for k in range(1, _DEGREE + 1):
-                one = np.polynomial.chebyshev.chebder(np.eye(_DEGREE + 1)[k])
-                slopes[:, k] = np.polynomial.chebyshev.chebval(u, one) / reach
+            for k in range(1, degree + 1):
+                one = np.polynomial.chebyshev.chebder(np.eye(degree + 1)[k])
+                slopes[:, k] = np.polynomial.chebyshev.chebval(u, one) / reach[axis]
             return values, slopes
 
-        one, _ = powers(places[:, 0], middle[0])
-        other, _ = powers(places[:, 1], middle[1])
-        pairs = [(i, j) for i in range(_DEGREE + 1) for j in range(_DEGREE + 1 - i)]
+        one, _ = powers(places[:, 0], 0)
+        other, _ = powers(places[:, 1], 1)
+        pairs = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
         first, second = np.array(pairs).T
         basis = one[:, first] * other[:, second]
-        found, *_ = np.linalg.lstsq(basis, places[:, 2], rcond=1e-13)
+        found, *_ = np.linalg.lstsq(basis, places[:, 2], rcond=1e-12)
         off = float(np.abs(basis @ found - places[:, 2]).max())
-        matrix = np.zeros((_DEGREE + 1, _DEGREE + 1))
+        matrix = np.zeros((degree + 1, degree + 1))
         matrix[first, second] = found
-        (px, dx), (py, dy) = powers(x, middle[0]), powers(y, middle[1])
+        (px, dx), (py, dy) = powers(x, 0), powers(y, 1)
         return Heights(px @ matrix @ py.T, dx @ matrix @ py.T, px @ matrix @ dy.T, off)
 
 

@@ -15,7 +15,7 @@ from scipy import sparse
 from asperity.arrays import BoolArray, FloatArray, IntArray
 from asperity.drive.resolved.flank import ExactFlank
 from asperity.flanks.worm.curve import Thread
-from asperity.flanks.worm.distance import ARC, CYLINDER, feet_each
+from asperity.flanks.worm.distance import ARC, feet_each
 
 _MILLIMETRES = 1e3
 # Gap of what lies beside the flank, m.
@@ -25,8 +25,6 @@ _FIRST = (64, 48)
 _MARGIN = 0.08
 # Of its extent, by which a strip grows where what bears comes to its border.
 _GROWN = 0.5
-# A patch at an edge of the wheel has its middle within so many patches of it.
-_AT_EDGE = 1.0
 
 FLANK, WORM_TIP, WHEEL_TIP, FACE_END = 0, 1, 2, 3
 ZONES = ("flank", "worm_tip", "wheel_tip", "face_end")
@@ -41,12 +39,16 @@ class Approach(NamedTuple):
     worm: Thread  #: In mm, with the flank that bears
     moved: FloatArray  #: (n, 3): Displacement of the nodes about which gaps are taken, m
 
-    def gaps(self, points: FloatArray) -> tuple[FloatArray, IntArray]:
-        """Return distances of points (k, 3) to the worm, m, and the kinds of its surface there."""
+    def gaps(self, points: FloatArray) -> tuple[FloatArray, IntArray, FloatArray]:
+        """Return distances of points (k, 3) to the worm, m, and where they are on it.
+
+        That is the kind of its surface, and how far inside the end of its flank they lie, m.
+        """
         own = np.ascontiguousarray((points - self.translation) @ self.rotation) * _MILLIMETRES
         out, kinds = np.empty(len(own)), np.empty(len(own), dtype=np.int64)
         feet_each(own, self.worm, out, kinds)
-        return out / _MILLIMETRES, kinds
+        below = float(self.worm.form["flank_end"]) - np.hypot(own[:, 0], own[:, 1])
+        return out / _MILLIMETRES, kinds, below / _MILLIMETRES
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -146,12 +148,13 @@ class Strip:
         moved = nodes @ approach.moved
         gap = np.full(len(points), BESIDE)
         kinds = np.zeros(len(points), dtype=np.int64)
-        gap[inside], kinds[inside] = approach.gaps((points + moved)[inside])
+        below = np.full(len(points), np.inf)
+        gap[inside], kinds[inside], below[inside] = approach.gaps((points + moved)[inside])
         gap[inside] += np.einsum("ki,ki->k", moved, normals)[inside]
         arm = -(points[:, 0] * normals[:, 1] - points[:, 1] * normals[:, 0])
         return cls(
             frame, points, normals, steep * np.prod(frame.spacing), inside, share,
-            _zones(flank, frame, points, share, kinds), gap, arm, nodes, made.off,
+            _zones(flank, points, share, kinds, below), gap, arm, nodes, made.off,
         )  # fmt: skip
 
     def cropped(self, bearing: BoolArray, shape: tuple[int, int]) -> Frame:
@@ -188,13 +191,11 @@ class Strip:
 
 
 def _zones(
-    flank: ExactFlank, frame: Frame, points: FloatArray, share: FloatArray, kinds: IntArray
+    flank: ExactFlank, points: FloatArray, share: FloatArray, kinds: IntArray, below: FloatArray
 ) -> IntArray:
+    """Where patches bear; ``below`` is how far they are below the rounding of the worm's tip."""
     zone = np.full(len(points), FLANK, dtype=np.int64)
-    beside = _AT_EDGE * max(frame.spacing)
-    height = np.gradient(share.reshape(frame.shape), *frame.spacing)
-    slope = np.hypot(*height).ravel()
-    zone[np.abs(points[:, 2]) > flank.half_face - beside] = FACE_END
-    zone[1.0 - share < slope * _AT_EDGE * min(frame.spacing)] = WHEEL_TIP
-    zone[(kinds == ARC) | ((kinds == CYLINDER) & (zone == FLANK))] = WORM_TIP
+    zone[np.abs(points[:, 2]) > flank.half_face - flank.edge] = FACE_END
+    zone[(1.0 - share) * flank.height < flank.edge] = WHEEL_TIP
+    zone[(kinds == ARC) | (below < flank.edge)] = WORM_TIP
     return zone
