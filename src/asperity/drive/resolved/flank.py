@@ -12,6 +12,7 @@ import numpy as np
 from scipy import sparse
 
 from asperity.arrays import FloatArray, IntArray
+from asperity.drive.resolved.smooth import smoothed
 from asperity.drive.teeth.sector import Sector, lattice
 from asperity.drive.teeth.threads import thread_flexibility
 from asperity.gearset.materials import Material
@@ -53,6 +54,7 @@ class ExactFlank:
             np.einsum("ic,icjd,jd->ij", normals, block.reshape(count, 3, count, 3), normals)
             for block in blocks
         ]
+        smooth[0] = smoothed(smooth[0], lattice(surface))
         return cls(sector, np.array(smooth))
 
     @cached_property
