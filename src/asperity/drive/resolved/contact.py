@@ -327,11 +327,12 @@ def _response(
     flexibility: FloatArray, blocks: FloatArray, order: FloatArray, force: FloatArray
 ) -> FloatArray:
     """Displacement of the nodes of all teeth under nodal forces (K, 3n), shape (K, n, 3), m."""
-    moved = force @ flexibility
+    moved = np.zeros_like(force)
     for k in range(len(order)):
-        for j in range(len(order)):
+        for j in np.flatnonzero(force.any(axis=1)):
             way = int(order[k] - order[j])
-            if way and abs(way) <= len(blocks) and force[j].any():
-                block = blocks[abs(way) - 1]
-                moved[k] += block @ force[j] if way > 0 else block.T @ force[j]
+            if abs(way) <= len(blocks):
+                block = flexibility if way == 0 else blocks[abs(way) - 1]
+                sums = "ij,j->i" if way >= 0 else "ji,j->i"
+                moved[k] += np.einsum(sums, block, force[j])
     return moved.reshape(len(order), -1, 3)
