@@ -377,7 +377,7 @@ def test_a_procedure_that_hangs_is_switched_off_by_the_missing_heartbeat(
     dials.turn(patience=LONG)
     procedure.kill(signal.SIGCONT)
     assert procedure.ended() == 3
-    assert "everything was switched off: the procedure has said nothing" in procedure.said
+    assert "everything was told to be off: the procedure has said nothing" in procedure.said
     gone_on_with(begun, rig, tmp_path / "run", acknowledge="the disk was slow")
 
 

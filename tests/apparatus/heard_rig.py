@@ -329,6 +329,17 @@ def _zero_off(run):
     run.volts["torque_steel"] += 0.030 / 0.4
 
 
+def _zeros_off(share):
+    """The speed's zero is off by so much of its level, and the torque's by 30 mN m."""
+
+    def fault(run):
+        _zero_off(run)
+        level = np.median(run.volts["speed_steel"][run.within(*run.spans[0][:2])])
+        run.volts["speed_steel"] += share * level
+
+    return fault
+
+
 def _zero_drifts(run):
     run.volts["torque_steel"] += 0.025 / 0.4 * run.time / run.time[-1]
 
@@ -472,6 +483,8 @@ def _noisy(run):
 HEARS = {"acceleration": 150.0}
 FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "zero off by 30 mN m": (_zero_off, {}),
+    "zeros of torque and speed off": (_zeros_off(0.15), {}),
+    "zero of the speed far off": (_zeros_off(-0.4), {}),
     "drifting zero": (_zero_drifts, {}),
     "zero that jumps": (_zero_jumps, {}),
     "torque and load cell exchanged": (_exchanged("torque_steel", "load_cell"), {}),

@@ -11,7 +11,7 @@ from asperity.tribometer.reduction.heard.material import Material
 
 LEAST = {"torque": 0.02, "speed": 0.5, "current": 0.1}
 """By which a signal changes at least as its motor is switched, N m, rad/s and A."""
-_OFF = 0.1  # of a signal's level, below which its motor is off
+_OFF = 0.25  # of a signal's level, below which its motor is off, whatever zero is still taken off
 _SMOOTH = 5  # blocks
 _LEAST_OFF = 0.5  # s
 _LEAST_REST = 1.0  # s
@@ -70,12 +70,9 @@ def resting(of: Material) -> Rest:
     ahead = _SOON if soon else _LATE
     begin, end = of.blocks.at_least(_AFTER), of.blocks.at_least(ahead)
     least = of.blocks.at_least(_LEAST_REST)
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], still.astype(np.int8), [0]))))
     found_stretches = []
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
-        one = Stretch(
-            int(first) + (begin if first else 0), int(last) - (end if last < still.size else 0)
-        )
+    for first, last in _runs(still):
+        one = Stretch(first + (begin if first else 0), last - (end if last < still.size else 0))
         if one.count >= least:
             found_stretches.append(one)
     return Rest(tuple(found_stretches), tuple(answering), switched)
@@ -95,8 +92,16 @@ def _off(of: Material, signal: str) -> BoolArray | None:
         return None
     smooth = np.convolve(values, np.full(_SMOOTH, 1.0 / _SMOOTH), mode="same")
     off: BoolArray = (smooth < _OFF * level) & ~lost
-    seen = np.count_nonzero(off & ~of.vibrating)
-    return off if seen >= of.blocks.at_least(_LEAST_OFF) else None
+    # Not as it only passes by on its way, its zero far off.
+    stretches = _runs(off & ~of.vibrating)
+    lasting = max((last - first for first, last in stretches), default=0)
+    return off if lasting >= of.blocks.at_least(_LEAST_OFF) else None
+
+
+def _runs(marked: BoolArray) -> list[tuple[int, int]]:
+    """Return where each run of marked blocks begins and ends."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0])))).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))
 
 
 def _stands(of: Material) -> bool:
