@@ -483,8 +483,6 @@ def _noisy(run):
 HEARS = {"acceleration": 150.0}
 FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "zero off by 30 mN m": (_zero_off, {}),
-    "zeros of torque and speed off": (_zeros_off(0.15), {}),
-    "zero of the speed far off": (_zeros_off(-0.4), {}),
     "drifting zero": (_zero_drifts, {}),
     "zero that jumps": (_zero_jumps, {}),
     "torque and load cell exchanged": (_exchanged("torque_steel", "load_cell"), {}),
@@ -524,6 +522,8 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "samples missing in the torque": (_nan, {}),
     "samples missing in the drive": (_nan_in_drive, {}),
     "torque hears the vibration's amplifier": (_noisy, {}),
+    "zeros of torque and speed off": (_zeros_off(0.15), {}),
+    "zero of the speed far off": (_zeros_off(-0.4), {}),
 }  # fmt: skip
 
 

@@ -26,8 +26,6 @@ from asperity.tribometer.tables import TABLES
 # Each is told by what is said of it; those that are not named here are tried in the campaign.
 TOLD = {
     "zero off by 30 mN m": "zero of torque_steel: 0.0",
-    "zeros of torque and speed off": "zero of torque_steel: 0.0",
-    "zero of the speed far off": "",
     "drifting zero": "zero of torque_steel",
     "torque and load cell exchanged": "torque_steel does not answer its motor",
     "torques exchanged": "torque_steel has the wrong sign",
@@ -45,6 +43,8 @@ TOLD = {
     "accelerometer hears an overtone": "accelerometer hears overtones",
     "samples missing in the torque": "torque_steel has samples missing",
     "samples missing in the drive": "drive_voltage has samples missing",
+    "zeros of torque and speed off": "zero of torque_steel: 0.0",
+    "zero of the speed far off": "zero of speed_steel",
 }
 
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -13,6 +14,7 @@ LEAST = {"torque": 0.02, "speed": 0.5, "current": 0.1}
 """By which a signal changes at least as its motor is switched, N m, rad/s and A."""
 _OFF = 0.25  # of a signal's level, below which its motor is off, whatever zero is still taken off
 _SMOOTH = 5  # blocks
+_AGREES = 0.4  # of the time in which current and torque are nothing, a speed is too
 _LEAST_OFF = 0.5  # s
 _LEAST_REST = 1.0  # s
 _AFTER = 1.0  # s left out behind a stop
@@ -52,14 +54,12 @@ def resting(of: Material) -> Rest:
     answering: list[str] = []
     masks: dict[str, BoolArray] = {}
     for disc, signals in _TELLING.items():
-        found = []
-        for signal in signals:
-            off = _off(of, signal)
-            if off is not None:
-                found.append(off)
-                answering.append(signal)
+        found = {signal: off for signal in signals if (off := _off(of, signal)) is not None}
+        for signal in _far_off(found):
+            del found[signal]
         if found:
-            masks[disc] = np.logical_and.reduce(found)
+            answering += found
+            masks[disc] = np.logical_and.reduce(list(found.values()))
     switched = tuple(masks)
     if "bronze" not in masks and _stands(of):
         masks["bronze"] = np.ones(of.blocks.count, dtype=bool)
@@ -92,10 +92,21 @@ def _off(of: Material, signal: str) -> BoolArray | None:
         return None
     smooth = np.convolve(values, np.full(_SMOOTH, 1.0 / _SMOOTH), mode="same")
     off: BoolArray = (smooth < _OFF * level) & ~lost
-    # Not as it only passes by on its way, its zero far off.
-    stretches = _runs(off & ~of.vibrating)
-    lasting = max((last - first for first, last in stretches), default=0)
-    return off if lasting >= of.blocks.at_least(_LEAST_OFF) else None
+    seen = np.count_nonzero(off & ~of.vibrating)
+    return off if seen >= of.blocks.at_least(_LEAST_OFF) else None
+
+
+def _far_off(found: Mapping[str, BoolArray]) -> list[str]:
+    """Return speeds that only pass by nothing as they start and stop, their zeros far off."""
+    others = [off for signal, off in found.items() if not signal.startswith("speed")]
+    if not others:
+        return []
+    still = np.logical_and.reduce(others)
+    least = _AGREES * np.count_nonzero(still)
+    return [
+        signal for signal, off in found.items()
+        if signal.startswith("speed") and np.count_nonzero(off & still) < least
+    ]  # fmt: skip
 
 
 def _runs(marked: BoolArray) -> list[tuple[int, int]]:
