@@ -61,7 +61,7 @@ def _equal_ratios() -> Finding:
     block, body = marched_and_slid(LONGITUDINAL)
     marched, slid = block.marched().ratio, body.result.ratio
     parts = {
-        f"{name}: {_WITHIN}": part[0] < _SAME and part[1] < _SAME_SHARE
+        f"“match the expected trend”, {name}: {_WITHIN}": part[0] < _SAME and part[1] < _SAME_SHARE
         for name, part in apart.items()
     }
     return Finding.judged(

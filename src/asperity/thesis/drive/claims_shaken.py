@@ -271,7 +271,7 @@ def _discs() -> Finding:
             "near rigid friction up to k_w = 3": bool(np.all(apart[near] < _APART)),
         },
         f"near rigid friction up to k_w = {k[: int(np.argmax(apart > _APART))].max():g}, apart by "
-        f"{apart[near].max():.2f} at most up to there and {apart[~near].max():.2f} beyond",
+        f"{apart[near].max():.2f} at most up to k_w = 3 and {apart[~near].max():.2f} beyond",
         "Both curves of the figure are lost, that of the gear and that of the disc tests. In their "
         "place stand our march and rigid friction under vibration across the sliding, apart by "
         f"more than {_APART:g} from k_w = {far.min():g} on: axial vibration of this worm is mostly "

@@ -41,7 +41,7 @@ def _pressure() -> Finding:
         "Greatest Hertz pressure on the lines of contact at rated torque.",
         {f"pressure_{name}_MPa": p for name, p in pressures.items()},
         [Gear(_CASE, hob) for hob in HOBS.values()],
-        assumed="Gearset 3 with a centre distance of 2.9 in; one stiffness per length of line.",
+        assumed="Gearset 3 as its flanks are checked; one stiffness per length of line.",
     )
 
 

@@ -66,9 +66,10 @@ def _polyglycol() -> Finding:
         {"“an immense 20 to 30% with polyglycol oil”, in its own Table 3.3": _LEAST
          <= fall <= _MOST + 0.02},
         f"Table 3.3 has {fall:.0%} less for polyglycol, {other:.0%} for polyalphaolefin",
-        "Table 3.3 takes another number than chapter 2 cites: its polyglycol is of another oil and "
+        "Table 3.3 takes another number than the review of oils cites: its polyglycol is of "
+        "another oil and "
         "another test, and is what makes it the best of all oils and coatings. With the most that "
-        f"chapter 2 cites gearset 2 comes to {most.efficiency:.1%} instead of "
+        f"the review cites gearset 2 comes to {most.efficiency:.1%} instead of "
         f"{glycol.efficiency:.1%}, and behind "
         + ", ".join(f"{row.name} ({row.efficiency:.1%})" for row in above)
         + ".",

@@ -70,7 +70,9 @@ def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> Mad
     words = exhibit.maker.words
     found, paths = exhibit.make(full=full).write(folder / exhibit.name.replace(" ", "-"), words)
     files = {path.name: _sha256(path) for path in paths}
-    return Made(exhibit.name, key, {**words, **found}, files, time.perf_counter() - began)
+    # As it will be read again.
+    plain = json.loads(_text({**words, **found}))
+    return Made(exhibit.name, key, plain, files, time.perf_counter() - began)
 
 
 class Collection:

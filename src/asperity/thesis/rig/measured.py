@@ -36,6 +36,9 @@ SUPPLIES = (1.0, 3.0, 5.5)
 SLIDE_ROLL = (0.44, 0.88, 0.94)
 """Printed slide-roll ratios at those supplies, V (6.4.7)."""
 
+FREQUENCIES = (250.0, 500.0, 750.0, 1000.0, 2000.0, 3000.0)
+"""Of the vibration, Hz (6.4.2)."""
+
 AMPLITUDES = {"transverse": 0.059, "longitudinal": 0.087}
 """v_a at 750 Hz, m/s (6.5.2, 6.6.2)."""
 

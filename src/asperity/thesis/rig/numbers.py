@@ -30,7 +30,7 @@ def _pounds() -> Finding:
             "“Adding 40 lbs (178 N) of dead mass”": round(dead) == _DEAD_FORCE,
             "“F_N >= 3.6 N (8 lbs)”": abs(force - printed) < 0.05 * force,
         },
-        f"8 lb are {force:.1f} N, {factor:.2f} times as much",
+        f"{_POUNDS:g} lb are {force:.1f} N, {factor:.2f} times as much",
         "The column of Table 6.3 that is headed N holds kilograms; 6.4.4 has pounds right. Only so "
         "does the motor's current mean friction as it may be, "
         f"{', '.join(f'{one:.2f}' for one in by_weight)}; as printed it would be "
@@ -68,9 +68,10 @@ def _path() -> Finding:
             "1800 m in under 6 h": hours < _HOURS,
             "“Wear test performed to 1.8 metres of sliding”": math.isclose(_MISPRINTED, _DISTANCE),
         },
-        f"{hours:.2f} h at {1e3 * fastest:g} mm/s; {seconds:.0f} s for the distance of chapter 8",
-        "6.7 holds at the fastest sliding that 6.4.7 names. The number of chapter 8 is that of "
-        "6.7 in kilometres, its unit printed as metres.",
+        f"{hours:.2f} h at {1e3 * fastest:g} mm/s; {seconds:.0f} s for the distance of the "
+        f"conclusions",
+        "Section 6.7 holds at the fastest sliding that 6.4.7 names. The number of the conclusions "
+        "is that of section 6.7 in kilometres, its unit printed as metres.",
         {"hours": hours, "seconds_for_1.8_m": seconds},
         ["distance over v_sl of 6.4.7"],
     )

@@ -55,7 +55,8 @@ def _directions() -> Finding:
         },
         "a ratio is met at up to "
         + ", ".join(f"{n} directions at k = {k:g}" for n, k in zip(counts, _SELECTED, strict=True)),
-        "The curve is symmetric about 90 as about 180 deg, which alone gives each ratio four "
+        "The curve is symmetric about across the drive as about along it, which gives each ratio "
+        "four "
         f"directions. At k = {_SELECTED[0]:g} vibration does least at {worst:g} deg, not across "
         f"the "
         f"drive ({ratios[0].max():.3f} for {ratios[0][theta == 90.0][0]:.3f}), so that a ratio "
@@ -97,7 +98,8 @@ def _without_transfer() -> Finding:
         f"base, {theirs[worst]:.2f} for the body",
         f"Appendix E drops eta_y, by a comment of its own, where Appendix D has {transfer:g}: the "
         "shaken body then gives all of its lateral motion to the contact, the shaken base a part. "
-        "Seen on a figure from 0 to 1 that must show; the figure (7.8) is lost. With the transfer "
+        "Seen on a figure from 0 to 1 that must show; Figure 7.8 of the thesis is lost. With the "
+        "transfer "
         "kept, as section 7.3 has it, the two agree: claim 7.8. Sliding bodies, periodic; the "
         "plastic branch of Appendix E is left out.",
         {f"apart_at_k_{one:g}": float(value) for one, value in zip(k, apart, strict=True)},
