@@ -25,25 +25,6 @@ _STEPS = (
 )  # fmt: skip
 
 
-_CARRIED = (
-    ("x", "(77)", "(77)"),
-    ("y", "(78)", "(78), (81), (82), (88), (89), (110), (111), (113), (114), (128), (129), (134)"),
-    ("M_1x", "(34)", "(81), (83), (98), (107), (108), (111)"),
-    ("M_1y", "(91)", "(81), (82), (110), (111)"),
-    ("s_1", "(86)", "(79), (80), (102)"),
-)
-
-
-@table(
-    "7.3", "What the model of a shaken body carries from step to step",
-    "As the text has it. (82) is not among those that take s_1, which MN' would be: it divides by "
-    "MN'', as Appendix E does (claim 7.14).",
-)  # fmt: skip
-def _state() -> Grid:
-    columns = ("variable", "computed by", "used in")
-    return Grid(columns, _CARRIED, ("asperity.thesis.contact.derivatives.scheme",))
-
-
 @table(
     "7.1", "Steps and boundary conditions",
     "The table is lost; these are what the text says of it, and what stands for each here.",

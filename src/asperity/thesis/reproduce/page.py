@@ -88,6 +88,7 @@ def render(
         },
         lost=lost(),
         slips=slips(),
+        letters=sorted({slip.line for slip in slips() if not slip.why}),
         read_by_a_machine=READ_BY_A_MACHINE,
         script=_SCRIPT.read_text("utf-8"),
         to_come=len(to_come),
