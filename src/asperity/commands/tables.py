@@ -20,6 +20,7 @@ _TABLES = {
     "operation": "asperity.rating.parameters:Operation",
     "rating": "asperity.rating.parameters:RatingOptions",
     "spectrum": "asperity.rating.spectrum:Spectrum",
+    "requirements": "asperity.studies.requirements:Requirements",
     "housing": "asperity.rating.housing:Housing",
     "block": "asperity.block.parameters:Block",
     "contact": "asperity.block.parameters:Contact",
