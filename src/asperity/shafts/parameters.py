@@ -135,6 +135,16 @@ class ShaftBearing(Table):
                 f"bearing.arrangement is '{self.arrangement}'; a {rolling.kind} bearing cannot be "
                 "adjusted"
             )
+        if self.arrangement == "single" and rolling.kind in ("angular contact", "taper"):
+            raise InputError(
+                f"bearing.arrangement is 'single'; one {rolling.kind} bearing alone does not "
+                "locate a shaft: give it as adjusted against the other, or as a pair"
+            )
+        if self.arrangement == "pair tandem" and self.takes not in ("towards end", "away"):
+            raise InputError(
+                "bearing.arrangement is 'pair tandem', which carries one way: give "
+                "bearing.carries as 'towards end' or 'away'"
+            )
         if self.takes != "radial" and not rolling.carries_axial:
             raise InputError(
                 f"bearing.carries is '{self.takes}'; a cylindrical bearing carries radial loads "
@@ -223,6 +233,8 @@ def _listed(model: type[P], path: str, value: Any, context: Any) -> tuple[P, ...
 
 
 class _Shaft(Table):
+    """What both shafts have; see `WormShaft`."""
+
     material: ShaftSteel | None = None
     mesh: _Length
     section: Annotated[tuple[ShaftSection, ...], Field(min_length=1)]
@@ -346,15 +358,19 @@ _SHAFT = """
 
 
 class WormShaft(_Shaft):
+    """The worm's shaft, from the end it is driven at."""
+
     table: ClassVar[str] = "worm_shaft"
 
 
 class WheelShaft(_Shaft):
+    """The wheel's shaft, from the end it drives with."""
+
     table: ClassVar[str] = "wheel_shaft"
 
 
-WormShaft.__doc__ = "The worm's shaft, from the end it is driven at.\n" + _SHAFT
-WheelShaft.__doc__ = "The wheel's shaft, from the end it drives with.\n" + _SHAFT
+for _model in (WormShaft, WheelShaft):
+    _model.__doc__ = f"{_model.__doc__}\n{_SHAFT}"
 
 
 def _percent(value: Any) -> Any:
