@@ -12,13 +12,13 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ENDS = ("A", "B")
-_LONGEST = 0.85  # of an arrow, over the greatest diameter
+_HIGH = 0.62  # of the drawing's panel, over its width
 
 
 def plot_shafts(dataset: "xr.Dataset") -> "Figure":
     """Draw each shaft in the case that bends it most: loads, moments, deflection."""
     names = [name for name in ("worm", "wheel") if f"{name}_at" in dataset]
-    figure, axes = panels(3, len(names), width=5.6 * len(names) + 1.4, height=8.8)
+    figure, axes = panels(3, len(names), width=5.8 * len(names) + 0.4, height=11.4)
     for column, name in enumerate(names):
         own = axes[column :: len(names)]
         _loads(own[0], dataset, name)
@@ -62,25 +62,27 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
     loads, forces = dataset[f"{name}_load"].values, dataset[f"{name}_force"].values
     radial = np.hypot(forces[:, 1], forces[:, 2])
     most = max(float(reactions.max()), float(radial.max()), 1e-9)
-    reach = _LONGEST * widest
+    half = max(0.55 * _HIGH * float(stretches.max()), 1.1 * widest)
+    reach = 0.35 * (half - 0.5 * widest)
+    gap = 0.1 * (half - 0.5 * widest)
 
     def arrow(place: float, size: float, upwards: bool, colour: str, words: str) -> None:
         length = reach * size / most
         side = -1.0 if upwards else 1.0
         edge = side * 0.5 * widest
         axes.annotate(
-            "", (place, edge), (place, edge + side * (length + 0.08 * widest)),
+            "", (place, edge), (place, edge + side * (length + gap)),
             arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8},
         )  # fmt: skip
         axes.text(
-            place, edge + side * (length + 0.14 * widest), words, color=colour, ha="center",
+            place, edge + side * (length + 1.3 * gap), words, color=colour, ha="center",
             va="top" if upwards else "bottom",
         )  # fmt: skip
 
     for end, place, size, along in zip(_ENDS, at, reactions, axial, strict=True):
         words = f"{end} {size:.0f} N"
         if along:
-            words += f"\naxial {abs(along):.0f} N {'to the left' if along > 0.0 else 'to the right'}"
+            words += f"\n← {along:.0f} N" if along > 0.0 else f"\n{-along:.0f} N →"
         arrow(float(place), float(size), True, BLUE, words)
     for number, (place, size) in enumerate(zip(loads, radial, strict=True)):
         if size:
@@ -89,12 +91,12 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
                 f"{'teeth' if number == 0 else 'load'} {size:.0f} N",
             )  # fmt: skip
     axes.axhline(0.0, color=BLACK, linewidth=0.8, dashes=(8, 3, 2, 3))
-    axes.set_ylim(-2.35 * widest, 2.0 * widest)
-    axes.set_aspect("equal", adjustable="datalim")
+    axes.set_ylim(-half, half)
+    axes.set_aspect("equal", adjustable="box")
     axes.set_ylabel("to scale (mm)")
     axes.grid(visible=False)
     case = str(dataset[f"{name}_case"].values)
-    axes.set_title(f"{name.capitalize()}'s shaft, {case}: radial loads", loc="left")
+    axes.set_title(f"{name.capitalize()}'s shaft, {case}", loc="left")
 
 
 def _bore(stretches: Any, diameters: Any, place: float) -> float:
