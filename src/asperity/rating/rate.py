@@ -16,16 +16,16 @@ from asperity.rating.alternatives import Alternative, alternatives
 from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.by_standard import PROMISED, judge_of, rate_by
 from asperity.rating.changes import changed_words
+from asperity.rating.consistent import require_consistent
 from asperity.rating.driven import driven, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs, inputs
-from asperity.rating.iso14521.calculation import film_parameter_of
-from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.levers import Lever, levers
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.parts import PartRow, part_lines
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
 from asperity.rating.verdict import Verdict, screen
@@ -73,6 +73,8 @@ class Rated(Result):
         Why a standard that was asked for could not be applied.
     contact : Section or None
         What its report shows of how the flanks touch, where that was asked for.
+    parts : tuple of PartRow
+        What shafts and bearings come to, where a case has them.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -92,6 +94,7 @@ class Rated(Result):
     tables_bs721: Tables
     unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
+    parts: tuple[PartRow, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
@@ -148,6 +151,7 @@ class Rated(Result):
             "forces": {one.rotation: one.to_json() for one in self.forces} or None,
             "holding": [one.to_json() for one in self.holding],
             **({"duty_cycle": parts} if parts else {}),
+            **({"parts": [row.to_json() for row in self.parts]} if self.parts else {}),
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -180,13 +184,16 @@ class Rated(Result):
 
     def brief(self) -> str:
         """Return the verdict on one screen."""
-        return screen(self.verdict, self.found, self.self_locking, len(self.assumed), self.notes)
+        own = screen(self.verdict, self.found, self.self_locking, len(self.assumed), self.notes)
+        return "\n".join((own, *part_lines(self.parts)))
 
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
         tables = [rating.table(sources=sources) for rating in self.ratings]
         if self.duty_cycle:
             tables.append(duty_table(self.duty_cycle))
+        if self.parts:
+            tables.append(Table((), (), "Shafts and bearings", tuple(r.said() for r in self.parts)))
         rows = self.self_locking.to_rows()
         if rows:
             degrees = self.self_locking.to_json()["lead_angle_deg"]
@@ -278,7 +285,7 @@ def rate(
     asked = operation
     operation = driven(gearset, operation, options)
     given = inputs(gearset, operation, options)
-    _require_consistent(given, "iso14521" in wanted)
+    require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
@@ -333,7 +340,7 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
     wanted = STANDARDS if standard == ALL else (standard,)
     with told(case):
         operation = driven(gearset, operation, options)
-    _require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
+    require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
     return case, wanted
 
 
@@ -382,18 +389,3 @@ def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
     if not standards:
         raise InputError(f"no standard is asked for; give one of {choices(STANDARDS)}")
     return tuple(name for name in STANDARDS if name in standards)
-
-
-def _require_consistent(given: Inputs, by_iso: bool) -> None:
-    try:
-        given.gearset.require_consistent()
-    except InputError as error:
-        # The end of h* tells more about a ratio or module that is too large.
-        try:
-            if by_iso:
-                film_parameter_of(given)
-        except FilmParameterError as film:
-            raise FilmParameterError(
-                f"{film}; {error}", film.value, film.driver, film.limits
-            ) from None
-        raise

@@ -1,10 +1,11 @@
 r"""Deflection of a stepped shaft on two bearings: an Euler beam, and what shear adds.
 
 Between two places the bending moment is linear and the section constant, so that
-:math:`E I v'' = M` is integrated exactly. Shear adds :math:`v' = -V/(\kappa G A)` (Timoshenko), with
-:math:`\kappa` of a round section after Cowper, :math:`6 (1 + \nu)/(7 + 6 \nu)`.
+:math:`E I v'' = M` is integrated exactly. Shear adds :math:`v' = -V/(\kappa G A)` (Timoshenko),
+with :math:`\kappa` of a round section after Cowper, :math:`6 (1 + \nu)/(7 + 6 \nu)`.
 """
 
+import itertools
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -61,7 +62,7 @@ def places_of(
     marks = {0.0, length, *(each.start for each in stretches), *others}
     places = np.array(sorted(marks))
     if between:
-        finer = [np.linspace(a, b, between + 2)[:-1] for a, b in zip(places, places[1:])]  # noqa: B905
+        finer = [np.linspace(a, b, between + 2)[:-1] for a, b in itertools.pairwise(places)]
         places = np.concatenate([*finer, places[-1:]])
     return places
 
@@ -122,9 +123,7 @@ def deflection(
         return np.asarray(values - (a + along * (b - a)))
 
     tilt = (bent[second] - rest[1] - bent[first] + rest[0]) / (at[second] - at[first])
-    return Deflection(
-        at, seated(bent, rest), seated(sheared, [np.zeros(2)] * 2), slope - tilt
-    )
+    return Deflection(at, seated(bent, rest), seated(sheared, [np.zeros(2)] * 2), slope - tilt)
 
 
 def at_place(found: Deflection, place: float) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -141,7 +140,7 @@ def mesh_compliance(
 ) -> FloatArray:
     """Return deflection and slope in one plane under a unit force and couple at the mesh.
 
-    Bending with shear.
+    By bending; the deflection under the force has that of shear too.
 
     Returns
     -------
@@ -155,5 +154,5 @@ def mesh_compliance(
         PointLoad(mesh, (0.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
     ):
         bent, sheared, slope = at_place(deflection(stretches, [load], bearings, modulus), mesh)
-        columns.append((bent[0] + sheared[0], slope[0]))
+        columns.append((bent[0] + (0.0 if columns else sheared[0]), slope[0]))
     return np.array(columns).T

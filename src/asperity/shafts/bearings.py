@@ -110,9 +110,9 @@ def life_of(
     whole = life.spectrum_life(hours, lives)
     reached = options.a_1 * whole if not modified else life.spectrum_life(hours, modified)
     turns = [each.hours * each.speed for each in loads]
-    mean = (
-        sum(t * load**p for t, load in zip(turns, equivalents, strict=True)) / sum(turns)
-    ) ** (1.0 / p)
+    mean = (sum(t * load**p for t, load in zip(turns, equivalents, strict=True)) / sum(turns)) ** (
+        1.0 / p
+    )
     counted = modified or lives
     used = [h / own for h, own in zip(hours, counted, strict=True)]
     worst = max(range(len(loads)), key=equivalents.__getitem__)

@@ -25,12 +25,12 @@ FACTORS: dict[str, float] = {
 }
 """f_Z; other makers take 1.5 for a V-belt, and editions 1.5 to 2.5 for a toothed one."""
 
-_fZ = Annotated[Real, Symbol("f_Z", "", positive)]
+_factor = Annotated[Real, Symbol("f_Z", "", positive)]
 _d0 = Annotated[Real, Symbol("d_0", "mm", positive)]
 
 
 @formula(symbol="Q", unit="N", equation="f_Z 2000 T/d_0", source=SEW)
-def overhung_load(factor: _fZ, torque: s.T, diameter: _d0) -> Real:
+def overhung_load(factor: _factor, torque: s.T, diameter: _d0) -> Real:
     """Radial force of what drives a shaft or is driven by it.
 
     Examples

@@ -1,9 +1,9 @@
 """What the teeth put on both shafts: each load of the life in each of four cases.
 
-The worm turns clockwise or the other way, seen from the end it is driven at, and drives the wheel or
-is driven by it. Where the load drives, the other flanks touch: axial and radial force are those of
-the worm driving, the axial one turned round, and the tangential one is F_tm2 tan(gamma - rho), below
-zero where the worm locks itself and the motor turns it even so. The axes are those of
+The worm turns clockwise or the other way, seen from the end it is driven at, and drives the wheel
+or is driven by it. Where the load drives, the other flanks touch: axial and radial force are those
+of the worm driving, the axial one turned round, and the tangential one is F_tm2 tan(gamma - rho),
+below zero where the worm locks itself and the motor turns it even so. The axes are those of
 `asperity.rating.forces`.
 """
 

@@ -1,4 +1,4 @@
-"""A shaft of a case as the calculation has it: mm, N and MPa; stretches, details, bearings, loads."""
+"""A shaft of a case as it is calculated, in mm, N and MPa: stretches, details, bearings, loads."""
 
 import math
 from collections.abc import Sequence
@@ -190,9 +190,7 @@ def _details(
             assert section.groove_radius is not None
             depth, radius = scaled(section.groove_depth, 1e3), scaled(section.groove_radius, 1e3)
             made += [
-                Detail(
-                    s, f"groove, {name}", d - 2.0 * depth, "groove", rough, largest, d, radius
-                )
+                Detail(s, f"groove, {name}", d - 2.0 * depth, "groove", rough, largest, d, radius)
                 for s in within
             ]
         elif section.notch != "none":
@@ -215,8 +213,14 @@ def _details(
             low, high = min(d, other), max(d, other)
             made.append(
                 Detail(
-                    stretch.end, f"fillet at {stretch.end:.4g} mm", low, "shoulder",
-                    scaled(small.roughness, 1e6), largest, high, radius,
-                )  # fmt: skip
+                    stretch.end,
+                    f"fillet at {stretch.end:.4g} mm",
+                    low,
+                    "shoulder",
+                    scaled(small.roughness, 1e6),
+                    largest,
+                    high,
+                    radius,
+                )
             )
     return tuple(made), tuple(notes)

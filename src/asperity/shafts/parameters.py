@@ -1,5 +1,6 @@
 """The tables `[worm_shaft]`, `[wheel_shaft]` and `[bearings]` of a case file."""
 
+import math
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
@@ -58,12 +59,12 @@ class ShaftSection(Table):
                 "section.groove_depth and section.groove_radius belong to notch 'groove', which "
                 "needs both"
             )
-        if self.groove_depth is not None and self.diameter is not None:
-            if 2.0 * self.groove_depth >= self.diameter:
-                raise InputError(
-                    f"section.groove_depth is {1e3 * self.groove_depth:g} mm; it must be below "
-                    f"half the diameter, {1e3 * self.diameter:g} mm"
-                )
+        diameter = self.diameter or math.inf
+        if self.groove_depth is not None and 2.0 * self.groove_depth >= diameter:
+            raise InputError(
+                f"section.groove_depth is {1e3 * self.groove_depth:g} mm; it must be below half "
+                f"the diameter, {1e3 * diameter:g} mm"
+            )
         if self.notch != "none" and self.diameter is None:
             raise InputError(f"section.notch is '{self.notch}'; the worm's threads have none: "
                              "leave it out, or give the diameter")  # fmt: skip
@@ -195,14 +196,14 @@ class ShaftLoad(Table):
     required_alternatives: ClassVar[tuple[tuple[str, ...], ...]] = (("radial", "element"),)
 
     at: _Place
-    radial: Annotated[float, Quantity("N", what="a force", example="500 N", ge=0, le=1e9)] | None = (
-        None
-    )
+    radial: (
+        Annotated[float, Quantity("N", what="a force", example="500 N", ge=0, le=1e9)] | None
+    ) = None
     element: Element | None = None
     diameter: _Length | None = None
-    direction: Annotated[
-        float, Quantity("rad", what="an angle", example="90 deg", ge=-7, le=7)
-    ] = 0.0
+    direction: Annotated[float, Quantity("rad", what="an angle", example="90 deg", ge=-7, le=7)] = (
+        0.0
+    )
 
     @model_validator(mode="after")
     def _sized(self) -> "ShaftLoad":
@@ -405,9 +406,7 @@ class BearingOptions(Table):
         Literal[90, 95, 96, 97, 98, 99],
         BeforeValidator(_percent, json_schema_input_type=Literal[90, 95, 96, 97, 98, 99] | str),
     ] = 90
-    contamination: (
-        Literal["high", "normal", "slight", "typical", "severe", "bronze"] | None
-    ) = None
+    contamination: Literal["high", "normal", "slight", "typical", "severe", "bronze"] | None = None
     raises: Literal["clockwise", "anticlockwise"] | None = None
 
     @property

@@ -41,9 +41,14 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
     for (start, end), diameter, threaded in zip(stretches, diameters, threads, strict=True):
         axes.add_patch(
             Rectangle(
-                (start, -diameter / 2.0), end - start, diameter, facecolor="#E8E8E8",
-                edgecolor=BLACK, linewidth=1.0, hatch="////" if threaded else None,
-            )  # fmt: skip
+                (start, -diameter / 2.0),
+                end - start,
+                diameter,
+                facecolor="#E8E8E8",
+                edgecolor=BLACK,
+                linewidth=1.0,
+                hatch="////" if threaded else None,
+            )
         )
     widest = float(np.nanmax([*diameters, *dataset[f"{name}_bearing_size"].values[:, 0]]))
     at = dataset[f"{name}_bearing"].values
@@ -53,9 +58,13 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
             for low in (inner / 2.0, -outer / 2.0):
                 axes.add_patch(
                     Rectangle(
-                        (place - width / 2.0, low), width, (outer - inner) / 2.0,
-                        facecolor=SKY, edgecolor=BLACK, linewidth=1.0,
-                    )  # fmt: skip
+                        (place - width / 2.0, low),
+                        width,
+                        (outer - inner) / 2.0,
+                        facecolor=SKY,
+                        edgecolor=BLACK,
+                        linewidth=1.0,
+                    )
                 )
     reactions = np.hypot(*dataset[f"{name}_reaction"].values.T)
     axial = dataset[f"{name}_axial"].values
@@ -71,13 +80,19 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
         side = -1.0 if upwards else 1.0
         edge = side * 0.5 * widest
         axes.annotate(
-            "", (place, edge), (place, edge + side * (length + gap)),
+            "",
+            (place, edge),
+            (place, edge + side * (length + gap)),
             arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8},
-        )  # fmt: skip
+        )
         axes.text(
-            place, edge + side * (length + 1.3 * gap), words, color=colour, ha="center",
+            place,
+            edge + side * (length + 1.3 * gap),
+            words,
+            color=colour,
+            ha="center",
             va="top" if upwards else "bottom",
-        )  # fmt: skip
+        )
 
     for end, place, size, along in zip(_ENDS, at, reactions, axial, strict=True):
         words = f"{end} {size:.0f} N"
@@ -87,9 +102,12 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
     for number, (place, size) in enumerate(zip(loads, radial, strict=True)):
         if size:
             arrow(
-                float(place), float(size), False, VERMILION,
+                float(place),
+                float(size),
+                False,
+                VERMILION,
                 f"{'teeth' if number == 0 else 'load'} {size:.0f} N",
-            )  # fmt: skip
+            )
     axes.axhline(0.0, color=BLACK, linewidth=0.8, dashes=(8, 3, 2, 3))
     axes.set_ylim(-half, half)
     axes.set_aspect("equal", adjustable="box")

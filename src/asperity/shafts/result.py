@@ -12,7 +12,7 @@ from asperity.shafts.shaft import ShaftFound
 if TYPE_CHECKING:
     import xarray as xr
 
-    from asperity.shafts.rows import ShaftRow
+    from asperity.rating.parts import PartRow
 
 
 class ShaftStudy(Result):
@@ -123,7 +123,7 @@ class ShaftStudy(Result):
         )
 
     @property
-    def rows(self) -> "tuple[ShaftRow, ...]":
+    def rows(self) -> "tuple[PartRow, ...]":
         """What each part comes to of what is asked."""
         from asperity.shafts.rows import rows_of
 
@@ -185,5 +185,3 @@ class ShaftStudy(Result):
 
 def _finite(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
-
-

@@ -56,9 +56,7 @@ class Loaded:
         marks = [*self.model.bearings, *(load.at for load in self.loads)]
         marks += [detail.at for detail in self.model.details]
         places = places_of(self.model.stretches, marks, between)
-        return moments(
-            places, self.loads, self.carried, self.model.bearings, self.axial.forces
-        )
+        return moments(places, self.loads, self.carried, self.model.bearings, self.axial.forces)
 
     def deflection(self, between: int = 0) -> Deflection:
         """Return how it bends."""
@@ -194,9 +192,7 @@ class ShaftFound:
                     )
                     for each, speed in zip(case, self.speeds, strict=True)
                 ]
-                own[case[0].condition] = life_of(
-                    place, loads, self.options, self.model.table.peak
-                )
+                own[case[0].condition] = life_of(place, loads, self.options, self.model.table.peak)
             made.append(own)
         return tuple(made)
 

@@ -157,7 +157,5 @@ def moments(
                 before @ force[:, 0],
             )
         )
-    shear, bending, torque, axial = (
-        np.stack(pair, axis=1) for pair in zip(*sides, strict=True)
-    )
+    shear, bending, torque, axial = (np.stack(pair, axis=1) for pair in zip(*sides, strict=True))
     return Moments(places, shear, bending, torque, axial)

@@ -10,6 +10,7 @@ from asperity.rating.by_standard import rate_by
 from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, inputs, scaled
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.parts import PartRow
 from asperity.rating.rate import tables_of
 from asperity.rating.result import Rating
 from asperity.runs import Run
@@ -24,7 +25,7 @@ from asperity.shafts.loads import (
 from asperity.shafts.model import Model, model_of
 from asperity.shafts.parameters import BearingOptions, WheelShaft, WormShaft
 from asperity.shafts.result import ShaftStudy
-from asperity.shafts.rows import ShaftRow, rows_of
+from asperity.shafts.rows import rows_of
 from asperity.shafts.shaft import ShaftFound, find_shaft
 from asperity.shafts.statics import PointLoad
 
@@ -117,7 +118,7 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
 
 def shaft_rows(
     case: Case, loads: tuple[Load, ...] | None = None, iso: Rating | None = None
-) -> tuple[ShaftRow, ...]:
+) -> tuple[PartRow, ...]:
     """Return a row for each shaft and bearing of a case, for the screen of a rating.
 
     Parameters

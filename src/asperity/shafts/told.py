@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -11,8 +11,8 @@ from asperity.results.table import Column, Table
 from asperity.shafts.rows import NAMES
 from asperity.shafts.shaft import ShaftFound
 
-if TYPE_CHECKING:
-    from asperity.shafts.result import ShaftStudy
+Study = Any
+"""A `asperity.shafts.result.ShaftStudy`, whose module imports this one."""
 
 _ENDS = ("A", "B")
 _BETWEEN = 12
@@ -92,7 +92,7 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
     }
 
 
-def tables(study: "ShaftStudy") -> tuple[Table, ...]:
+def tables(study: Study) -> tuple[Table, ...]:
     """Return what a person reads: what is asked, reactions, lives, sections."""
     made = []
     if study.rows:
@@ -180,7 +180,7 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
         )  # fmt: skip
 
 
-def _deflection(study: "ShaftStudy") -> Table:
+def _deflection(study: Study) -> Table:
     return Table.of(
         ("", "um"),
         [

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from asperity.arrays import Real
-from asperity.formulas import Symbol, formula, not_negative, positive
+from asperity.formulas import Symbol, formula, positive
 from asperity.shafts import symbols as s
 
 Kind = Literal["ball", "roller"]
@@ -109,7 +109,7 @@ def life_modification(
     >>> round(life_modification(0.6, 1.0, 100.0, 1000.0, "ball"), 5)
     0.80119
     >>> round(life_modification(0.6, 1.0, 100.0, 1000.0, "roller"), 5)
-    0.23644
+    0.23643
     """
     k = np.clip(viscosity_ratio, 0.1, 4.0)
     x = cleanliness * limit / load

@@ -11,8 +11,8 @@ from asperity.shafts import symbols as s
 
 _TESTED = 16.0
 
-_sigma_A = Annotated[Real, Symbol("sigma_AD", "MPa", positive)]
-_tau_A = Annotated[Real, Symbol("tau_AD", "MPa", positive)]
+_normal_borne = Annotated[Real, Symbol("sigma_AD", "MPa", positive)]
+_shear_borne = Annotated[Real, Symbol("tau_AD", "MPa", positive)]
 _bending = Annotated[Real, Symbol("sigma_ba", "MPa", not_negative)]
 _torsion = Annotated[Real, Symbol("tau_ta", "MPa", not_negative)]
 _normal = Annotated[Real, Symbol("sigma_max", "MPa", not_negative)]
@@ -159,7 +159,10 @@ def amplitude_at_constant_ratio(
     because="nothing alternates",
 )
 def fatigue_safety(
-    bending: _bending, bending_strength: _sigma_A, torsion: _torsion, torsion_strength: _tau_A
+    bending: _bending,
+    bending_strength: _normal_borne,
+    torsion: _torsion,
+    torsion_strength: _shear_borne,
 ) -> Real:
     """Safety against fatigue; what alternates is bending and torsion.
 
@@ -171,9 +174,7 @@ def fatigue_safety(
     return 1.0 / np.sqrt((bending / bending_strength) ** 2 + (torsion / torsion_strength) ** 2)
 
 
-@formula(
-    symbol="sigma_F", unit="MPa", equation="K_1 K_2F gamma_F sigma_S", source=s.DIN_743_MEMORY
-)
+@formula(symbol="sigma_F", unit="MPa", equation="K_1 K_2F gamma_F sigma_S", source=s.DIN_743_MEMORY)
 def part_yield_strength(
     size: s.K_1, static_support: s.K_2F, notch: s.gamma_F, yield_strength: s.sigma_S
 ) -> Real:

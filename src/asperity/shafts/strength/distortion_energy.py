@@ -1,4 +1,4 @@
-"""Distortion energy with the lines of Goodman and Gerber, as textbooks of machine design have it."""
+"""Distortion energy with the lines of Goodman and Gerber, as textbooks have it."""
 
 from typing import Annotated
 
@@ -20,9 +20,7 @@ M_x = Annotated[Real, Symbol("M", "N m", not_negative)]
 T_x = Annotated[Real, Symbol("T", "N m", not_negative)]
 
 
-@formula(
-    symbol="A", unit="N m", equation="sqrt(4 (K_f M)^2 + 3 (K_fs T)^2)", source=s.SHIGLEY
-)
+@formula(symbol="A", unit="N m", equation="sqrt(4 (K_f M)^2 + 3 (K_fs T)^2)", source=s.SHIGLEY)
 def combined_moment(moment: M_x, torque: T_x, bending: K_f, torsion: K_fs) -> Real:
     """Twice the bending moment that alone would do as much by distortion energy.
 
@@ -78,9 +76,7 @@ def gerber_safety(
     )  # fmt: skip
 
 
-@formula(
-    symbol="d", unit="mm", equation="(16000 n/pi (A/S_e + B/S_ut))^(1/3)", source=s.SHIGLEY
-)
+@formula(symbol="d", unit="mm", equation="(16000 n/pi (A/S_e + B/S_ut))^(1/3)", source=s.SHIGLEY)
 def goodman_diameter(
     safety: n, alternating: A, mean: B, endurance_limit: S_e, tensile_strength: S_ut
 ) -> Real:

@@ -1,4 +1,4 @@
-"""A section of a shaft that is judged: its notch factors, and its safeties by DIN 743 and others."""
+"""A section of a shaft that is judged: notch factors, and safeties by DIN 743 and others."""
 
 import math
 from typing import Literal, NamedTuple
@@ -167,9 +167,7 @@ def _notch(detail: Detail, tensile: float, yielding: float) -> tuple[tuple[float
             shapes.append(shape)
         return (found[0], found[1]), _gamma(shapes[0])
     if detail.kind in ("keyway", "press fit"):
-        seat: Literal["keyway", "press fit"] = (
-            "keyway" if detail.kind == "keyway" else "press fit"
-        )
+        seat: Literal["keyway", "press fit"] = "keyway" if detail.kind == "keyway" else "press fit"
         return (
             float(notches.seat_factor(detail.diameter, tensile, "bending", seat)),
             float(notches.seat_factor(detail.diameter, tensile, "torsion", seat)),
@@ -216,9 +214,7 @@ def judged(
     safeties = []
     for case in (1, 2):
         normal = _borne_amplitude(borne.part[0], borne.sensitivity[0], mean, bend, case)
-        shear = _borne_amplitude(
-            borne.part[1], borne.sensitivity[1], mean / _SHEAR, twist_a, case
-        )
+        shear = _borne_amplitude(borne.part[1], borne.sensitivity[1], mean / _SHEAR, twist_a, case)
         # Where the mean stress alone is too much, nothing may alternate.
         holds = normal > 0.0 and shear > 0.0
         safeties.append(
