@@ -308,6 +308,7 @@ def rate(
         alternatives=(),
         unanswered=unanswered,
         contact=None,
+        parts=(),
         given=given,
         tables_bs721=tables,
         gearset=gearset,

@@ -148,7 +148,7 @@ def mesh_compliance(
         Deflection and slope along s (rows) per force and couple that turns along the slope
         (columns): mm/N, rad/N; mm/(N mm), rad/(N mm).
     """
-    columns = []
+    columns: list[tuple[float, float]] = []
     for load in (
         PointLoad(mesh, (0.0, 1.0, 0.0)),
         PointLoad(mesh, (0.0, 0.0, 0.0), (0.0, 0.0, -1.0)),

@@ -1,16 +1,18 @@
 """A rolling bearing of a data file: its size, its ratings and what its table says of it."""
 
 import math
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Mapping
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import model_validator
+from pydantic import ValidationInfo, model_validator
 
-from asperity.errors import InputError, choices
+from asperity.errors import InputError, choices, shown
 from asperity.gearset.library import Sourced
+from asperity.shafts.dimensions import DIMENSIONS
 from asperity.shafts.rolling import equivalent
 from asperity.shafts.rolling.equivalent import Factors
 from asperity.shafts.rolling.life import EXPONENT, Kind, fatigue_load_limit
-from asperity.units import Quantity
+from asperity.units import Quantity, to_si
 
 _Length = Annotated[float, Quantity("m", what="a length", example="40 mm", gt=0, le=10)]
 _Force = Annotated[float, Quantity("N", what="a force", example="36 kN", gt=0, le=1e9)]
@@ -33,9 +35,15 @@ class RollingBearing(Sourced):
         As it appears in results.
     kind : {'deep groove', 'angular contact', 'four-point', 'taper', 'cylindrical'}
         Which formulas of equivalent loads are taken.
-    bore, outside_diameter, width : float or str
-        Boundary dimensions :math:`d`, :math:`D` and :math:`B`, m; drawn, and of the mean of the
-        diameters the oil film is judged.
+    bore : float or str
+        :math:`d`, m.
+    series : {'10', '02', '03'}, optional
+        Dimension series of ISO 15, of which diameter and width follow by the bore: 60, 62 and 63 of
+        deep groove, 70, 72 and 73 of angular contact bearings.
+    outside_diameter : float or str, optional
+        :math:`D`, m; of its mean with the bore the oil film is judged. Left out: by the series.
+    width : float or str, optional
+        :math:`B`, m, which is drawn. Left out: by the series.
     dynamic_rating, static_rating : float or str
         :math:`C` and :math:`C_0` of one bearing, N, as its maker's table has them.
     fatigue_limit : float or str, optional
@@ -55,8 +63,10 @@ class RollingBearing(Sourced):
 
     kind: Literal["deep groove", "angular contact", "four-point", "taper", "cylindrical"]
     bore: _Length
-    outside_diameter: _Length
-    width: _Length
+    series: Literal["10", "02", "03"] | None = None
+    # Which are never missing: see _of_series.
+    outside_diameter: _Length = None  # type: ignore[assignment]
+    width: _Length = None  # type: ignore[assignment]
     dynamic_rating: _Force
     static_rating: _Force
     fatigue_limit: _Force | None = None
@@ -67,6 +77,32 @@ class RollingBearing(Sourced):
     e: _Factor | None = None
     Y: _Factor | None = None
     Y0: _Factor | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_series(cls, data: Any, info: ValidationInfo[Any]) -> Any:
+        if not isinstance(data, Mapping):
+            return data
+        lacking = [key for key in ("outside_diameter", "width") if data.get(key) is None]
+        if not lacking:
+            return data
+        series, bore = data.get("series"), data.get("bore")
+        if series is None:
+            raise InputError(f"{cls.table}.{lacking[0]} is missing; give it, or {cls.table}.series")
+        if series not in DIMENSIONS or not isinstance(bore, str | float | int):
+            return {
+                key: value for key, value in data.items() if key not in lacking
+            } | dict.fromkeys(lacking, "1 mm")
+        size = _millimetres(bore)
+        known = DIMENSIONS[series]
+        if size not in known:
+            bores = ", ".join(f"{each:g}" for each in known)
+            raise InputError(
+                f"{cls.table}.bore is {shown(bore)}; the dimensions of series {series} are known "
+                f"for {bores} mm: give {' and '.join(lacking)}"
+            )
+        found = dict(zip(("outside_diameter", "width"), known[size], strict=True))
+        return {**data, **{key: f"{found[key]:g} mm" for key in lacking}}
 
     @model_validator(mode="after")
     def _complete(self) -> "RollingBearing":
@@ -147,3 +183,12 @@ class RollingBearing(Sourced):
         if self.kind == "taper":
             return float(equivalent.induced_of_taper(radial, self.Y or 1.0))
         return equivalent.induced_of_angular(self.angle)(radial)
+
+
+def _millimetres(bore: str | float) -> float:
+    """Return a bore in mm; one that cannot be read is refused where it stands."""
+    try:
+        metres = to_si(bore, "m") if isinstance(bore, str) else float(bore)
+    except InputError as error:
+        raise InputError(f"bearing.bore is {shown(bore)}; {error}") from None
+    return round(1e3 * metres, 6)

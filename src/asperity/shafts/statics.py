@@ -135,8 +135,8 @@ def moments(
         Axial force of each of them, along x, N.
     """
     every = list(loads)
-    for at, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
-        every.append(PointLoad(at, (-fx, -fy, -fz)))
+    for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
+        every.append(PointLoad(place, (-fx, -fy, -fz)))
     every.append(PointLoad(0.0, (0.0, 0.0, 0.0), (carried.torque, 0.0, 0.0)))
     at = np.array([load.at for load in every])
     force = np.array([load.force for load in every])
