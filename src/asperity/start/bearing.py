@@ -20,10 +20,10 @@ _GIVEN = {
 }
 _REMARKS = (
     "Rolling bearings of your own, begun by asperity new.",
-    "Ratings of makers differ by 5 to 10 percent: take them from the table of the one you buy from, "
-    "and name it below. What is given here is invented.",
-    "asperity --materials FILE bearings lists what the file holds; asperity --materials FILE shafts "
-    "CASE takes it, where [worm_shaft] or [wheel_shaft] names it.",
+    "Ratings of makers differ by 5 to 10 percent: take them from the table of the one you buy "
+    "from, and name it below. What is given here is invented.",
+    "asperity --materials FILE bearings lists what the file holds; asperity --materials FILE "
+    "shafts CASE takes it, where [worm_shaft] or [wheel_shaft] names it.",
     "Every key that stands behind a # may be given as well.",
 )
 
