@@ -40,7 +40,7 @@ def shafts(draw):
 
 
 @given(shafts())
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 def test_reactions_balance_forces_and_moments(shaft):
     _, loads, (first, second) = shaft
     found = reactions(loads, first, second)
@@ -60,7 +60,7 @@ def test_reactions_balance_forces_and_moments(shaft):
 
 
 @given(shafts())
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_nothing_is_left_at_the_end_of_a_shaft(shaft):
     stretches, loads, bearings = shaft
     found = reactions(loads, *bearings)
@@ -77,7 +77,7 @@ def test_nothing_is_left_at_the_end_of_a_shaft(shaft):
 @given(
     st.floats(20.0, 400.0), st.floats(0.05, 0.95), st.floats(10.0, 60.0),
 )  # fmt: skip
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=60, deadline=None)
 def test_a_plain_shaft_bends_as_beam_tables_say(span, place, diameter):
     at = place * span
     found = mesh_compliance([Stretch(0.0, span, diameter)], (0.0, span), at, E)

@@ -170,7 +170,8 @@ def _details(
 ) -> tuple[tuple[Detail, ...], tuple[str, ...]]:
     """Return the sections that are judged, and what is not."""
     inner = [scaled(table.mesh, 1e3)]
-    inner += [scaled(each.at, 1e3) for each in (*table.bearing, *table.load)]
+    inner += [scaled(each.at, 1e3) for each in table.bearing]
+    inner += [scaled(each.at, 1e3) for each in table.load]
     made, notes = [], []
     for place, (section, stretch, d) in enumerate(
         zip(table.section, stretches, bears, strict=True)

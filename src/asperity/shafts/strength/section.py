@@ -126,10 +126,11 @@ def strength(detail: Detail, steel: ShaftSteel, hardening: float = 1.0) -> Stren
         )
     beta, gamma_f = _notch(detail, k_1[0] * tensile, k_1[1] * yielding)
     totals, parts, psis = [], [], []
-    for load, factor, smooth in (
+    loads: tuple[tuple[notches.Load, float, float], ...] = (
         ("bending", beta[0], steel.sigma_bw),
         ("torsion", beta[1], steel.tau_tw),
-    ):
+    )
+    for load, factor, smooth in loads:
         size = float(din743.geometric_size_factor(detail.diameter, load))
         rough = float(din743.surface_factor(detail.roughness, k_1[0] * tensile, load))
         if detail.kind in ("keyway", "press fit"):
@@ -206,7 +207,7 @@ def judged(
     twist_m = twist - twist_a
     mises = math.hypot(bend + abs(pull), _SHEAR * twist)
     if not mises > 0.0:
-        return Judged(*([math.inf] * 5), 0.0, 0.0, 0.0, 0.0)
+        return Judged(math.inf, math.inf, math.inf, math.inf, math.inf, 0.0, 0.0, 0.0, 0.0)
     yields = _yield_safety(steel, borne, (bend, abs(pull), twist), peak)
     if not (bend > 0.0 or twist_a > 0.0):
         return Judged(math.inf, math.inf, yields, math.inf, math.inf, bend, pull, twist, mises)
