@@ -17,7 +17,7 @@ from asperity.shafts.beam import mesh_compliance
 from asperity.shafts.bearings import Carried, life_of
 from asperity.shafts.loads import EVERY, conditions
 from asperity.shafts.model import model_of, share_axial
-from asperity.shafts.parameters import BearingOptions
+from asperity.shafts.options import BearingOptions
 from asperity.shafts.strength.section import Actions, Detail, judged, strength
 
 

@@ -21,7 +21,7 @@ _TABLES = {
     "rating": "asperity.rating.parameters:RatingOptions",
     "worm_shaft": "asperity.shafts.parameters:WormShaft",
     "wheel_shaft": "asperity.shafts.parameters:WheelShaft",
-    "bearings": "asperity.shafts.parameters:BearingOptions",
+    "bearings": "asperity.shafts.options:BearingOptions",
     "block": "asperity.block.parameters:Block",
     "contact": "asperity.block.parameters:Contact",
     "hob": "asperity.flanks.parameters:Hob",

@@ -1,8 +1,8 @@
 """The shafts of a worm gearset and their rolling bearings: loads, deflection, strength, life."""
 
 from asperity.shafts.bearing import RollingBearing
+from asperity.shafts.options import BearingOptions
 from asperity.shafts.parameters import (
-    BearingOptions,
     ShaftBearing,
     ShaftLoad,
     ShaftSection,

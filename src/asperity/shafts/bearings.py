@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from asperity.errors import InputError
-from asperity.shafts.parameters import BearingOptions, ShaftBearing
+from asperity.shafts.options import BearingOptions
+from asperity.shafts.parameters import ShaftBearing
 from asperity.shafts.rolling import life
 from asperity.shafts.rolling.equivalent import dynamic_load, outside_table, static_load
 

@@ -1,17 +1,16 @@
-"""The tables `[worm_shaft]`, `[wheel_shaft]` and `[bearings]` of a case file."""
+"""The tables `[worm_shaft]` and `[wheel_shaft]` of a case file."""
 
 import math
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
-from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError, shown
 from asperity.gearset.library import resolve
 from asperity.shafts.bearing import RollingBearing
 from asperity.shafts.elements import Element
-from asperity.shafts.rolling.life import CLEANLINESS, RELIABILITY
 from asperity.shafts.steel import ShaftSteel
 from asperity.units import Quantity
 
@@ -26,9 +25,9 @@ class ShaftSection(Table):
     Parameters
     ----------
     length : float or str
-        m.
+        Along the axis, m.
     diameter : float or str, optional
-        m. Left out: the worm's threads, whose root bears and which bend as 1.1 of it.
+        Outside, m. Left out: the worm's threads, whose root bears and which bend as 1.1 of it.
     fillet : float or str, optional
         Radius at its end, where the next section begins, m.
     notch : {'none', 'keyway', 'press fit', 'groove'}
@@ -182,7 +181,7 @@ class ShaftLoad(Table):
     at : float or str
         Position from the end, m.
     radial : float or str, optional
-        N. Give this or ``element``.
+        Force across the axis, N. Give this or ``element``.
     element : str, optional
         What sits there and pulls by the shaft's torque, as 'v-belt': see the factors of
         `asperity.shafts.elements`.
@@ -372,49 +371,3 @@ class WheelShaft(_Shaft):
 
 for _model in (WormShaft, WheelShaft):
     _model.__doc__ = f"{_model.__doc__}\n{_SHAFT}"
-
-
-def _percent(value: Any) -> Any:
-    if isinstance(value, str):
-        value = value.removesuffix("%").strip()
-        return int(value) if value.isdigit() else value
-    return int(value) if isinstance(value, float) and value.is_integer() else value
-
-
-class BearingOptions(Table):
-    """What is asked of the bearings.
-
-    Parameters
-    ----------
-    life : float or str, optional
-        Life that they must reach, s. Left out: that of the operation.
-    reliability : {90, 95, 96, 97, 98, 99}
-        Percent of them that reach it; "95 %" in a file.
-    contamination : {'high', 'normal', 'slight', 'typical', 'severe', 'bronze'}, optional
-        Cleanliness of the oil in the words of ISO 281, 'high' the cleanest, each with the least
-        e_C of its range; 'bronze' is an oil bath with what a bronze wheel wears off, 0.3, of our
-        own. Left out: L10h alone is told, without what the oil does.
-    raises : {'clockwise', 'anticlockwise'}, optional
-        Rotation of the worm that raises a load that never reverses, as a hoist's: its axial force
-        keeps its sign. Left out: both rotations, with the worm or the load driving.
-    """
-
-    table: ClassVar[str] = "bearings"
-
-    life: Annotated[float, Quantity("s", what="a time", example="10000 h", gt=0)] | None = None
-    reliability: Annotated[
-        Literal[90, 95, 96, 97, 98, 99],
-        BeforeValidator(_percent, json_schema_input_type=Literal[90, 95, 96, 97, 98, 99] | str),
-    ] = 90
-    contamination: Literal["high", "normal", "slight", "typical", "severe", "bronze"] | None = None
-    raises: Literal["clockwise", "anticlockwise"] | None = None
-
-    @property
-    def a_1(self) -> float:
-        """Life factor of the reliability."""
-        return RELIABILITY[self.reliability]
-
-    @property
-    def e_c(self) -> float | None:
-        """Factor of the oil's cleanliness."""
-        return None if self.contamination is None else CLEANLINESS[self.contamination]

