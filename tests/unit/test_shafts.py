@@ -289,3 +289,43 @@ def test_bearings_that_yield_do_so_for_the_drive_too():
     assert shaft_of(case_of(yields)).bearing_radial == pytest.approx(150e6)
     found = solved(yields)
     assert found.worm_deflection > solved().worm_deflection
+
+
+def test_a_step_with_a_rotation_of_its_own_has_it_in_every_case():
+    steps = (
+        "operation.duty_cycle=[{duration='1 h',output_torque='250 N m',rotation='clockwise'},"
+        "{duration='1 h',output_torque='100 N m',rotation='anticlockwise',drives='load'}]"
+    )
+    found = solved(steps).found["worm_shaft"]
+    # What drives in the first step is still open.
+    assert len(found.cases) == 2
+    for case in found.every:
+        assert [each.condition.rotation for each in case] == ["clockwise", "anticlockwise"]
+        assert case[1].condition.drives == "load"
+
+
+def test_many_loads_have_what_each_has_alone():
+    step = "{duration='10 h',output_torque='%g N m',worm_speed='%g rpm'}"
+    loads = [(250.0 - 4.0 * place, 1400.0 - 20.0 * place) for place in range(20)]
+    many = solved(f"operation.duty_cycle=[{','.join(step % load for load in loads)}]").loads
+    for own, load in list(zip(many, loads, strict=True))[::7]:
+        first = step % load
+        torque = "operation.output_torque='250 N m'"
+        (alone,) = solved(torque, f"operation.duty_cycle=[{first}]").loads
+        for key in ("tangential", "axial", "radial", "driven", "viscosity", "speed", "hours"):
+            assert getattr(own, key) == pytest.approx(getattr(alone, key), rel=1e-12)
+
+
+def test_a_spectrum_gives_the_loads_of_a_duty_cycle():
+    case = case_of().replace_values({"operation.duty_cycle": None})
+    steps = (
+        "spectrum.step=[{duration='500 h',output_torque='250 N m'},"
+        "{duration='1500 h',output_torque='150 N m'},"
+        "{duration='3000 h',output_torque='60 N m',worm_speed='700 rpm'}]"
+    )
+    found = shafts.answer(shafts.prepare(case.replace([steps])), Run())
+    wanted = solved()
+    assert [load.hours for load in found.loads] == [500.0, 1500.0, 3000.0]
+    for own, other in zip(found.loads, wanted.loads, strict=True):
+        assert own.tangential == pytest.approx(other.tangential, rel=1e-12)
+    assert found.life == wanted.life == pytest.approx(5000.0)

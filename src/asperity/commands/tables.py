@@ -22,6 +22,8 @@ _TABLES = {
     "worm_shaft": "asperity.shafts.parameters:WormShaft",
     "wheel_shaft": "asperity.shafts.parameters:WheelShaft",
     "bearings": "asperity.shafts.options:BearingOptions",
+    "spectrum": "asperity.rating.spectrum:Spectrum",
+    "housing": "asperity.rating.housing:Housing",
     "block": "asperity.block.parameters:Block",
     "contact": "asperity.block.parameters:Contact",
     "hob": "asperity.flanks.parameters:Hob",

@@ -50,9 +50,6 @@ def sections(rated: Reported) -> Iterator[Section]:
         said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
         by = "Forces on shafts and bearings, by ISO/TR 14521"
         yield Section(by, (said, *_of_agma(rated)), tables=(_forces(rated),))
-    if rated.parts:
-        lines = tuple(row.said(f"parts.{place}") for place, row in enumerate(rated.parts))
-        yield Section("Shafts and bearings", (*lines, "asperity shafts CASE tells all of them."))
     yield rated.contact or Section("Contact pattern and lines", (_NO_CONTACT,))
     yield Section("Self-locking", tables=(_self_locking(rated), *_held(rated)))
     limits = tuple(

@@ -8,12 +8,20 @@ below zero where the worm locks itself and the motor turns it even so. The axes 
 """
 
 import math
+from collections.abc import Sequence
 from typing import Literal, NamedTuple, cast
 
+import numpy as np
+
 from asperity.errors import InputError
-from asperity.rating.bs721.tables import Tables
-from asperity.rating.by_standard import rate_by
-from asperity.rating.inputs import Inputs
+from asperity.formulas import masking
+from asperity.rating.inputs import Inputs, Values
+from asperity.rating.iso14521.calculation import parts_of
+from asperity.rating.iso14521.forces import (
+    separating_force,
+    wheel_tangential_force,
+    worm_tangential_force,
+)
 from asperity.rating.result import Rating
 from asperity.shafts.statics import PointLoad, Vector, mesh_load
 
@@ -31,6 +39,11 @@ class Condition(NamedTuple):
     def text(self) -> str:
         """As tables show it."""
         return f"{self.rotation}, {self.drives} drives"
+
+    @property
+    def short(self) -> str:
+        """As a screen shows it."""
+        return self.rotation if self.drives == "worm" else f"{self.rotation}, load drives"
 
     @property
     def key(self) -> str:
@@ -70,6 +83,10 @@ class Load(NamedTuple):
         F_tm1 where the load drives, N; below zero where the worm locks itself.
     viscosity : float
         Of the oil in the sump, mm2/s.
+    rotation : {'both', 'clockwise', 'anticlockwise'}
+        Which the worm has under it, whatever the case.
+    lets_down : bool
+        Whether the load drives under it, whatever the case.
     """
 
     hours: float
@@ -81,6 +98,13 @@ class Load(NamedTuple):
     radial: float
     driven: float
     viscosity: float
+    rotation: Literal["both", "clockwise", "anticlockwise"] = "both"
+    lets_down: bool = False
+
+    def within(self, case: Condition) -> Condition:
+        """Return its condition in a case: what it says of itself, else that of the case."""
+        rotation = case.rotation if self.rotation == "both" else self.rotation
+        return Condition(rotation, "load" if self.lets_down else case.drives)
 
     def on_worm(self, condition: Condition, hand: float) -> Vector:
         """Return what the teeth put on the worm, by x, y and z, N."""
@@ -90,49 +114,70 @@ class Load(NamedTuple):
         return -hand * turn * self.axial, self.radial, -turn * self.driven
 
 
-def loads_of(given: Inputs, tables: Tables, iso: Rating | None = None) -> tuple[Load, ...]:
-    """Return the loads of a life, by ISO/TR 14521.
+def cases_of(loads: Sequence[Load], raises: Rotation | None) -> tuple[Condition, ...]:
+    """Return the cases in which the loads differ, of four, or two of one that never reverses."""
+    found = {tuple(load.within(case) for load in loads): case for case in conditions(raises)[::-1]}
+    return tuple(found.values())[::-1]
 
-    Parameters
-    ----------
-    given : Inputs
-        The gearset and how it is run; each part of a duty cycle is a load.
-    tables : Tables
-        Of BS 721.
-    iso : Rating, optional
-        The rating of a gearset without a duty cycle, where it is there already.
+
+def loads_of(given: Inputs, iso: Rating) -> tuple[Load, ...]:
+    """Return the loads of a life, beside a rating by ISO/TR 14521.
+
+    Each part of a duty cycle or spectrum is a load of its own; without one there is a single load.
 
     Raises
     ------
     InputError
-        The standard cannot be applied.
+        The standard has no answer for a part.
     """
-    parts = given.parted()
-    if not parts:
-        return (_load(given, iso or rate_by("iso14521", given, tables), float(given.life)),)
+    steps = given.operation.steps or ()
+    if not given.duty:
+        return (
+            _load(
+                given, float(given.life), float(given.output_torque), float(given.worm_speed),
+                float(iso["mu_zm"]), float(iso["theta_S_degC"]),
+            ),
+        )  # fmt: skip
+    with masking():
+        found = parts_of(given, {key: iso[key] for key in ("p_m_star", "E_red_MPa")})
+    friction, sump = (_each(given, found, key) for key in ("mu_zm", "theta_S_degC"))
     made = []
-    for place, part in enumerate(parts, 1):
-        try:
-            rating = rate_by("iso14521", part, tables)
-        except InputError as error:
-            raise InputError(f"operation.duty_cycle, part {place}: {error}") from None
-        made.append(_load(part, rating, float(part.life)))
+    for place, (part, step) in enumerate(zip(given.duty, steps, strict=True)):
+        of = float(part.hours), float(part.torque), float(part.speed)
+        mu, celsius = friction[place], sump[place]
+        if not (math.isfinite(mu) and math.isfinite(celsius)):
+            raise InputError(
+                f"part {place + 1} of the load has no friction or temperature by ISO/TR 14521, so "
+                "that its forces are not known: asperity rate tells why"
+            )
+        load = _load(given, *of, mu, celsius)
+        made.append(load._replace(rotation=step.rotation, lets_down=step.drives == "load"))
     return tuple(made)
 
 
-def _load(given: Inputs, iso: Rating, hours: float) -> Load:
-    wheel_force, friction = float(iso["F_tm2_N"]), float(iso["mu_zm"])
-    celsius = float(iso["theta_S_degC"])
+def _each(given: Inputs, found: Sequence[Values], key: str) -> list[float]:
+    """Return a value of each part, whether they went through the formulas together or not."""
+    if given.together:
+        return [float(v) for v in np.broadcast_to(found[0][key], (len(given.duty),))]
+    return [float(own[key]) for own in found]
+
+
+def _load(
+    given: Inputs, hours: float, torque: float, speed: float, friction: float, celsius: float
+) -> Load:
+    wheel_force = float(wheel_tangential_force(torque, given.wheel_mean_diameter))
+    lead = float(given.lead_angle)
+    tangential = float(worm_tangential_force(wheel_force, lead, friction))
     oil = given.operation.lubricant.kinematic_viscosity(celsius + 273.15)
     return Load(
         hours,
-        float(given.output_torque),
-        float(given.worm_speed),
-        float(given.wheel_speed),
-        float(iso["F_tm1_N"]),
+        torque,
+        speed,
+        speed / float(given.gear_ratio),
+        tangential,
         wheel_force,
-        float(iso["F_rm_N"]),
-        wheel_force * math.tan(float(given.lead_angle) - math.atan(friction)),
+        float(separating_force(tangential, given.pressure_angle, lead, friction)),
+        wheel_force * math.tan(lead - math.atan(friction)),
         1e6 * float(oil),
     )
 

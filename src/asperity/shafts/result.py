@@ -12,7 +12,7 @@ from asperity.shafts.shaft import ShaftFound
 if TYPE_CHECKING:
     import xarray as xr
 
-    from asperity.rating.parts import PartRow
+    from asperity.rating.rows import Row
 
 
 class ShaftStudy(Result):
@@ -123,7 +123,7 @@ class ShaftStudy(Result):
         )
 
     @property
-    def rows(self) -> "tuple[PartRow, ...]":
+    def rows(self) -> "tuple[Row, ...]":
         """What each part comes to of what is asked."""
         from asperity.shafts.rows import rows_of
 

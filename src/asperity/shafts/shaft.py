@@ -124,6 +124,8 @@ class ShaftFound:
     ----------
     model : Model
         The shaft.
+    cases : tuple of Condition
+        What holds for loads that say nothing of themselves.
     every : tuple of tuple of Loaded
         By case and load.
     options : BearingOptions
@@ -133,6 +135,7 @@ class ShaftFound:
     """
 
     model: Model
+    cases: tuple[Condition, ...]
     every: tuple[tuple[Loaded, ...], ...]
     options: BearingOptions
     speeds: tuple[float, ...]
@@ -181,7 +184,7 @@ class ShaftFound:
                 made.append(None)
                 continue
             own = {}
-            for case in self.every:
+            for condition, case in zip(self.cases, self.every, strict=True):
                 loads = [
                     Carried(
                         each.carried.radial[number],
@@ -192,7 +195,7 @@ class ShaftFound:
                     )
                     for each, speed in zip(case, self.speeds, strict=True)
                 ]
-                own[case[0].condition] = life_of(place, loads, self.options, self.model.table.peak)
+                own[condition] = life_of(place, loads, self.options, self.model.table.peak)
             made.append(own)
         return tuple(made)
 
@@ -222,11 +225,12 @@ def find_shaft(
     for case in cases:
         own = []
         for load in loads:
-            point = teeth(load, case)
+            condition = load.within(case)
+            point = teeth(load, condition)
             turned = 1e-3 * point.couple[0]
-            found = Loaded(model, load, case, (point, *model.pulls(turned)))
+            found = Loaded(model, load, condition, (point, *model.pulls(turned)))
             _ = found.axial
             own.append(found)
         every.append(tuple(own))
     speeds = tuple(each.wheel_speed if of_wheel else each.speed for each in loads)
-    return ShaftFound(model, tuple(every), options, speeds)
+    return ShaftFound(model, tuple(cases), tuple(every), options, speeds)

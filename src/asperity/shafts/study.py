@@ -9,15 +9,16 @@ from asperity.rating.bs721.tables import Tables
 from asperity.rating.by_standard import rate_by
 from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, inputs, scaled
-from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.parts import PartRow
-from asperity.rating.rate import tables_of
+from asperity.rating.parameters import RatingOptions
 from asperity.rating.result import Rating
+from asperity.rating.rows import Row
+from asperity.rating.standards import tables_of
+from asperity.rating.tables import operation_of
 from asperity.runs import Run
 from asperity.shafts.loads import (
     Condition,
     Load,
-    conditions,
+    cases_of,
     loads_of,
     on_wheel_shaft,
     on_worm_shaft,
@@ -54,14 +55,14 @@ def prepare(case: Case) -> Prepared:
     InputError
         It has none, or its gearset's numbers do not belong together.
     """
-    gearset, operation = case.require(Gearset), case.require(Operation)
+    gearset = case.require(Gearset)
     if not given_shafts(case):
         raise InputError(
             f"{case.source}: the table [worm_shaft] is missing, and [wheel_shaft]; add one"
         )
     with told(case):
         options = case.get(RatingOptions, RatingOptions())
-        operation = driven(gearset, operation, options)
+        operation = driven(gearset, operation_of(case), options)
         gearset.require_consistent()
         given = inputs(gearset, operation, options)
         worm, wheel = case.get(WormShaft), case.get(WheelShaft)
@@ -77,14 +78,14 @@ def prepare(case: Case) -> Prepared:
 def answer(problem: Prepared, _: Run) -> ShaftStudy:
     """Find what both shafts and their bearings come to."""
     iso = rate_by("iso14521", problem.given, problem.tables)
-    return study(problem, loads_of(problem.given, problem.tables, iso), iso)
+    return study(problem, loads_of(problem.given, iso), iso)
 
 
 def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy:
     """Return what both shafts come to under given loads, beside a rating by ISO/TR 14521."""
     given, options = problem.given, problem.options
     hand = 1.0 if given.gearset.hand == "right" else -1.0
-    cases = conditions(options.raises)
+    cases = cases_of(loads, options.raises)
 
     def on_worm(load: Load, case: Condition) -> PointLoad:
         assert problem.worm is not None
@@ -119,7 +120,7 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
 
 def shaft_rows(
     case: Case, loads: tuple[Load, ...] | None = None, iso: Rating | None = None
-) -> tuple[PartRow, ...]:
+) -> tuple[Row, ...]:
     """Return a row for each shaft and bearing of a case, for the screen of a rating.
 
     Parameters
@@ -137,5 +138,5 @@ def shaft_rows(
     with told(case):
         rating = iso or rate_by("iso14521", problem.given, problem.tables)
         if loads is None:
-            loads = loads_of(problem.given, problem.tables, rating)
+            loads = loads_of(problem.given, rating)
         return rows_of(study(problem, loads, rating))

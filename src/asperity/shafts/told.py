@@ -24,7 +24,7 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
     return {
         "length_mm": model.length,
         "cases": {
-            each.condition.key: {
+            condition.key: {
                 "axial_N": each.carried.axial,
                 "torque_Nm": 1e-3 * each.carried.torque,
                 "deflection_um": each.at_mesh[0],
@@ -41,7 +41,7 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
                     )
                 ],
             }
-            for each in found.hardest
+            for condition, each in zip(found.cases, found.hardest, strict=True)
         },
         "bearings": [
             {
@@ -122,12 +122,12 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
     name = NAMES[key]
     reactions = [
         (
-            each.condition.text,
+            condition.text,
             each.carried.radial[0], each.axial.loads[0],
             each.carried.radial[1], each.axial.loads[1],
             each.at_mesh[0],
         )
-        for each in found.hardest
+        for condition, each in zip(found.cases, found.hardest, strict=True)
     ]  # fmt: skip
     a, b = found.model.bearings
     yield Table.of(
