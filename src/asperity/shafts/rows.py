@@ -40,11 +40,11 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
         if len(worst.damage) > 1:
             most = max(range(len(worst.damage)), key=worst.damage.__getitem__)
             torque = found.every[0][most].load.torque
-            by.append(f"{torque:g} N m does {100.0 * worst.damage[most]:.0f} %")
+            by.append(f"{torque:g} N m {100.0 * worst.damage[most]:.0f} %")
         if worst.a_iso is not None:
             by.append(f"a_ISO {worst.a_iso:.2g}")
         by.append(f"s0 {min(each.static_safety for each in lives.values()):.2g}")
-        yield Row(f"{name} bearing {end}", "ISO 281", worst.told, asked, "h", "; ".join(by))
+        yield Row(f"{name} bearing {end}", "ISO 281", worst.told, asked, "h", ", ".join(by))
 
 
 def _strength(name: str, found: ShaftFound) -> Iterator[Row]:
