@@ -27,7 +27,6 @@ CHANGES = (
     ("slide oblique *", "json.thrust_N", "a vibration that drives the body tells its thrust"),
     ("cases", "json.cases", "three cases of vibration out of the plane have come"),
     ("check *", "json.refused.shafts", "a command of shafts has come"),
-    ("check *", "json.accepted*", "a command of shafts has come"),
     *(
         ("schema", f"json.properties.{table}*", "tables of shafts and bearings have come")
         for table in ("worm_shaft", "wheel_shaft", "bearings")
