@@ -79,16 +79,15 @@ class Loaded:
         bent, sheared, _ = at_place(found, self.model.mesh)
         return 1e3 * math.hypot(*bent), 1e3 * math.hypot(*(bent + sheared))
 
-    def actions(self, at: float) -> Actions:
-        """Return what the section at a place carries, the worse of its two sides."""
-        marks = np.array([at])
-        m = moments(marks, self.loads, self.carried, self.model.bearings, self.axial.forces)
-        bending = np.hypot(m.bending[0, :, 0], m.bending[0, :, 1])
-        return Actions(
-            1e-3 * float(bending.max()),
-            1e-3 * float(np.abs(m.torque[0]).max()),
-            float(np.abs(m.axial[0]).max()),
-        )
+    @functools.cached_property
+    def actions(self) -> tuple[Actions, ...]:
+        """What the section of each detail carries, the worse of its two sides."""
+        at = np.array([detail.at for detail in self.model.details])
+        m = moments(at, self.loads, self.carried, self.model.bearings, self.axial.forces)
+        bending = 1e-3 * np.hypot(m.bending[..., 0], m.bending[..., 1]).max(axis=1)
+        torque = 1e-3 * np.abs(m.torque).max(axis=1)
+        axial = np.abs(m.axial).max(axis=1)
+        return tuple(map(Actions, bending.tolist(), torque.tolist(), axial.tolist()))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -158,22 +157,35 @@ class ShaftFound:
         if steel is None:
             return ()
         found: dict[str, Section] = {}
-        for detail in self.model.details:
+        for number, detail in enumerate(self.model.details):
             try:
                 borne = strength(detail, steel, table.hardening)
             except InputError as error:
                 raise InputError(f"{table.table}, {detail.name}: {error}") from None
-            for case in self.every:
-                for place, each in enumerate(case):
-                    actions = each.actions(detail.at)
-                    safeties = judged(
-                        detail, steel, borne, actions, torque=table.torque, peak=table.peak
-                    )
-                    own = Section(detail, actions, safeties, place, each.condition)
-                    known = found.get(detail.name)
-                    if known is None or least(own.judged) < least(known.judged):
-                        found[detail.name] = own
+            for place, each in self._hardest_of(number):
+                actions = each.actions[number]
+                safeties = judged(
+                    detail, steel, borne, actions, torque=table.torque, peak=table.peak
+                )
+                own = Section(detail, actions, safeties, place, each.condition)
+                known = found.get(detail.name)
+                if known is None or least(own.judged) < least(known.judged):
+                    found[detail.name] = own
         return tuple(found.values())
+
+    def _hardest_of(self, detail: int) -> list[tuple[int, Loaded]]:
+        """Return the loads of a detail of which no other is as large in all that it carries.
+
+        Every safety falls with each of moment, torque and axial force.
+        """
+        every = [(place, each) for case in self.every for place, each in enumerate(case)]
+        every.sort(key=lambda pair: pair[1].actions[detail], reverse=True)
+        kept: list[tuple[int, Loaded]] = []
+        for pair in every:
+            own = pair[1].actions[detail]
+            if not any(all(map(float.__le__, own, other.actions[detail])) for _, other in kept):
+                kept.append(pair)
+        return kept
 
     @functools.cached_property
     def lives(self) -> tuple[Mapping[Condition, Life] | None, ...]:
