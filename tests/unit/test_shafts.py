@@ -329,3 +329,12 @@ def test_a_spectrum_gives_the_loads_of_a_duty_cycle():
     for own, other in zip(found.loads, wanted.loads, strict=True):
         assert own.tangential == pytest.approx(other.tangential, rel=1e-12)
     assert found.life == wanted.life == pytest.approx(5000.0)
+
+
+def test_the_radial_force_pushes_the_worm_away_from_the_wheel():
+    case = solved().to_json()["worm_shaft"]["cases"]["clockwise_worm_drives"]
+    assert case["mesh_shift_y_um"] > 0.0
+    # And the tangential one against the sense in which it turns there.
+    assert case["mesh_shift_z_um"] < 0.0
+    whole = math.hypot(case["mesh_shift_y_um"], case["mesh_shift_z_um"])
+    assert whole == pytest.approx(case["deflection_with_shear_um"], rel=1e-12)

@@ -72,12 +72,24 @@ class Loaded:
     @functools.cached_property
     def at_mesh(self) -> tuple[float, float]:
         """Deflection at the mesh by bending, and with shear, um."""
+        bent, shifted = self._mesh
+        return math.hypot(*bent), math.hypot(*shifted)
+
+    @property
+    def mesh_shift(self) -> tuple[float, float]:
+        """How far the mesh goes along y and z, by bending with shear, um."""
+        return self._mesh[1]
+
+    @functools.cached_property
+    def _mesh(self) -> tuple[tuple[float, float], tuple[float, float]]:
         found = deflection(
             self.model.stretches, self.loads, self.model.bearings, self.model.modulus,
             yielding=self.model.yielding, carried=self.carried,
         )  # fmt: skip
         bent, sheared, _ = at_place(found, self.model.mesh)
-        return 1e3 * math.hypot(*bent), 1e3 * math.hypot(*(bent + sheared))
+        y, z = (1e3 * bent).tolist()
+        all_y, all_z = (1e3 * (bent + sheared)).tolist()
+        return (y, z), (all_y, all_z)
 
     @functools.cached_property
     def actions(self) -> tuple[Actions, ...]:

@@ -29,6 +29,8 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
                 "torque_Nm": 1e-3 * each.carried.torque,
                 "deflection_um": each.at_mesh[0],
                 "deflection_with_shear_um": each.at_mesh[1],
+                "mesh_shift_y_um": each.mesh_shift[0],
+                "mesh_shift_z_um": each.mesh_shift[1],
                 "bearings": [
                     {
                         "y_N": across[0],
