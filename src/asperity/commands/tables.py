@@ -19,6 +19,8 @@ _TABLES = {
     "gearset": "asperity.gearset.parameters:Gearset",
     "operation": "asperity.rating.parameters:Operation",
     "rating": "asperity.rating.parameters:RatingOptions",
+    "spectrum": "asperity.rating.spectrum:Spectrum",
+    "housing": "asperity.rating.housing:Housing",
     "block": "asperity.block.parameters:Block",
     "contact": "asperity.block.parameters:Contact",
     "hob": "asperity.flanks.parameters:Hob",

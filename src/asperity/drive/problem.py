@@ -17,6 +17,7 @@ from asperity.friction import Friction
 from asperity.gearset import Gearset, Geometry
 from asperity.rating import Operation, RatingOptions
 from asperity.rating.driven import driven
+from asperity.rating.tables import operation_of
 from asperity.slider.parameters import Solve
 from asperity.vibration import Vibration
 from asperity.waveform import Shape
@@ -97,7 +98,7 @@ class DriveProblem:
         """
         require_all(case, shaken=shaken)
         with told(case):
-            run = case.require(Operation)
+            run = operation_of(case)
             operation = driven(case.require(Gearset), run, case.get(RatingOptions))
             vibration = shape = None
             if shaken and Vibration.table in case:

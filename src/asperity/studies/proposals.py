@@ -20,8 +20,8 @@ from asperity.gearset.threads import thread_room
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, tables_of
 from asperity.rating.self_locking import locking_margins
+from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
 from asperity.results import Result, quantity
 from asperity.results.table import Table
