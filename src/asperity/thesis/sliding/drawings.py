@@ -129,7 +129,7 @@ def _vectors(upper: "Axes", lower: "Axes", dataset: "xr.Dataset") -> None:
         arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 2.0, "shrinkB": 0},
     )  # fmt: skip
     lower.annotate(
-        "mean $F_x$", (-0.5 * mean, 0.0), (0.35, 0.1), textcoords="axes fraction", va="center",
+        "mean $F_x$", (-0.5 * mean, 0.0), (0.62, 0.93), textcoords="axes fraction", va="center",
         arrowprops={"arrowstyle": "-", "linewidth": 0.6},
     )  # fmt: skip
     full = float(dataset["full_force"])
