@@ -85,7 +85,8 @@ _MADE_IN = {
         "drive.tables": "7.1 7.2 7.3 7.4",
     },
     CLAIM: {
-        "sliding.claims": "4.1 4.2 4.3 4.4 4.5 4.6 4.7 4.8",
+        "sliding.claims": "4.1 4.2 4.3 4.4 4.5 4.6 4.8",
+        "sliding.appendix_a": "4.7",
         "sliding.readings": "2.4 2.5 4.9 4.10 4.11 4.12 5.2",
         "sliding.further": "4.13 4.14 7.20",
         "rating.claims": "3.1 3.2 3.3 3.4 3.5 3.6 3.7 3.8 7.1",
