@@ -6,6 +6,7 @@ import { Flow } from "../flow.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
+import { moment, Stage } from "../stage.js";
 import { route, setParam, useCase } from "../state.js";
 import { digits, inUnit, readable } from "../units.js";
 
@@ -66,6 +67,8 @@ export function view() {
       </section>
       <${Headline} numbers=${numbers} />
       <section class="shown" aria-label="what comes of it">
+        <${Stage} series=${point.data?.series} ratio=${answer.ratio} k=${answer.velocity_ratio}
+          limit=${answer.static_drive_force_N} />
         <${Curves} k=${answer.velocity_ratio} ratio=${answer.ratio} failed=${Boolean(point.error)} />
         ${drawn}
         ${point.data ? html`<${AllNumbers} entries=${point.data.entries} />` : null}
@@ -244,6 +247,6 @@ function Waves({ series }) {
     { label: "base", unit: "mm/s", values: milli(base), dash: [3, 3], colour: 6, faint: true },
     { label: "sliding", unit: "mm/s", values: milli(sliding), dash: [8, 4], colour: 0 },
   ];
-  return html`<${Plot} title="Over a cycle" x=${{ label: "phase, cycles", values: phase }}
+  return html`<${Plot} title="Over a cycle" running=${moment} x=${{ label: "phase, cycles", values: phase }}
     series=${lines.filter(Boolean)} />`;
 }
