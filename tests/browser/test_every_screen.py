@@ -17,7 +17,7 @@ def ready(page):
     """Wait until a screen is there with what it answers at once."""
     expect(page.get_by_role("heading", level=1)).to_be_visible()
     expect(
-        page.get_by_text(re.compile("One moment|being compiled|forms are coming"))
+        page.get_by_text(re.compile("One moment|computes is starting|forms are coming"))
     ).to_have_count(0)
     settled(page)
 

@@ -48,8 +48,8 @@ export function App({ screens, children }) {
     </nav>
     <main id="main" tabindex="-1">
       ${about.value && !about.value.ready ? html`<p class="wait" role="status">
-        What computes is being compiled, once for this machine: seconds for a sliding body, a few
-        minutes for the rest. The page comes alive by itself.</p>` : null}
+        What computes is starting: a moment, or some seconds the first time on this machine. The page
+        comes alive by itself.</p>` : null}
       ${children}
     </main>
     <${Behind} />
