@@ -6,6 +6,7 @@ import { handed, route, whenHanded } from "./state.js";
 
 /** In the order in which they are offered. @type {import("./shell.js").Listed[]} */
 const SCREENS = [
+  { name: "home", title: "Start", kind: "", group: "" },
   { name: "slide", title: "Sliding body", kind: "slide", group: "A body, shaken" },
   { name: "sweep", title: "Sweep", kind: "slide", group: "A body, shaken" },
   { name: "block", title: "Elastic block", kind: "block", group: "A body, shaken" },

@@ -3,6 +3,7 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, route, useCase } from "./state.js";
+import { visited } from "./visited.js";
 
 /**
  * @typedef {{name: string, title: string, kind: string, group: string,
@@ -31,6 +32,11 @@ export function App({ screens, children }) {
   useEffect(() => {
     document.title = `${here?.title ?? "?"} · asperity`;
   }, [here]);
+  useEffect(() => {
+    // Not each place that a slider passes.
+    const timer = here && params.case ? setTimeout(() => visited(here.title, address({ screen, params }), params), 1500) : 0;
+    return () => clearTimeout(timer);
+  }, [screen, params]);
   const link = ({ name, title, kind }) => html`<li key=${name}>
     <a href=${address({ screen: name, params: last[kind] ?? {} })}
       onClick=${(event) => {
@@ -43,7 +49,7 @@ export function App({ screens, children }) {
     <nav aria-label="screens">
       <p class="brand"><img src="icon.svg" alt="" width="22" height="22" /> asperity</p>
       ${[...new Set(screens.map(({ group }) => group))].map((group) => html`
-        <div class="group" key=${group}><p>${group}</p>
+        <div class="group" key=${group}>${group ? html`<p>${group}</p>` : null}
           <ul>${screens.filter((each) => each.group === group).map(link)}</ul></div>`)}
     </nav>
     <main id="main" tabindex="-1">

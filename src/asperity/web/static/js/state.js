@@ -36,7 +36,7 @@ function read() {
   const token = params.get("token");
   if (token) take((fresh = token));
   params.delete("token");
-  const found = { screen: path || "slide", params: Object.fromEntries(params) };
+  const found = { screen: path || "home", params: Object.fromEntries(params) };
   if (token) history.replaceState(null, "", address(found));
   return found;
 }

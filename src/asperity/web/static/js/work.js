@@ -1,5 +1,5 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
-import { html, useEffect, useState } from "../vendor/preact.js";
+import { html, signal, useEffect, useState } from "../vendor/preact.js";
 import { commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
 import { download } from "./figure.js";
 import { Notes } from "./shell.js";
@@ -23,6 +23,27 @@ function nameOf(body) {
   return sum.toString(36);
 }
 
+/** Answers that ship, of what the screens open with: what was asked, and the folder they stand in. */
+const shipped = signal([]);
+get("shown/index.json").then((found) => (shipped.value = found), () => {});
+
+/**
+ * The answer that ships for a command of a case, whatever else is set; null where there is none.
+ * @param {any} asked @param {string} slot
+ */
+function exampleOf(asked, slot) {
+  const kind = ({ command, case: name, options }) => nameOf({ command, name, options });
+  const found = asked && shipped.value.find((each) => each.slot === slot && kind(each.asked) === kind(asked));
+  return found ? { ...found, id: `shown/${found.at}`, name: nameOf(found.asked) } : null;
+}
+
+/** Where a file of a job is, its answer, or its data. @param {string} id @param {string} name */
+export const placeOf = (id, name) => (id.startsWith("shown/") ? `${id}/${name}` : `/api/jobs/${id}/files/${name}`);
+const answerOf = (id) => (id.startsWith("shown/") ? `${id}/answer.json` : `/api/jobs/${id}/answer`);
+/** @param {string} id @param {string[]} names of variables; none: what there is, without values */
+export const dataOf = (id, names = []) => (id.startsWith("shown/") ? `${id}/data.json`
+  : `/api/jobs/${id}/data${names.length ? `?names=${names.join()}` : ""}`);
+
 const NOTHING = { job: null, data: null, error: null, asking: false };
 
 /**
@@ -41,7 +62,9 @@ export function useJob(command, body, slot = "") {
   const asked = body && { command, ...body };
   const name = asked ? nameOf(asked) : "";
   const param = `job-${command}${slot}`;
-  const [id, of] = (route.value.params[param] ?? begun[name] ?? "").split(".");
+  const own = (route.value.params[param] ?? begun[name] ?? "").split(".");
+  const example = own[0] ? null : exampleOf(asked, slot);
+  const [id, of] = example ? [example.id, example.name] : own;
   const [state, setState] = useState(NOTHING);
   const [round, setRound] = useState(0);
   const put = (more) => setState((old) => ({ ...old, ...more }));
@@ -49,6 +72,11 @@ export function useJob(command, body, slot = "") {
     setState({ ...NOTHING, asking: Boolean(id) });
     if (!id) return;
     const leave = new AbortController();
+    if (example) {
+      const job = { state: "done", files: example.files, shipped: true, answered: true };
+      get(answerOf(id), leave).then((data) => setState({ ...NOTHING, job, data }), () => setState(NOTHING));
+      return () => leave.abort();
+    }
     const failed = (error) => error.name === "AbortError" || put({ error, asking: false });
     let answered = false;
     const hear = (job) => {
@@ -56,7 +84,7 @@ export function useJob(command, body, slot = "") {
       // Its pictures may come later.
       if (!job.answered || answered) return;
       answered = true;
-      get(`/api/jobs/${id}/answer`, leave).then((data) => put({ data }), failed);
+      get(answerOf(id), leave).then((data) => put({ data }), failed);
     };
     follow(id, hear, leave.signal).then(() => get(`/api/jobs/${id}`, leave)).then(hear).catch(failed);
     return () => leave.abort();
@@ -90,7 +118,7 @@ export function useTaken(work, command, body) {
 
 /** Variables of what a job left, null until they are there. @param {Job} work */
 export function useData({ id, job }, names) {
-  const path = job?.state === "done" ? `/api/jobs/${id}/data?names=${names.join()}` : "";
+  const path = job?.state === "done" ? dataOf(id, names) : "";
   return useAsked(path, (leave) => get(path, leave)).found;
 }
 
@@ -116,10 +144,11 @@ export function Work({ work, label }) {
   const { job, asking, can, stale, start, stop } = work;
   const running = job && !ENDED.includes(job.state);
   const said = asking ? "begun" : running ? left(job)
+    : job?.shipped ? `an answer that ships${stale ? ", to the case as it is written" : ""}; your own takes its place`
     : stale && job ? "something was set since; this is the answer to what was asked before"
     : job ? left(job) : "";
   return html`<div class="work">
-    <button type="button" class=${job?.state === "done" && !stale ? "" : "main"} disabled=${running || asking || !can}
+    <button type="button" class=${job?.state === "done" && !job.shipped && !stale ? "" : "main"} disabled=${running || asking || !can}
       onClick=${start}>${job?.state === "stopped" && !stale ? `go on: ${label}` : label}</button>
     ${running || asking ? html`<progress aria-label=${label} max=${job?.total || 1}
       value=${job?.total ? job.done : undefined}></progress>` : null}
@@ -143,10 +172,10 @@ export const firstError = (...works) => works.map(({ error }) => error).find(Boo
 /** What a job has left, to take along. @param {{job: any}} props */
 export function Files({ job }) {
   const take = async (name) => {
-    const path = `/api/jobs/${job.id}/files/${encodeURIComponent(name)}`;
+    const path = placeOf(job.id, encodeURIComponent(name));
     download(name, await (await fetchRaw(path)).blob());
   };
-  if (!job?.files?.length) return null;
+  if (!job?.files?.length || job.shipped) return null;
   const buttons = job.files.map((name) => html`<button type="button" class="quiet" key=${name}
     onClick=${() => take(name)}>${name}</button>`);
   return html`<p class="row"><span class="says">files:</span> ${buttons.slice(0, FEW)}</p>

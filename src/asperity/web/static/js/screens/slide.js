@@ -52,7 +52,7 @@ export function view() {
     lead="Shake what a body slides on, and less force pulls it. Drag a slider; every number opens where it comes from."
     kinds=${["slide"]} first="body-shaken-along" start=${START}
     answer=${point.data} error=${point.error} busy=${point.busy} late=${point.late} now=${point.now}>
-    <div class="columns headed">
+    <div class="columns headed moving">
       <section class="controls" aria-label="what is set">
         <${Strength} k=${answer.velocity_ratio} />
         <${Direction} />
@@ -66,9 +66,9 @@ export function view() {
         <${AllKeys} tables=${["slider", "friction", "vibration", "normal", "wear", "solve"]} />
       </section>
       <${Headline} numbers=${numbers} />
+      <${Stage} series=${point.data?.series} ratio=${answer.ratio} k=${answer.velocity_ratio}
+        limit=${answer.static_drive_force_N} />
       <section class="shown" aria-label="what comes of it">
-        <${Stage} series=${point.data?.series} ratio=${answer.ratio} k=${answer.velocity_ratio}
-          limit=${answer.static_drive_force_N} />
         <${Curves} k=${answer.velocity_ratio} ratio=${answer.ratio} failed=${Boolean(point.error)} />
         ${drawn}
         ${point.data ? html`<${AllNumbers} entries=${point.data.entries} />` : null}
