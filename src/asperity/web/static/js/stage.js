@@ -24,6 +24,9 @@ const SLIPS = 0.97;
 const [NEAR, FAR] = [62, 138];
 const [LEAST, MOST] = [0.1, 100];
 
+/** What of the drawing is seen: on a phone its middle. @returns {[number, number]} from where, and how wide */
+const seen = () => (innerWidth < 600 ? [110, 500] : [0, WIDTH]);
+
 const turn = (degrees) => (degrees * Math.PI) / 180;
 const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
@@ -97,7 +100,7 @@ function why({ side, pulls, asides, load, mean }, ratio) {
   const share = (flags) => `${Math.round((100 * flags.filter(Boolean).length) / flags.length)}\u00a0%`;
   const left = `On average ${digits(100 * ratio, 3)}\u00a0% of it is left.`;
   const back = pulls.map((each) => each < 0);
-  if (side && Math.max(...load) > 1.02 * mean) {
+  if (side && !back.some(Boolean) && Math.max(...load) > 1.02 * mean) {
     return `The body slides while it is pressed least, and waits while it is pressed most. ${left}`;
   }
   if (Math.max(...asides.map(Math.abs)) > 0.3) {
@@ -126,8 +129,9 @@ function useHandle(k) {
   const dragged = (event) => {
     if (!event.currentTarget.hasPointerCapture(event.pointerId)) return;
     const { left, top, width } = event.currentTarget.ownerSVGElement.getBoundingClientRect();
-    const [dx, dy] = [event.clientX - left, event.clientY - top].map((each) => (each * WIDTH) / width);
-    const [px, py] = [Math.max(X - dx, 0), Math.max(Y - dy, 0)];
+    const [from, wide] = seen();
+    const [dx, dy] = [event.clientX - left, event.clientY - top].map((each) => (each * wide) / width);
+    const [px, py] = [Math.max(X - from - dx, 0), Math.max(Y - dy, 0)];
     const angle = Math.round((Math.atan2(py, px) * 180) / Math.PI);
     const part = Math.min(1, Math.max(0, (Math.hypot(px, py) - NEAR) / (FAR - NEAR)));
     const wanted = LEAST * Math.exp(span * part);
@@ -185,7 +189,7 @@ export function Stage({ series, ratio, k, limit }) {
   }
   const from = side ? "from the side" : "from above";
   return html`<section class="panel stage" aria-label="the body on its plate">
-    <svg ref=${picture} viewBox=${`0 0 ${WIDTH} ${HEIGHT}`} role="img"
+    <svg ref=${picture} viewBox=${`${seen()[0]} 0 ${seen()[1]} ${HEIGHT}`} role="img"
       aria-label=${`A body that is pulled to the right over a shaken plate, ${from}. ${words}`}>
       <clipPath id="ground"><rect x="0" y=${side ? Y + HALF_Y - 10 : 0} width=${WIDTH} height=${HEIGHT} /></clipPath>
       <g clip-path="url(#ground)"><g data-of="plate">
@@ -202,8 +206,9 @@ export function Stage({ series, ratio, k, limit }) {
         <path data-of="now" class="now" /><circle data-of="dot" class="dot" r="5" />
         <path class="mean" d=${arrow(-REACH * ratio, 0, 12)} transform=${`translate(0 ${side ? 30 : 0})`} />
         <path data-of="load" class="load" transform=${`translate(0 ${-HALF_Y - 48})`} />
-        <text class="of" x=${REACH + 8} y="-84">friction now</text>
-        <path class="lead" d=${`M${REACH + 4} -86L${REACH - 26} -62`} />
+        ${side ? html`<text class="of" x=${-REACH - 12} y="5" text-anchor="end">friction now</text>`
+          : html`<text class="of" x=${REACH + 8} y="-84">friction now</text>
+            <path class="lead" d=${`M${REACH + 4} -86L${REACH - 26} -62`} />`}
         <text class="strong" x=${-REACH - 12} y="92" text-anchor="end">its mean: ${digits(100 * ratio, 3)} %</text>
         <path class="lead" d=${`M${-REACH - 8} 84L${-Math.max(12, REACH * ratio * 0.6)} ${side ? 36 : 6}`} />
         ${side ? null : html`<path class="shaken" d=${`M${-place[0]} ${-place[1]}L${place[0]} ${place[1]}`} />
