@@ -235,6 +235,7 @@ def test_a_direction_that_is_none_is_drawn_nowhere(slide):
 
 
 def test_the_handle_on_the_plate_turns_the_direction_and_pulls_the_strength(slide):
+    settled(slide)
     grip = slide.locator(".stage .grip")
     box, plate = grip.bounding_box(), slide.locator(".stage svg").bounding_box()
     slide.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
@@ -250,6 +251,7 @@ def test_the_handle_on_the_plate_turns_the_direction_and_pulls_the_strength(slid
 
 def test_the_picture_moves_stops_and_is_moved_by_hand(slide):
     dot = slide.locator(".stage .dot")
+
     def place():
         return dot.get_attribute("cx"), slide.locator(".runs").first.get_attribute("cx")
 

@@ -1,5 +1,5 @@
 /** Lines over an axis, with their legend, which tells the numbers where the pointer is. */
-import { html, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
+import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
@@ -141,7 +141,8 @@ export function between(values, part) {
 /** Marks that run along the lines with what moves beside them. @param {{part: any, dots: any[], top: number}} props */
 function Running({ part, places, dots, bottom }) {
   const drawn = useRef(null);
-  useEffect(() => part.subscribe((now) => {
+  // At once with the lines: as many marks as there are.
+  useLayoutEffect(() => part.subscribe((now) => {
     const [line, ...marks] = drawn.current.children;
     const x = between(places, now);
     line.setAttribute("d", `M${x} ${TOP}V${bottom}`);

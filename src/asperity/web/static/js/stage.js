@@ -1,5 +1,5 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
-import { html, signal, useEffect, useMemo, useRef, useState } from "../vendor/preact.js";
+import { html, signal, useEffect, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { useValue } from "./form.js";
 import { between } from "./plot.js";
 import { useCase } from "./state.js";
@@ -161,7 +161,7 @@ function useMotion(picture, moving, runs) {
     seen.observe(picture.current);
     return () => (seen.disconnect(), stop());
   }, [moving, runs]);
-  useEffect(() => (moving ? moment.subscribe((part) => draw(picture.current, moving, part)) : undefined), [moving]);
+  useLayoutEffect(() => (moving ? moment.subscribe((part) => draw(picture.current, moving, part)) : undefined), [moving]);
 }
 
 const slower = (frequency) => (frequency > 0 ? `${digits(frequency * SHOWN, 2)} times slower than it is` : "");
