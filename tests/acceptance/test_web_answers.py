@@ -171,7 +171,9 @@ def test_the_waveforms_of_a_body_close_over_the_cycle(page):
     across, along = series["base_velocity_across"], series["base_velocity"]
     assert across == pytest.approx([math.sqrt(3.0) * each for each in along], rel=1e-3, abs=1e-9)
     # What slides goes across as the base does not.
-    body = [each + base for each, base in zip(series["sliding_velocity_across"], across, strict=True)]
+    body = [
+        each + base for each, base in zip(series["sliding_velocity_across"], across, strict=True)
+    ]
     assert max(map(abs, body)) < 0.2 * max(map(abs, across))
 
 

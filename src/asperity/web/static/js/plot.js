@@ -1,6 +1,7 @@
 /** Lines over an axis, with their legend, which tells the numbers where the pointer is. */
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
+import { between } from "./motion.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
 
@@ -13,8 +14,8 @@ import { digits } from "./units.js";
  * @typedef {{title: string, x: {label: string, unit?: string, values: number[]}, series: Line[],
  *   bands?: {from: number, to: number}[], marks?: {x: number, y?: number}[],
  *   y?: string, height?: number, log?: boolean, xlog?: boolean, range?: [number, number],
- *   onPick?: (x: number) => void, running?: any}} Shown `running`: a signal of where, from 0 to 1, a mark
- *   runs along the lines
+ *   onPick?: (x: number) => void, running?: any}} Shown `running`: a signal of when, in cycles, of
+ *   marks that run along the lines
  */
 
 export const [LEFT, RIGHT, TOP, BOTTOM] = [66, 14, 8, 42];
@@ -131,18 +132,12 @@ export const Axes = ({ across, ups, right, bottom, along, upward }) => html`
     transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
   <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${along}</text>`;
 
-/** A value between those that are known, by the part of all of them. */
-export function between(values, part) {
-  const place = part * (values.length - 1);
-  const low = Math.min(Math.floor(place), values.length - 2);
-  return values[low] + (place - low) * (values[low + 1] - values[low]);
-}
-
 /** Marks that run along the lines with what moves beside them. @param {{part: any, dots: any[], top: number}} props */
 function Running({ part, places, dots, bottom }) {
   const drawn = useRef(null);
   // At once with the lines: as many marks as there are.
-  useLayoutEffect(() => part.subscribe((now) => {
+  useLayoutEffect(() => part.subscribe((time) => {
+    const now = time % 1;
     const [line, ...marks] = drawn.current.children;
     const x = between(places, now);
     line.setAttribute("d", `M${x} ${TOP}V${bottom}`);

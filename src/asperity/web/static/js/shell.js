@@ -3,6 +3,7 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, route, useCase } from "./state.js";
+import { share } from "./share.js";
 import { visited } from "./visited.js";
 
 /**
@@ -167,6 +168,8 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
         ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
         ${answer?.command ? html`<button type="button" title=${answer.command}
           onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
+        ${answer?.answer && answer.toml ? html`<button type="button" title="all of this as one file that anyone opens"
+          onClick=${unless(() => share(title, answer))}>share</button>` : null}
         ${actions}
         <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
       </div>

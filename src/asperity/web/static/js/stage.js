@@ -1,25 +1,15 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
 import { html, signal, useEffect, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { useValue } from "./form.js";
-import { between } from "./plot.js";
+import { arrow, draw, HALF_X, HALF_Y, HEIGHT, motionOf, REACH, TILE, WIDTH, X, Y } from "./motion.js";
 import { useCase } from "./state.js";
 import { digits, inUnit, split } from "./units.js";
 
-/** Where in the cycle the picture is: 0 to 1. */
+/** When the picture is, in cycles. */
 export const moment = signal(0.25);
 /** How long a cycle is shown, s, and parts of it that a picture without motion is moved by. */
 const SHOWN = 3;
 const STEPS = 128;
-/** The drawing: its size, the middle of the body, half of the body, how far a bristle bends and friction reaches. */
-const [WIDTH, HEIGHT] = [720, 300];
-const [X, Y] = [330, 150];
-const [HALF_X, HALF_Y] = [72, 46];
-const [BEND, REACH, TILE] = [20, 92, 36];
-/** From above and from the side: the places of bristles, from the middle of the body. */
-const PLACES = [-54, -27, 0, 27, 54].flatMap((x) => [-28, 0, 28].map((y) => [x, y]));
-const FEET = [-60, -40, -20, 0, 20, 40, 60].map((x) => [x, 0]);
-/** Of what is carried at most; beyond it a bristle slips. */
-const SLIPS = 0.97;
 /** How far the handle is from the middle at the least and the greatest velocity ratio. */
 const [NEAR, FAR] = [62, 138];
 const [LEAST, MOST] = [0.1, 100];
@@ -29,71 +19,6 @@ const seen = () => (innerWidth < 600 ? [110, 500] : [0, WIDTH]);
 
 const turn = (degrees) => (degrees * Math.PI) / 180;
 const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
-
-/** How far something has gone, from its velocity over the cycle: mean free, of unit swing. */
-function travelled(velocity) {
-  const gone = velocity.reduce((sums, each) => [...sums, sums.at(-1) + each], [0]).slice(0, -1);
-  const drift = (gone.at(-1) + velocity.at(-1)) / velocity.length;
-  return gone.map((each, row) => each - drift * row);
-}
-
-const arrow = (dx, dy, head = 9) => {
-  const size = Math.hypot(dx, dy);
-  if (size < 2) return "";
-  const [ux, uy] = [dx / size, dy / size];
-  const back = Math.min(head, size);
-  const wing = (side) => `${dx - back * ux + side * 0.45 * back * uy} ${dy - back * uy - side * 0.45 * back * ux}`;
-  return `M0 0L${dx} ${dy}M${wing(1)}L${dx} ${dy}L${wing(-1)}`;
-};
-
-/**
- * What moves in the picture, made from an answer.
- * @param {Record<string, number[]>} series of a cycle, SI @param {number} limit mu F_N, N
- */
-function motionOf(series, limit) {
-  const { base_velocity: along, base_velocity_across: across, base_velocity_up: up } = series;
-  const { force, force_across: aside, normal_force: load, sliding_velocity: slides } = series;
-  const side = up.some((each) => Math.abs(each) > 1e-12);
-  const places = [along, side ? up : across].map(travelled);
-  const swing = Math.max(...places.flat().map(Math.abs)) || 1;
-  // To scale, the body goes on by so much of the swing in a cycle; more than a tile could not be followed.
-  const onward = Math.min(((slides.reduce((sum, each) => sum + each, 0) / slides.length) * slides.length) / swing, 3);
-  const mean = load.reduce((sum, each) => sum + each, 0) / load.length;
-  const holds = load.map((each) => Math.max(limit * (each / mean), 0));
-  const loss = (values) => values.map((value) => value / limit);
-  return { side, swing, onward, places, load, mean, pulls: loss(force), asides: loss(aside), holds: loss(holds) };
-}
-
-/** Draw a moment of the cycle into the picture. */
-function draw(picture, moving, part) {
-  const at = (values) => between(values, part);
-  const put = (name, attributes) => picture.querySelectorAll(`[data-of=${name}]`).forEach((each) => {
-    for (const [key, value] of Object.entries(attributes)) each.setAttribute(key, value);
-  });
-  const { side, swing, places, onward } = moving;
-  const size = 0.62 * TILE;
-  const [x, y] = places.map((values) => (size * at(values)) / swing);
-  const gone = (size * onward * part) % TILE;
-  put("plate", { transform: `translate(${(x - gone) % TILE} ${side ? -y : -y % TILE})` });
-  const [pull, aside, held] = [at(moving.pulls), at(moving.asides), at(moving.holds)];
-  const load = at(moving.load) / moving.mean;
-  const [dx, dy] = [-BEND * pull, side ? 0 : BEND * aside];
-  const slips = Math.hypot(pull, aside) >= SLIPS * held;
-  const sunk = side ? Math.max(-7, Math.min(7, 7 * (load - 1))) - y : 0;
-  put("body", { transform: `translate(0 ${sunk})` });
-  const open = side && load <= 1e-6;
-  const bristle = side
-    ? FEET.map(([px]) => `M${px} ${HALF_Y + sunk}Q${px} ${HALF_Y + 12 + sunk / 2 - y / 2} ${px + dx} ${
-      open ? HALF_Y + sunk + 18 : HALF_Y + 22 - y}`)
-    : PLACES.map(([px, py]) => `M${px} ${py}l${dx} ${dy}`);
-  put("bristles", { d: bristle.join(""), class: `bristles ${open ? "free" : slips ? "slips" : "holds"}` });
-  if (!side) {
-    put("tips", { d: PLACES.map(([px, py]) => `M${px + dx - 2.5} ${py + dy}h5`).join(""), class: slips ? "slips" : "holds" });
-  }
-  put("now", { d: arrow(-REACH * pull, side ? 0 : REACH * aside) });
-  put("dot", { cx: -REACH * pull, cy: side ? 0 : REACH * aside });
-  put("load", { d: side ? arrow(0, 42 * load) : "" });
-}
 
 /** Why there is less friction, in a sentence. */
 function why({ side, pulls, asides, load, mean }, ratio) {
@@ -152,7 +77,7 @@ function useMotion(picture, moving, runs) {
     let before = 0;
     const seen = new IntersectionObserver(([entry]) => (entry.isIntersecting ? start() : stop()));
     const next = (now) => {
-      moment.value = (moment.peek() + Math.min(now - (before || now), 100) / 1000 / SHOWN) % 1;
+      moment.value = moment.peek() + Math.min(now - (before || now), 100) / 1000 / SHOWN;
       before = now;
       frame = requestAnimationFrame(next);
     };
@@ -222,7 +147,7 @@ export function Stage({ series, ratio, k, limit }) {
     <div class="row">
       <button type="button" onClick=${() => setRuns(!runs)}>${runs ? "stop the motion" : "let it move"}</button>
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
-        value=${Math.round(STEPS * moment.peek())} onInput=${(event) => (moment.value = event.target.value / STEPS)} /></label>`}
+        value=${Math.round(STEPS * (moment.peek() % 1))} onInput=${(event) => (moment.value = event.target.value / STEPS)} /></label>`}
       <span class="says">${slower(frequency)}, seen ${from}. ${side ? "" : "Drag the round handle."}
         <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
     </div>
