@@ -58,7 +58,9 @@ def keep(served, at, asked, identity, slot):
 
 # Variables that the screens draw, of files that hold many more.
 NAMES = {
-    "drive-static": ["phase", "tooth_force", "load", "pattern", "node_radius", "node_face", "faces"],
+    "drive-static": [
+        *("phase", "tooth_force", "load", "pattern", "node_radius", "node_face", "faces"),
+    ],
     "drive": ["torque_ratio"],
     "directions": ["torque_ratio"],
     "locking": ["amplitude", "creep_over", "creep_limit"],

@@ -1,4 +1,4 @@
-"""A screen as one file: opened without server and network it shows the same numbers, and its case gives them again."""
+"""A screen as one file: without server and network it shows what it was made from, and the case."""
 
 import json
 from pathlib import Path

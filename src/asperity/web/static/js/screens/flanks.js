@@ -172,7 +172,7 @@ export function view() {
   const body = name ? { case: name, settings, options: { density: "coarse" } } : null;
   const work = useJob("flank", body);
   const taken = useTaken(work, "flank", body);
-  const path = work.job?.files?.includes(PACKED) ? placeOf(work.id, PACKED) : "";
+  const path = (work.files ?? work.job?.files)?.includes(PACKED) ? placeOf(work.from, PACKED) : "";
   const packed = useAsked(path, async (leave) => unpacked(await (await fetchRaw(path, leave)).arrayBuffer()));
   const gears = packed.found;
   const { part = "mesh", layer = "gap", side = "+1", worm = "clear" } = route.value.params;

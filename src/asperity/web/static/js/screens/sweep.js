@@ -142,7 +142,8 @@ function overAll(listed) {
 }
 
 /** What is solved so far of what is shown; looked at again while the job runs, and until it is seen. */
-function useSoFar({ id, job }) {
+function useSoFar({ id: own, from, job }) {
+  const id = own || from;
   const [known, setKnown] = useState({ id: "", names: [], data: null });
   const [look, setLook] = useState(0);
   const wanted = route.value.params.shown;
