@@ -1,6 +1,6 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
-import { commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
+import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
 import { download } from "./figure.js";
 import { Notes } from "./shell.js";
 import { route, setParam } from "./state.js";
@@ -36,9 +36,11 @@ get("shown/index.json").then((found) => (shipped.value = found), () => {});
  * @param {any} asked @param {string} slot
  */
 function exampleOf(asked, slot) {
-  const kind = ({ command, case: name, options }) => nameOf({ command, name, options });
+  const named = (name) => about.value?.cases.find(({ alias }) => alias && alias === name)?.name ?? name;
+  const kind = ({ command, case: name, options }) => nameOf({ command, name: named(name), options });
   const found = asked && shipped.value.find((each) => each.slot === slot && kind(each.asked) === kind(asked));
-  return found ? { ...found, id: `shown/${found.at}`, name: nameOf(found.asked) } : null;
+  const same = found && nameOf({ ...found.asked, case: asked.case });
+  return found ? { ...found, id: `shown/${found.at}`, name: same } : null;
 }
 
 const isShipped = (id) => id.startsWith("shown/");
