@@ -73,6 +73,25 @@ class ExactFlank:
             made.z.reshape(-1) / _MILLIMETRES,
         )
 
+    @property
+    def nodes(self) -> int:
+        """Number of points of `grid`."""
+        return len(self.grid[0])
+
+    @property
+    def faces(self) -> IntArray:
+        """Faces between the points of `grid`, (m, 4)."""
+        at = np.arange(self.nodes).reshape(_ROWS, -1)
+        corners = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
+        return np.stack([corner.ravel() for corner in corners], axis=1)
+
+    def nearest(self, share: FloatArray, z: FloatArray) -> IntArray:
+        """Return the number of the nearest point of `grid` to places on the flank."""
+        columns = self.grid[3][: self.nodes // _ROWS]
+        middles = 0.5 * (columns[1:] + columns[:-1])
+        row = np.clip(np.rint(share * (_ROWS - 1)), 0, _ROWS - 1).astype(np.int64)
+        return row * len(columns) + np.searchsorted(middles, z)
+
     @cached_property
     def half_face(self) -> float:
         """Half the face width, m."""
@@ -128,7 +147,9 @@ class ExactFlank:
         shape = count, len(self.sector.surface.positions)
         return sparse.csr_array((values.ravel(), columns.ravel(), starts), shape=shape)
 
-    def heights(self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray) -> Heights:
+    def heights(
+        self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray
+    ) -> Heights:
         """Return the flank's heights over a grid in a plane, by a polynomial through its points.
 
         Parameters
@@ -143,9 +164,9 @@ class ExactFlank:
         places = (self.grid[0] - origin) @ axes.T
         ends = np.array([[x[0], x[-1]], [y[0], y[-1]]])
         about = _ABOUT * np.ptp(ends, axis=1) + _BESIDE * self.least_reach
-        near = (np.abs(places[:, :2] - ends.mean(axis=1)) <= 0.5 * np.ptp(ends, axis=1) + about).all(
-            axis=1
-        )
+        near = (
+            np.abs(places[:, :2] - ends.mean(axis=1)) <= 0.5 * np.ptp(ends, axis=1) + about
+        ).all(axis=1)
         # Of the flank's other parts a plane may see the back.
         places = places[near & (self.grid[1] @ axes[2] > 0.0)]
         degree = min(_DEGREE, int(np.sqrt(len(places) / _POINTS)))
