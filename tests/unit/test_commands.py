@@ -8,12 +8,13 @@ from asperity.flanks.tables import TABLES as FLANKS
 from asperity.rating.tables import TABLES as RATING
 from asperity.shafts.tables import TABLES as SHAFTS
 from asperity.slider.tables import TABLES as SLIDER
+from asperity.studies.tables import TABLES as STUDIES
 from asperity.tribometer.tables import TABLES as TRIBOMETER
 
 
 def test_a_case_file_may_have_every_table_of_every_room():
     tables = case_tables()
-    rooms = {**SLIDER, **RATING, **SHAFTS, **BLOCK, **FLANKS, **DRIVE, **TRIBOMETER}
+    rooms = {**SLIDER, **RATING, **SHAFTS, **BLOCK, **FLANKS, **DRIVE, **TRIBOMETER, **STUDIES}
     assert dict(tables) == {**rooms, "project": Project}
     assert len(tables) == len(list(tables))
     assert all(name in tables and table.table == name for name, table in tables.items())

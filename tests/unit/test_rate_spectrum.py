@@ -9,6 +9,7 @@ from apparatus.duties import A100, BINS, RUN, rated, safeties, steps
 
 from asperity.casefile import read_case as read
 from asperity.commands import case_tables
+from asperity.drive.life import life
 from asperity.errors import InputError
 from asperity.rating import (
     Housing,
@@ -371,3 +372,13 @@ def test_a_class_beyond_its_tables_is_refused():
     by_power = Operation(**run, input_power="1 kW", spectrum=Spectrum(duty_class="EN 15714-2 A"))
     found = rate(A100, by_power)
     assert len(found.duty_cycle) == 2
+
+
+def test_a_life_that_is_shaken_goes_by_each_of_many_steps():
+    bins = [(250.0, 1400.0, 10.0)] * 20
+    many, one = (
+        life(inputs(A100, Operation(**RUN, duty_cycle=steps(*loads)), RatingOptions()), 0.5, 1.2)
+        for loads in (bins, [(250.0, 1400.0, 200.0)])
+    )
+    assert many.wear == pytest.approx(one.wear, rel=1e-12)
+    assert many.hours == pytest.approx(one.hours, rel=1e-12)

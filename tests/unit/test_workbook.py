@@ -137,6 +137,33 @@ CASES = {
             ],
         }
     },
+    "spectrum with turns, starts and a load that drives, in a housing": {
+        "values": {
+            "operation.wheel_revolutions": None,
+            "spectrum.step": [
+                {"turns": 5e3, "output_torque": 366.0, "starts_per_hour": 30.0},
+                {"duration": 1.8e5, "output_torque": 122.0, "worm_speed": 75.0},
+                {"duration": 9e4, "output_torque": 200.0, "drives": "load"},
+            ],
+            "spectrum.duty": "S3 40 %",
+            "spectrum.hours_per_day": 8.0,
+            "housing.idle_loss": 30.0,
+            "housing.heat_capacity": 4000.0,
+            "housing.at_rest": 9.0,
+        }
+    },
+    "spectrum with the oil of its mean, S2": {
+        "values": {
+            "spectrum.step": [
+                {"duration": 5e3, "output_torque": 366.0},
+                {"duration": 1.8e5, "output_torque": 122.0},
+            ],
+            "spectrum.oil_temperature": "mean",
+            "spectrum.duty": "S2 15 min",
+            "housing.iron": 9.0,
+            "housing.area": 0.3,
+        }
+    },
     "small, with a fan": {
         "settings": [
             "gearset.starts=1",

@@ -83,7 +83,7 @@ def life(
             upper = "" if math.isinf(high) else f" and at most {high:g}"
             raise InputError(f"the {name} is {value:g}; it must be 0 or more{upper}")
     path = 1.0 - share + share * path_ratio
-    parts = given.parted() or (given,)
+    parts = given.each() or (given,)
     found = [_worn(part, path, share * other_heat) for part in parts]
     wear = math.fsum(float(each["delta_Wn_mm"]) * path for each in found)
     safety = float(found[0]["delta_Wlim_mm"]) / wear if wear > 0.0 else math.inf

@@ -7,13 +7,14 @@ has none.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from asperity.rating.inputs import Inputs
 from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
-from asperity.results.quantity import Number, Sentence
+from asperity.results.quantity import Number, Sentence, text_of
+from asperity.results.table import Column, Table
 
 _ROOT = 1.06  # of the wear that the root of a tooth loses, as in its thickness
 _PITTING_CAP = 1.6
@@ -47,6 +48,17 @@ class Endurance(NamedTuple):
             "life ", Number.of(self.hours, form, key and f"{key}.hours_h"), " h of ",
             f"{asked:,.4g} asked, until {self.name} by {NAMES[self.standard]}",
         )  # fmt: skip
+
+
+def endurance_table(rows: Sequence[Endurance]) -> Table:
+    """Return the running time until each limit as a table."""
+    found = tuple(
+        (NAMES[row.standard], row.name, text_of(row.hours, key=f"endurance.{place}.hours_h"))
+        for place, row in enumerate(rows)
+    )
+    columns = Column("standard"), Column("until"), Column("hours", right=True)
+    remark = "with the loads in the same shares all along, until a safety is 1"
+    return Table(columns, found, "Running time until each limit", (remark,))
 
 
 def endurance(given: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ...]:

@@ -14,7 +14,7 @@ HEAT = {"iron": 460.0, "aluminium": 900.0, "bronze": 380.0, "oil": 1900.0}
 Area = Annotated[float, Quantity("m**2", what="an area", example="0.4 m**2", gt=0, le=1e4)]
 Transfer = Annotated[
     float,
-    Quantity("W/(m**2 K)", what="a heat transfer", example="15 W/(m**2 K)", gt=0, le=1e4),
+    Quantity("W/m**2/K", what="a heat transfer", example="15 W/m**2/K", gt=0, le=1e4),
 ]
 Loss = Annotated[float, Quantity("W", what="a power", example="30 W", ge=0)]
 Mass = Annotated[float, Quantity("kg", what="a mass", example="12 kg", ge=0, le=1e6)]

@@ -159,17 +159,21 @@ class Inputs:
 
     def parted(self) -> "tuple[Inputs, ...]":
         """Return what the formulas start from in each of the `loads`."""
-        return tuple(
-            dataclasses.replace(
-                self,
-                hours=part.hours,
-                worm_speed=part.speed,
-                output_torque=part.torque,
-                through_travel_torque=part.torque,
-                part_starts=part.starts,
-                load_drives=part.back,
-            )
-            for part in self.loads
+        return tuple(map(self._loaded, self.loads))
+
+    def each(self) -> "tuple[Inputs, ...]":
+        """Return the same for each part of the duty cycle by itself, however many there are."""
+        return tuple(map(self._loaded, self.duty))
+
+    def _loaded(self, part: Part) -> "Inputs":
+        return dataclasses.replace(
+            self,
+            hours=part.hours,
+            worm_speed=part.speed,
+            output_torque=part.torque,
+            through_travel_torque=part.torque,
+            part_starts=part.starts,
+            load_drives=part.back,
         )
 
     def total(self, values: Iterable[Real]) -> Real:

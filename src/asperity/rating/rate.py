@@ -15,7 +15,7 @@ from asperity.rating.by_standard import PROMISED, rate_by
 from asperity.rating.driven import driven, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.duty_words import duty_lines, loads_line
-from asperity.rating.endurance import Endurance, endurance
+from asperity.rating.endurance import Endurance, endurance, endurance_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
@@ -234,6 +234,8 @@ class Rated(Result):
             tables.append(Table(columns, tuple(tuple(row.values()) for row in rows), title))
         if self.holding:
             tables.append(held_table(self.holding))
+        if self.given.operation.spectrum is not None:
+            tables.append(endurance_table(self.endurance))
         if self.starting:
             tables.append(starting_table(self.starting))
         if self.notes:

@@ -6,6 +6,7 @@ from typing import Any
 
 from asperity.gearset.drawn import drawn
 from asperity.rating.duty import duty_table
+from asperity.rating.endurance import endurance_table
 from asperity.rating.forces import MEANINGS
 from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
@@ -78,6 +79,8 @@ def _duty(rated: Reported) -> Section:
     from asperity.rating.duty_plots import plot_duty
     from asperity.rating.warming import warming
 
+    if given.operation.spectrum is not None:
+        tables.append(endurance_table(rated.endurance))
     tables += [starting_table(rated.starting)] if rated.starting else []
     figure = plot_duty(rated.duty_cycle, float(iso["theta_S_lim_degC"]), warming(given, iso))
     caption = (

@@ -324,6 +324,14 @@ class _TracedInputs(Inputs):
         return self._cell("life") if given else super().life
 
     @property
+    def measured_at(self) -> Any:
+        housing = self.plain.operation.housing
+        if housing is None or housing.measured_at is None:
+            # The rated speed, also in a part that runs at another.
+            return self.cells.input("worm_speed", float(self.plain.worm_speed))
+        return self._cell("measured_at", "rpm")
+
+    @property
     def bearing_span(self) -> Any:
         if self.plain.operation.bearing_span is None:
             return super().bearing_span

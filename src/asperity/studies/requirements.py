@@ -2,15 +2,19 @@
 
 import math
 from collections.abc import Mapping
-from typing import Annotated, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Table
-from asperity.rating.variants import Variants
-from asperity.studies.series import RATIO_OFF
 from asperity.units import Quantity
+
+if TYPE_CHECKING:
+    from asperity.rating.variants import Variants
+
+RATIO_OFF = 0.03
+"""By how much the teeth may miss a ratio."""
 
 Length = Annotated[float, Quantity("m", what="a length", example="125 mm", gt=0)]
 
@@ -49,7 +53,7 @@ class Requirements(Table):
     wheel_diameter: Length | None = None
     safety: Annotated[float, Quantity("", what="a factor", example="1.2", ge=1, le=100)] = 1.0
 
-    def kept(self, rated: Variants, at_rest: Mapping[str, FloatArray]) -> Any:
+    def kept(self, rated: "Variants", at_rest: Mapping[str, FloatArray]) -> Any:
         """Return which designs keep what is asked beside their safeties.
 
         Parameters

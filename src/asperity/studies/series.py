@@ -7,6 +7,7 @@ import numpy as np
 
 from asperity.errors import InputError
 from asperity.gearset.sizing import possible_starts
+from asperity.studies.requirements import RATIO_OFF
 
 DISTANCES = (25, 31.5, 40, 50, 63, 80, 100, 125, 140, 160, 180, 200, 225, 250, 280, 315, 355, 400,
              450, 500)  # fmt: skip
@@ -20,9 +21,6 @@ MOST_SHIFT = 0.5
 
 FACTORS = (6.0, 20.0)
 """Least and greatest diameter factor; between them every half one is tried."""
-
-RATIO_OFF = 0.03
-"""By how much the teeth may miss a ratio."""
 
 _SAME = 1e-9
 

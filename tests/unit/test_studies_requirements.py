@@ -1,0 +1,103 @@
+"""What sizing keeps beside the safeties, and the loads that it follows."""
+
+import pytest
+
+from asperity.errors import InputError
+from asperity.start.gear import begun, proposals
+
+STEPS = [
+    {"duration": "500 h", "output_torque": "250 N m"},
+    {"duration": "3000 h", "output_torque": "60 N m"},
+]
+
+
+def sized(ratio=50, *, gearset=None, operation=None, **tables):
+    values = begun()
+    run = {"output_torque": "250 N m", "worm_speed": "1400 rpm",
+           "lubricant": "ISO VG 220 polyglycol"}  # fmt: skip
+    values["operation"] = {**values["operation"], **run, **(operation or {})}
+    if operation and "duty_cycle" in operation:
+        del values["operation"]["life"]
+    values["gearset"] |= gearset or {}
+    return proposals(values | tables, ratio)
+
+
+def test_nothing_asked_is_what_is_proposed_without_the_table():
+    assert sized().found == sized(requirements={}).found
+
+
+def test_a_tolerance_of_the_ratio_is_kept():
+    for tolerance in ("3 %", "1 %", "10 %"):
+        found = sized(47.7, requirements={"ratio_tolerance": tolerance}).found
+        off = [abs(one.wheel_teeth / one.starts / 47.7 - 1.0) for one in found]
+        assert max(off) <= float(tolerance[:-2]) / 100.0
+    assert max(off) > 0.0
+    with pytest.raises(InputError, match=r"no gearset of the series has within 0\.1 %"):
+        sized(47.7, requirements={"ratio_tolerance": "0.1 %"})
+
+
+def test_self_locking_is_wanted_or_avoided_by_every_standard_at_rest():
+    wanted = sized(requirements={"self_locking": "wanted"})
+    assert all(len(one.locks_at_rest) == 3 for one in wanted.found)
+    assert any("self-locking wanted" in note for note in wanted.notes)
+    avoided = sized(15, requirements={"self_locking": "avoided"})
+    assert all(one.locks_at_rest == () for one in avoided.found)
+    with pytest.raises(InputError, match=r"self-locking wanted by 90 times, which no gearset"):
+        sized(requirements={"self_locking": "wanted", "locking_margin": 90})
+
+
+def test_a_margin_of_self_locking_leaves_fewer():
+    plain = sized(requirements={"self_locking": "wanted"})
+    wide = sized(requirements={"self_locking": "wanted", "locking_margin": 1.12})
+    assert wide.holding < plain.holding
+    # At 12.5 the friction at rest is 12 % above that which locks: 0.0897 of 0.08.
+    assert all(one.starts / one.diameter_factor * 1.12 <= 0.0897 for one in wide.found)
+
+
+@pytest.mark.parametrize("key", ["centre_distance", "wheel_diameter"])
+def test_room_is_kept(key):
+    def size(one):
+        if key == "centre_distance":
+            return one.centre_distance_mm
+        return one.axial_module_mm * (one.wheel_teeth + 2.0 * one.profile_shift + 2.0)
+
+    free = sorted(size(one) for one in sized(20).found)
+    most = 0.5 * (free[0] + free[-1])
+    kept = [size(one) for one in sized(20, requirements={key: f"{most} mm"}).found]
+    assert free[0] <= max(kept) <= most < free[-1]
+
+
+def test_safeties_are_so_many_times_what_is_asked():
+    found = sized(requirements={"safety": 1.5}).found
+    assert all(one.margin >= 1.5 and one.holds for one in found)
+
+
+def test_sizes_follow_the_loads_of_a_life():
+    constant = sized(operation={"life": "3500 h"})
+    spectral = sized(spectrum={"step": STEPS})
+    by_duty = sized(operation={"duty_cycle": STEPS})
+    assert spectral.found == by_duty.found
+    light = sized(spectrum={"step": STEPS[1:]})
+    assert light.holding > constant.holding
+    heavy = sized(spectrum={"step": STEPS, "hours_per_day": 24, "shock": "heavy"})
+    assert heavy.holding < spectral.holding
+
+
+def test_a_housing_counts_in_sizing():
+    cool = sized(housing={"heat_transfer": "25 W/(m**2 K)"})
+    warm = sized(housing={"heat_transfer": "5 W/(m**2 K)"})
+    assert warm.found != cool.found
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"self_locking": "yes"}, r"requirements\.self_locking is 'yes'; it must be one of"),
+        ({"ratio_tolerance": "90 %"}, r"requirements\.ratio_tolerance is '90 %'"),
+        ({"locking_margin": 0.5}, r"requirements\.locking_margin is 0\.5; it must be at least 1"),
+        ({"space": "1 m"}, r"requirements\.space is not a key of \[requirements\]"),
+    ],
+)
+def test_what_requirements_cannot_be_is_one_line(given, said):
+    with pytest.raises(InputError, match=said):
+        sized(requirements=given)
