@@ -135,7 +135,8 @@ def _written(found: Proposals, values: Values, out: Path) -> str:
     for place, proposal in enumerate(found.found, 1):
         kept = {k: v for k, v in values["gearset"].items() if k not in _OTHER_FORMS}
         mine = {**values, "gearset": {**kept, **proposal.keys}}
-        text = case_text(f"Proposal {place}", mine, case_tables(), kind.tables)
+        tables = (*kind.tables, *(name for name in mine if name not in kind.tables))
+        text = case_text(f"Proposal {place}", mine, case_tables(), tables)
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)
     return f"written to {folder}: {', '.join(names)}"
 

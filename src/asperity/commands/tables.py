@@ -23,6 +23,7 @@ _TABLES = {
     "wheel_shaft": "asperity.shafts.parameters:WheelShaft",
     "bearings": "asperity.shafts.options:BearingOptions",
     "spectrum": "asperity.rating.spectrum:Spectrum",
+    "requirements": "asperity.studies.requirements:Requirements",
     "housing": "asperity.rating.housing:Housing",
     "block": "asperity.block.parameters:Block",
     "contact": "asperity.block.parameters:Contact",
