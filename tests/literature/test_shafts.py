@@ -270,3 +270,83 @@ def test_the_branches_of_a_iso_meet_where_the_viscosity_ratio_changes(kind):
     for kappa in (0.4, 1.0):
         near = [life.life_modification(kappa + d, 1.0, 100.0, 1000.0, kind) for d in (-1e-9, 1e-9)]
         assert near[0] == pytest.approx(near[1], rel=3e-3)
+
+
+def test_a_surface_counts_for_less_in_torsion():
+    bending = din743.surface_factor(25.0, 900.0)
+    assert bending == pytest.approx(1.0 - 0.22 * math.log10(25.0) * (math.log10(45.0) - 1.0))
+    assert din743.surface_factor(25.0, 900.0, "torsion") == pytest.approx(0.575 * bending + 0.425)
+
+
+def test_a_groove_has_its_own_gradient():
+    # Depth and radius 1 mm in 30 mm: phi is 1/6, since 28/30 is above 0.67.
+    assert notches.stress_gradient(28.0, 30.0, 1.0, "bending", "groove") == pytest.approx(7.0 / 3.0)
+    assert notches.stress_gradient(28.0, 30.0, 1.0, "torsion", "groove") == 1.0
+    assert notches.stress_gradient(28.0, 30.0, 1.0, "bending") == pytest.approx(2.3 * 7.0 / 6.0)
+
+
+def test_a_press_fit_of_40_mm_has_the_factor_that_was_tested():
+    bending = 2.7 * 0.9**0.43
+    assert notches.seat_factor(40.0, 900.0, "bending", "press fit") == pytest.approx(bending)
+    torsion = notches.seat_factor(40.0, 900.0, "torsion", "press fit")
+    assert torsion == pytest.approx(0.65 * bending + 0.1)
+
+
+def test_a_pulsating_torque_is_half_amplitude_and_half_mean():
+    borne = strength(FILLET, STEEL)
+    torque = 200.0
+    half = 8e3 * torque / (math.pi * 25.0**3)
+    mean, alternating = half, half
+    found = judged(FILLET, STEEL, borne, Actions(0.0, torque, 0.0), torque="pulsating")
+    borne_amplitude = borne.part[1] - borne.sensitivity[1] * mean
+    assert found.fatigue_1 == pytest.approx(borne_amplitude / alternating, rel=1e-12)
+
+
+def test_four_point_bearings_have_the_factors_of_catalogues():
+    of = equivalent.FOUR_POINT
+    assert equivalent.dynamic_load(of, 1000.0, 500.0) == pytest.approx(1330.0)
+    assert equivalent.dynamic_load(of, 1000.0, 2000.0) == pytest.approx(2740.0)
+    assert equivalent.static_load(of, 1000.0, 2000.0) == pytest.approx(2160.0)
+
+
+@pytest.mark.parametrize(
+    ("angle", "pair", "load", "rest"),
+    [(25, False, 2150.0, 1260.0), (30, False, 1910.0, 1160.0), (40, False, 1490.0, 1020.0),
+     (25, True, 3490.0, 2520.0), (30, True, 3110.0, 2320.0), (40, True, 2430.0, 2040.0)],
+)  # fmt: skip
+def test_angular_contact_bearings_have_the_factors_of_catalogues(angle, pair, load, rest):
+    of = equivalent.angular(float(angle), pair=pair)
+    assert equivalent.dynamic_load(of, 1000.0, 2000.0) == pytest.approx(load)
+    assert equivalent.static_load(of, 1000.0, 2000.0) == pytest.approx(rest)
+
+
+def test_where_the_load_drives_the_worm_is_turned_by_the_lead_less_the_friction():
+    found = solved("actuator-shafts", ALONE)
+    rated = read_case("actuator-shafts", case_tables(), [ALONE])
+    (load,) = found.loads
+    lead = float(rated["gearset"].geometry.lead_angle)
+    # tan(gamma + rho) of the worm driving gives rho.
+    rho = math.atan(load.tangential / load.axial) - lead
+    assert load.driven == pytest.approx(load.axial * math.tan(lead - rho), rel=1e-9)
+    back = found.found["worm_shaft"].every[2][0]
+    assert back.condition.drives == "load"
+    assert abs(back.carried.torque) == pytest.approx(
+        abs(load.driven) * 0.5 * float(rated["gearset"].geometry.worm_pitch_diameter), rel=1e-9
+    )
+
+
+def test_a_pair_bears_twice_the_load_that_never_tires_it():
+    found = solved().found["worm_shaft"]
+    place, life_found = found.model.places[0], found.lives[0]
+    rolling = place.bearing
+    case = next(iter(life_found))
+    (least,) = {round(life_found[case].a_iso, 6)}
+    each = found.every[0]
+    values = []
+    for one in each:
+        of = rolling.factors(one.axial.loads[0], opposed=True)
+        p = equivalent.dynamic_load(of, one.carried.radial[0], one.axial.loads[0])
+        nu_1 = life.reference_viscosity(one.load.speed, 46.0)
+        kappa = one.load.viscosity / float(nu_1)
+        values.append(float(life.life_modification(kappa, 0.3, 2.0 * 26e3 / 22.0, p, "ball")))
+    assert least == pytest.approx(min(values), rel=1e-5)
