@@ -1,8 +1,9 @@
 """Efficiency and load capacity of worm gearsets by three standards."""
 
 from asperity.rating.parameters import LoadStep, Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, Rated, rate, rate_case
+from asperity.rating.rate import Rated, rate, rate_case
 from asperity.rating.variants import Variants, variants
+from asperity.rating.wanted import STANDARDS
 
 __all__ = [
     "STANDARDS",

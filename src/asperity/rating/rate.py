@@ -12,8 +12,10 @@ from asperity.gearset.library import find
 from asperity.gearset.lubricants import Lubricant
 from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
+from asperity.gearset.tolerancing.backlash import Backlash, backlash
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.alternatives import Alternative, alternatives
-from asperity.rating.bs721.tables import Tables, read_tables
+from asperity.rating.bs721.tables import Tables
 from asperity.rating.by_standard import PROMISED, judge_of, rate_by
 from asperity.rating.changes import changed_words
 from asperity.rating.driven import driven, told_of
@@ -22,13 +24,12 @@ from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs, inputs
-from asperity.rating.iso14521.calculation import film_parameter_of
-from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.levers import Lever, levers
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking, self_locking
 from asperity.rating.verdict import Verdict, screen
+from asperity.rating.wanted import STANDARDS, known_standards, require_consistent, tables_of
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.results.table import Column, Table
@@ -37,9 +38,6 @@ from asperity.store import harmless_cell, write_text
 
 if TYPE_CHECKING:
     from asperity.results.report import Heading, Section
-
-STANDARDS = ("iso14521", "bs721", "agma6034")
-"""The standards, by the name they have in results."""
 
 ALL = "all"
 
@@ -73,6 +71,8 @@ class Rated(Result):
         Why a standard that was asked for could not be applied.
     contact : Section or None
         What its report shows of how the flanks touch, where that was asked for.
+    backlash : Backlash or None
+        What the tolerances leave of it, where there are any.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -92,6 +92,7 @@ class Rated(Result):
     tables_bs721: Tables
     unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
+    backlash: Backlash | None = None
 
     @property
     def verdict(self) -> Verdict:
@@ -148,6 +149,7 @@ class Rated(Result):
             "forces": {one.rotation: one.to_json() for one in self.forces} or None,
             "holding": [one.to_json() for one in self.holding],
             **({"duty_cycle": parts} if parts else {}),
+            **({} if self.backlash is None else {"backlash": self.backlash.to_json()}),
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -180,7 +182,14 @@ class Rated(Result):
 
     def brief(self) -> str:
         """Return the verdict on one screen."""
-        return screen(self.verdict, self.found, self.self_locking, len(self.assumed), self.notes)
+        return screen(
+            self.verdict,
+            self.found,
+            self.self_locking,
+            len(self.assumed),
+            self.notes,
+            () if self.backlash is None else (self.backlash.sentence(),),
+        )
 
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
@@ -195,6 +204,8 @@ class Rated(Result):
             tables.append(Table(columns, tuple(tuple(row.values()) for row in rows), title))
         if self.holding:
             tables.append(held_table(self.holding))
+        if self.backlash is not None:
+            tables.append(self.backlash.table())
         if self.notes:
             tables.append(Table((), (), remarks=self.notes))
         return tuple(tables)
@@ -239,6 +250,7 @@ def rate(
     standards: Sequence[str] = STANDARDS,
     *,
     folder: Path | None = None,
+    tolerances: Tolerances | None = None,
 ) -> Rated:
     """Rate a worm gearset.
 
@@ -254,6 +266,8 @@ def rate(
         Which to apply.
     folder : path, optional
         Where a relative file name among the options starts.
+    tolerances : Tolerances, optional
+        The ``[tolerances]`` table, which leaves a backlash.
 
     Returns
     -------
@@ -272,13 +286,14 @@ def rate(
         gearset=(gearset, Gearset),
         operation=(operation, Operation),
         options=(options, RatingOptions | None),
+        tolerances=(tolerances, Tolerances | None),
     )
     options = options or RatingOptions()
     wanted = known_standards(standards)
     asked = operation
     operation = driven(gearset, operation, options)
     given = inputs(gearset, operation, options)
-    _require_consistent(given, "iso14521" in wanted)
+    require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
@@ -301,6 +316,7 @@ def rate(
         alternatives=(),
         unanswered=unanswered,
         contact=None,
+        backlash=None if tolerances is None else backlash(gearset, tolerances, worn(found)),
         given=given,
         tables_bs721=tables,
         gearset=gearset,
@@ -317,7 +333,20 @@ def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     options = case.get(RatingOptions)
     gearset, operation = case.require(Gearset), case.require(Operation)
     with told(case):
-        return rate(gearset, operation, options, standards, folder=case.folder)
+        return rate(
+            gearset,
+            operation,
+            options,
+            standards,
+            folder=case.folder,
+            tolerances=case.get(Tolerances),
+        )
+
+
+def worn(found: Mapping[str, Rating]) -> float | None:
+    """Return how deep the wheel's flanks are worn at the end of the life by ISO/TR 14521, um."""
+    iso = found.get("iso14521")
+    return None if iso is None or "delta_Wn_mm" not in iso else 1e3 * float(iso["delta_Wn_mm"])
 
 
 def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
@@ -333,7 +362,7 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
     wanted = STANDARDS if standard == ALL else (standard,)
     with told(case):
         operation = driven(gearset, operation, options)
-    _require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
+    require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
     return case, wanted
 
 
@@ -363,37 +392,3 @@ def _with_changes(
     tables[table] = tables[table].model_copy(update={key: thing})
     changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
     return other._replace(changes=changed_words(rated, changed))
-
-
-def tables_of(options: RatingOptions, folder: Path | None) -> Tables:
-    """Return the tables of BS 721 that are asked for."""
-    own = options.bs721_tables
-    return read_tables(None if own is None else (folder or Path()) / own)
-
-
-def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
-    """Return the standards in their order; raises InputError for one that is not known."""
-    for name in standards:
-        if name not in STANDARDS:
-            raise InputError(
-                f"standard is {name!r}; it must be one of {choices(STANDARDS)}"
-                f"{suggestion(str(name), STANDARDS)}"
-            )
-    if not standards:
-        raise InputError(f"no standard is asked for; give one of {choices(STANDARDS)}")
-    return tuple(name for name in STANDARDS if name in standards)
-
-
-def _require_consistent(given: Inputs, by_iso: bool) -> None:
-    try:
-        given.gearset.require_consistent()
-    except InputError as error:
-        # The end of h* tells more about a ratio or module that is too large.
-        try:
-            if by_iso:
-                film_parameter_of(given)
-        except FilmParameterError as film:
-            raise FilmParameterError(
-                f"{film}; {error}", film.value, film.driver, film.limits
-            ) from None
-        raise

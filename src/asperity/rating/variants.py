@@ -19,8 +19,8 @@ from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, known_standards, tables_of
 from asperity.rating.variation import BLOCK, varied
+from asperity.rating.wanted import STANDARDS, known_standards, tables_of
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -273,6 +273,7 @@ def screen(
     locking: SelfLocking,
     assumed: int,
     notes: Iterable[str],
+    play: Iterable[str] = (),
 ) -> str:
     """Return what is shown first: the verdict, in lines of at most 79 characters.
 
@@ -287,7 +288,7 @@ def screen(
     remarks = *(note for note in notes if note not in said), *_outside(found)
     kept = {"film": film, "remarks": remarks}
     blocks = {"stands": verdict.stands(), "first": first, "best": best, "power": power,
-              "locking": (locking_line(locking),)}  # fmt: skip
+              "locking": (locking_line(locking),), "play": play}  # fmt: skip
     lines = {name: [line for one in of for line in wrapped(one)] for name, of in blocks.items()}
     lines |= {"bars": ["", *verdict.bars(), ""], "film": [], "remarks": []}
     if sum(map(len, lines.values())) >= _MOST_LINES:
@@ -309,7 +310,9 @@ def screen(
         f"assumed {assumed} key{'s' * (assumed != 1)}, {memory} {rest} on sources from memory"
         f"{further}: --full"
     ]
-    order = "stands", "first", "best", "bars", "power", "film", "locking", "remarks", "end"
+    order = (
+        "stands", "first", "best", "bars", "power", "film", "locking", "play", "remarks", "end",
+    )  # fmt: skip
     return "\n".join(line for name in order for line in lines[name])
 
 

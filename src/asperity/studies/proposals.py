@@ -20,9 +20,9 @@ from asperity.gearset.threads import thread_room
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, tables_of
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.variants import Variants, variants
+from asperity.rating.wanted import STANDARDS, tables_of
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.studies.series import grid

@@ -11,9 +11,10 @@ from asperity.gearset import Gearset
 from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import facts
 from asperity.rating.parameters import Operation
-from asperity.rating.rate import STANDARDS, Rated, rate_case
+from asperity.rating.rate import Rated, rate_case
 from asperity.rating.standing import NAMES
 from asperity.rating.tables import TABLES
+from asperity.rating.wanted import STANDARDS
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.slider.result import table_inputs

@@ -17,12 +17,16 @@ from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
 from asperity.flanks.study.result import FlankStudy, ToothMesh
+from asperity.flanks.study.toleranced import Toleranced, require_once
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
+from asperity.gearset.tolerancing.backlash import backlash
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating import Operation, RatingOptions, rate_case
 from asperity.rating.driven import driven
+from asperity.rating.rate import worn
 from asperity.rating.regime import Film
 from asperity.runs import Run
 from asperity.sources import Source
@@ -44,7 +48,7 @@ class Prepared:
     """What a study begins with; what can be refused without much work has been.
 
     The notes are of the load; ``step`` says whether its files are to hold STEP, ``seconds`` what it
-    took.
+    took; the wear is that of the life by ISO/TR 14521, um.
     """
 
     gearset: Gearset
@@ -58,6 +62,8 @@ class Prepared:
     step: bool = False
     blanks: Blanks | None = None
     measuring: MeasuringOptions | None = None
+    tolerances: Tolerances | None = None
+    wear: float | None = None
 
 
 def prepare_gearset(
@@ -119,6 +125,10 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
     pair = made.wheel.pair
     wheel_sizes(pair.geometry, blanks)
     shaft_sizes(pair, blanks)
+    tolerances, measuring = case.get(Tolerances), case.get(MeasuringOptions)
+    require_once(tolerances, case.get(Mount), measuring)
+    if tolerances is not None:
+        backlash(gearset, tolerances)
     load, notes = _load(case, gearset)
     return dataclasses.replace(
         made,
@@ -126,7 +136,9 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
         notes=tuple(notes),
         step=step,
         blanks=blanks,
-        measuring=case.get(MeasuringOptions),
+        measuring=measuring,
+        tolerances=tolerances,
+        wear=None if tolerances is None else _wear(case),
     )
 
 
@@ -164,7 +176,11 @@ def study(prepared: Prepared) -> FlankStudy:
         found = analyse(pair, prepared.wheel, worm_speed=load.worm_speed)
         notes.append(f"no load on the contact lines: {error}")
     wheel = Wheel(found.pair)
-    measured = measures.measure(wheel, found.play, prepared.measuring)
+    off = None
+    if prepared.tolerances is not None:
+        off = Toleranced.of(prepared.gearset, wheel, found, prepared.tolerances, prepared.wear)
+    between = None if off is None else off.backlash
+    measured = measures.measure(wheel, found.play, prepared.measuring, between)
     assembly = Assembly.of(found, made=prepared.step)
     if assembly.thinned:
         less = MICROMETRES * assembly.thinned
@@ -191,6 +207,7 @@ def study(prepared: Prepared) -> FlankStudy:
         measuring=measured,
         step=prepared.step,
         blanks=prepared.blanks,
+        toleranced=off,
     )
 
 
@@ -237,6 +254,16 @@ def _load(case: Case, gearset: Gearset) -> tuple[Load | None, list[str]]:
     sump = float(rated["theta_S_degC"]) if rated is not None else 0.0
     note = f"oil at {sump:.4g} degC, from the heat balance of ISO/TR 14521"
     return Load.of(gearset, operation, sump + _ZERO_CELSIUS), [note]
+
+
+def _wear(case: Case) -> float | None:
+    """Depth that the life wears off the wheel's flanks, um; None where the standard cannot say."""
+    if case.get(Operation) is None:
+        return None
+    try:
+        return worn(rate_case(case, ("iso14521",)).found)
+    except InputError:
+        return None
 
 
 def _assumed(gearset: Gearset, hob: Hob | None, disc: Disc | None) -> dict[str, str]:

@@ -16,6 +16,7 @@ from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.meshing.analysis import LABELS, Analysis
 from asperity.flanks.meshing.lubrication import LoadedNumbers
 from asperity.flanks.parameters import Blanks
+from asperity.flanks.study.toleranced import Toleranced
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.gearset import Geometry
@@ -98,6 +99,8 @@ class FlankStudy(Drawn):
         Whether the files hold tooth, worm, wheel and both in mesh as STEP.
     blanks : Blanks, optional
         What wheel and worm are beside their teeth.
+    toleranced : Toleranced, optional
+        What the tolerances come to, where there are any.
     """
 
     title: ClassVar[str] = "worm gearset"
@@ -129,6 +132,7 @@ class FlankStudy(Drawn):
     assembly: Assembly
     step: bool = False
     blanks: Blanks | None = None
+    toleranced: Toleranced | None = None
     seconds: float = quantity("", "s", "time it took", key="seconds", only="json", shown=False)
 
     @property
@@ -190,7 +194,10 @@ class FlankStudy(Drawn):
     @property
     def drawing(self) -> list[Datum]:
         """The data of worm and wheel that stand on their drawings."""
-        return drawing_data(self.wheel.pair, self.measuring)
+        off = self.toleranced
+        if off is None:
+            return drawing_data(self.wheel.pair, self.measuring)
+        return drawing_data(self.wheel.pair, self.measuring, off.graded, off.backlash)
 
     def resolution(self, name: str) -> float:
         """Return the size below which a quantity is rounding and shown as zero, in its unit."""
@@ -225,6 +232,7 @@ class FlankStudy(Drawn):
             "mesh": self.mesh.to_json(),
             "assumed": dict(self.assumed),
             "from_memory": dict(self.from_memory),
+            **({} if self.toleranced is None else {"tolerances": self.toleranced.to_json()}),
         }
 
     def to_dataset(self) -> "xr.Dataset":
@@ -247,7 +255,8 @@ class FlankStudy(Drawn):
             "worm_speed_rad_per_s": flanks[1].motion.worm_speed,
         }
         numbers = to_dataset(self, {}, attributes, title=f"flanks of {self.heading()}")
-        return whole.assign_coords(side=side).merge(numbers).assign_attrs(numbers.attrs)
+        made = whole.assign_coords(side=side).merge(numbers).assign_attrs(numbers.attrs)
+        return made if self.toleranced is None else self.toleranced.added(made)
 
     def heading(self) -> str:
         """Return what it is of."""
@@ -289,6 +298,7 @@ class FlankStudy(Drawn):
             ),
             Table.of(("part of a vibration, s = +1", *parts), vibration),
             self.measuring.table(),
+            *(() if self.toleranced is None else self.toleranced.tables()),
             table_of(
                 self.mesh,
                 title=f"mesh of a tooth, {self.mesh.density}",
