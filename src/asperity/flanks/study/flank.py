@@ -16,6 +16,7 @@ from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
+from asperity.flanks.study.mounted import MountedStudy
 from asperity.flanks.study.result import FlankStudy, ToothMesh
 from asperity.flanks.study.toleranced import Toleranced, require_once
 from asperity.flanks.wheel.enveloped import Wheel
@@ -194,7 +195,8 @@ def study(prepared: Prepared) -> FlankStudy:
         thinnest = min(lines.numbers.film_mean for lines in loaded)
         notes.append(Film(thinnest, 1e6 * prepared.gearset.worm_roughness).sentence())
     assumed = _assumed(prepared.gearset, prepared.hob, prepared.disc)
-    return FlankStudy(
+    kind = MountedStudy if off is not None and off.corners else FlankStudy
+    return kind(
         name=prepared.gearset.name,
         wheel=wheel,
         analysis=found,

@@ -6,12 +6,13 @@ On the mean circle of the wheel, with allowances :math:`E \le 0` of the thicknes
 .. math:: j_t = -\left(\frac{E_{sn1}}{\cos\gamma} + E_{s2}\right) + 2 f_a\tan\alpha_x, \qquad
           j_n = j_t\cos\alpha_n\cos\gamma .
 
-The worst case adds what each may be off by; the squares add their squares, so that of assemblies
-whose deviations are normal and within three standard deviations of their middle 99.7 % lie within. Warmth adds :math:`2a(\alpha_h\Delta T_h - \sum_i s_i\alpha_i\Delta T_i)\tan\alpha_x`, with
-the share :math:`s_i` of the centre distance that each material takes, and flanks worn by
-:math:`\delta` normal to them :math:`\delta/(\cos\alpha_n\cos\gamma)`. This is geometry, of no
-standard. The exact flanks, which touch elsewhere at another centre distance, have another slope to
-each side: `asperity.flanks.measuring.interval`.
+The worst case adds what each may be off by. The squares add their squares: of assemblies whose
+deviations are normal, and within three standard deviations of their middle, 99.7 % lie within.
+Warmth adds :math:`2a(\alpha_h\Delta T_h - \sum_i s_i\alpha_i\Delta T_i)\tan\alpha_x`, where
+:math:`s_i` is the share of the centre distance that each material takes, and flanks that are worn
+by :math:`\delta` normal to them add :math:`\delta/(\cos\alpha_n\cos\gamma)`. This is geometry, of
+no standard. The exact flanks, which touch elsewhere at another centre distance, have another slope
+to each side: `asperity.flanks.measuring.corners`.
 """
 
 import math

@@ -28,7 +28,7 @@ Grade = Literal[6, 7, 8, 9]
 _MODULES = (3.5, 6.3, 10.0, 16.0, 25.0)
 _LEAST_MODULE = 1.0
 # By symbol and grade, um, for modules up to those above; a shorter row ends where the table does.
-_WORM = {
+_WORM: dict[str, dict[int, tuple[float, ...]]] = {
     "f_h": {7: (17, 21, 28, 36, 50), 8: (28, 34, 45, 56, 80)},
     "f_hk": {7: (34, 42, 56, 75, 100), 8: (53, 67, 90, 120, 160)},
     "f_px": {6: (7.5, 9, 12, 16), 7: (12, 15, 19, 25, 34), 8: (19, 24, 30, 40, 53),
@@ -99,7 +99,7 @@ def graded(geometry: Geometry, grade: int) -> tuple[Allowed, ...]:
         )
     place = next(n for n, most in enumerate(_MODULES) if m <= most)
     worm = [
-        Allowed("worm", _NAMES[symbol], symbol, float(rows[grade][place]), GOST, grade)
+        Allowed("worm", _NAMES[symbol], symbol, rows[grade][place], GOST, grade)
         for symbol, rows in _WORM.items()
         if place < len(rows.get(grade, ()))
     ]
