@@ -170,6 +170,15 @@ COMMANDS = (
         ),
     ),
     Command(
+        "rexs",
+        "Write a worm gearset in the exchange format of gearbox programs, REXS.",
+        "It is of version 1.5; asperity new gear --from reads such files, of any version.",
+        module="asperity.flanks.export.rexs.export",
+        needs=("gearset",),
+        draws=False,
+        out="GEARSET.rexs",
+    ),
+    Command(
         "drive",
         "Load a worm gearset, and shake it: torque, powers, contact lost, what it is worth.",
         "With --out also report.html, drive.json, drive.nc and pictures.",
