@@ -3,6 +3,7 @@
 import math
 import os
 import shutil
+import signal
 from collections import defaultdict
 
 import hypothesis
@@ -15,6 +16,17 @@ if "PYTEST_XDIST_WORKER" in os.environ:
     # that a test starts.
     for _library in ("OMP", "OPENBLAS", "MKL"):
         os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+# What is started in the background of a script, or by nohup, ignores these signals, and so would
+# all that it starts; tests send them.
+for _name, _default in {
+    "SIGINT": signal.default_int_handler,
+    "SIGQUIT": signal.SIG_DFL,
+    "SIGHUP": signal.SIG_DFL,
+}.items():
+    _number = getattr(signal, _name, None)
+    if _number is not None and signal.getsignal(_number) == signal.SIG_IGN:
+        signal.signal(_number, _default)
 
 # Without a deadline, because the first example may load a unit registry or compile a kernel; the
 # same examples every time, so that a failure is about the change at hand.
