@@ -85,7 +85,7 @@ def test_flank_has_limits_grades_and_corners(asperity, tmp_path):
     assert measured["backlash_circumferential_min_mm"] == pytest.approx(
         1e-3 * off["backlash"]["new"]["circumferential_min_um"]
     )
-    rows = list(csv.DictReader((tmp_path / "drawing.csv").open()))
+    rows = list(csv.DictReader((tmp_path / "drawing.csv").read_text().splitlines()))
     by_symbol = {row["symbol"]: row for row in rows}
     assert by_symbol["f_px"]["on the drawing"] == "0.019"
     assert "grade 8, GOST 3675-81" in by_symbol["f_px"]["name"]

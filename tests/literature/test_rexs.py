@@ -15,10 +15,10 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
-from asperity.flanks.parameters import Disc, Hob, Mount
 from asperity.flanks.export.rexs.document import read_document
 from asperity.flanks.export.rexs.export import answer, prepare
 from asperity.flanks.export.rexs.read import read_rexs
+from asperity.flanks.parameters import Disc, Hob, Mount
 from asperity.gearset import Gearset
 from asperity.rating import Operation, rate
 from asperity.runs import Run

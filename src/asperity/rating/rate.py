@@ -32,6 +32,7 @@ from asperity.rating.verdict import Verdict, screen
 from asperity.rating.wanted import STANDARDS, known_standards, require_consistent, tables_of
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
+from asperity.results.system import converted, system
 from asperity.results.table import Column, Table
 from asperity.runs import Run
 from asperity.store import harmless_cell, write_text
@@ -237,7 +238,11 @@ class Rated(Result):
         from asperity.rating.workbook import write_rating
 
         names = super().write(folder, pictures="")
-        table = self.to_frame().map(harmless_cell)
+        frame = self.to_frame()
+        if system() == "us":
+            pairs = zip(frame["value"], frame["unit"], strict=True)
+            frame[["value", "unit"]] = [converted(value, unit) for value, unit in pairs]
+        table = frame.map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
         return [*names, "rate.csv", "rate.xlsx"]

@@ -13,6 +13,7 @@ from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
 from asperity.results.quantity import Number, Sentence
+from asperity.results.system import shown_text
 
 _LONGEST = 3.0
 _BAR = 27
@@ -298,7 +299,7 @@ def screen(
         for text in texts[:_MOST_REMARKS]:
             own = wrapped(text)
             if name == "remarks":
-                own = [textwrap.shorten(f"- {text}", WIDTH, placeholder=" ...")]
+                own = [textwrap.shorten(f"- {shown_text(text)}", WIDTH, placeholder=" ...")]
             if len(own) <= _MOST_LINES - 1 - sum(map(len, lines.values())):
                 lines[name] += own
                 shown += name == "remarks"

@@ -14,6 +14,7 @@ from asperity.flanks.worm.setting import Pair
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.grades import Allowed
 from asperity.results.quantity import plain, text_of
+from asperity.results.system import converted
 
 _MICROMETRES = 1e3
 _Line = tuple[str, str, object, str]
@@ -127,10 +128,18 @@ def csv_of(data: list[Datum]) -> str:
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(["part", "name", "symbol", "value", "unit", "on the drawing"])
     for datum in data:
+        if isinstance(datum.value, float):
+            value, unit = converted(datum.value, datum.unit)
+            datum = datum._replace(value=value, unit=unit)
         rows.writerow([*datum, _drawn(datum)])
     return text.getvalue()
 
 
 def _drawn(datum: Datum) -> str:
-    """Thousandths of a mm and of a degree."""
-    return f"{datum.value + 0.0:.3f}" if isinstance(datum.value, float) else text_of(datum.value)
+    """Thousandths of a mm and of a degree, ten thousandths of an inch."""
+    digits = 4 if datum.unit == "in" else 3
+    return (
+        f"{datum.value + 0.0:.{digits}f}"
+        if isinstance(datum.value, float)
+        else text_of(datum.value)
+    )

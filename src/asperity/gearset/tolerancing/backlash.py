@@ -224,8 +224,8 @@ class Backlash(NamedTuple):
         return Table(columns, tuple(rows), f"Backlash, {self.by}", tuple(self._remarks()))
 
     def _remarks(self) -> Iterator[str]:
-        parts = (f"{part.name} {part.least:.4g} to {part.greatest:.4g}" for part in self.parts)
-        yield f"on the mean circle, um: {'; '.join(parts)}"
+        parts = (f"{part.name} {part.least:.4g} to {part.greatest:.4g} um" for part in self.parts)
+        yield f"on the mean circle: {'; '.join(parts)}"
         yield "likely: 99.7 % of assemblies whose deviations are normal, by the squares"
         off = self.allowances
         yield (
