@@ -2,8 +2,9 @@
 
 from asperity.casefile import Table
 from asperity.gearset import Gearset
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.parameters import Operation, RatingOptions
 
 TABLES: dict[str, type[Table]] = {
-    table.table: table for table in (Gearset, Operation, RatingOptions)
+    table.table: table for table in (Gearset, Tolerances, Operation, RatingOptions)
 }

@@ -103,8 +103,8 @@ def converted(value: float, unit: str) -> tuple[float, str]:
     Examples
     --------
     >>> with shown_in("us"):
-    ...     converted(25.4, "mm")
-    (1.0, 'in')
+    ...     converted(100.0, "degC")
+    (212.0, 'degF')
     """
     shown = US.get(unit) if system() == "us" else None
     return (value, unit) if shown is None else (value * shown.factor + shown.offset, shown.unit)
