@@ -167,6 +167,7 @@ COMMANDS = (
                 default="intermediate",
             ),
             Option("step", "Also write worm, wheel and both in mesh as STEP.", default=False),
+            Option("dxf", "Also write a drawing with dimensions and data as DXF.", default=False),
         ),
     ),
     Command(

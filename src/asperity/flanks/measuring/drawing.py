@@ -131,11 +131,11 @@ def csv_of(data: list[Datum]) -> str:
         if isinstance(datum.value, float):
             value, unit = converted(datum.value, datum.unit)
             datum = datum._replace(value=value, unit=unit)
-        rows.writerow([*datum, _drawn(datum)])
+        rows.writerow([*datum, on_drawing(datum)])
     return text.getvalue()
 
 
-def _drawn(datum: Datum) -> str:
+def on_drawing(datum: Datum) -> str:
     """Thousandths of a mm and of a degree, ten thousandths of an inch."""
     digits = 4 if datum.unit == "in" else 3
     return (

@@ -7,7 +7,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
 from asperity.flanks.export.assembly import Assembly
-from asperity.flanks.export.extras import require_cad, require_view
+from asperity.flanks.export.extras import require_cad, require_draw, require_view
 from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
 from asperity.flanks.measuring import measures
 from asperity.flanks.mesh.tooth import element_size, read_density, tooth
@@ -16,8 +16,9 @@ from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
+from asperity.flanks.study.meshed import ToothMesh
 from asperity.flanks.study.mounted import MountedStudy
-from asperity.flanks.study.result import FlankStudy, ToothMesh
+from asperity.flanks.study.result import FlankStudy
 from asperity.flanks.study.toleranced import Toleranced, require_once
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
@@ -61,6 +62,7 @@ class Prepared:
     load: Load | None = None
     notes: tuple[str, ...] = ()
     step: bool = False
+    dxf: bool = False
     blanks: Blanks | None = None
     measuring: MeasuringOptions | None = None
     tolerances: Tolerances | None = None
@@ -95,7 +97,9 @@ def prepare_gearset(
     return Prepared(gearset, hob, disc, wheel, mesh, time.perf_counter() - began)
 
 
-def prepare(case: Case, *, density: str | float = "intermediate", step: bool = False) -> Prepared:
+def prepare(
+    case: Case, *, density: str | float = "intermediate", step: bool = False, dxf: bool = False
+) -> Prepared:
     """Return what the study of a case begins with.
 
     Parameters
@@ -107,16 +111,20 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
         text with its unit or in mm.
     step : bool
         Whether the files are to hold tooth, worm, wheel and both in mesh as STEP.
+    dxf : bool
+        Whether they are to hold a drawing as DXF.
 
     Raises
     ------
     InputError
         As from `prepare_gearset`.
     MissingExtraError
-        STEP is asked for and the ``cad`` extra is not installed.
+        STEP is asked for and the ``cad`` extra is not installed, or DXF without ``draw``.
     """
     if step:
         require_cad()
+    if dxf:
+        require_draw()
     size = read_density(density) if isinstance(density, str) else density
     gearset = case.require(Gearset).require_consistent()
     made = prepare_gearset(
@@ -136,6 +144,7 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
         load=load,
         notes=tuple(notes),
         step=step,
+        dxf=dxf,
         blanks=blanks,
         measuring=measuring,
         tolerances=tolerances,
@@ -146,8 +155,11 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
 def answer(prepared: Prepared, run: Run) -> FlankStudy:
     """Find how a gearset meshes, as the command does; errors as in `study`."""
     if run.folder is None:
-        if prepared.step:
-            raise InputError("--step: there is no folder for the files; name one with --out DIR")
+        for asked in ("step", "dxf"):
+            if getattr(prepared, asked):
+                raise InputError(
+                    f"--{asked}: there is no folder for the files; name one with --out DIR"
+                )
         return study(prepared)
     try:
         require_view()
@@ -208,6 +220,7 @@ def study(prepared: Prepared) -> FlankStudy:
         assembly=assembly,
         measuring=measured,
         step=prepared.step,
+        dxf=prepared.dxf,
         blanks=prepared.blanks,
         toleranced=off,
     )
