@@ -7,6 +7,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
 from asperity.flanks.export.assembly import Assembly
+from asperity.flanks.export.cad.keyway import require_keys
 from asperity.flanks.export.extras import require_cad, require_draw, require_view
 from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
 from asperity.flanks.measuring import measures
@@ -134,6 +135,7 @@ def prepare(
     pair = made.wheel.pair
     wheel_sizes(pair.geometry, blanks)
     shaft_sizes(pair, blanks)
+    require_keys(pair, blanks)
     tolerances, measuring = case.get(Tolerances), case.get(MeasuringOptions)
     require_once(tolerances, case.get(Mount), measuring)
     if tolerances is not None:
