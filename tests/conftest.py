@@ -2,9 +2,12 @@
 
 import math
 import os
+import re
 import shutil
 import signal
 from collections import defaultdict
+from collections.abc import Generator
+from pathlib import Path
 
 import hypothesis
 import pytest
@@ -52,9 +55,28 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
-@pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    # Last, when ordinary tests are deselected: `apparatus.grid` leaves parts of campaigns to them.
+# A slow test stands in a file that says so, by itself or by a grid of cases.
+_NAMES_SLOW = re.compile(r"\b(slow|grid)\b")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    # Half of the files have none: collecting them takes each worker as long as a dear test.
+    if config.option.markexpr != "slow" or not collection_path.name.startswith("test_"):
+        return None
+    if collection_path.suffix != ".py" or _NAMES_SLOW.search(collection_path.read_text("utf-8")):
+        return None
+    return True
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_collection_modifyitems(
+    config: pytest.Config, items: list[pytest.Item]
+) -> Generator[None]:
+    for path in {item.path for item in items if item.get_closest_marker("slow")}:
+        if not _NAMES_SLOW.search(path.read_text("utf-8")):
+            raise pytest.UsageError(f"{path}: has slow tests, and does not name what makes them so")
+    yield
+    # When ordinary tests are deselected: `apparatus.grid` leaves parts of campaigns to them.
     # Parts of a campaign differ in the parameter it is over, or in any if it names none. Of each
     # campaign one part is run at least, but where another test tries the statement on less.
     share = config.getoption("share")

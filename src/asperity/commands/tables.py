@@ -20,6 +20,8 @@ _TABLES = {
     "tolerances": "asperity.gearset.tolerancing.table:Tolerances",
     "operation": "asperity.rating.parameters:Operation",
     "rating": "asperity.rating.parameters:RatingOptions",
+    "spectrum": "asperity.rating.spectrum:Spectrum",
+    "housing": "asperity.rating.housing:Housing",
     "block": "asperity.block.parameters:Block",
     "contact": "asperity.block.parameters:Contact",
     "hob": "asperity.flanks.parameters:Hob",

@@ -6,41 +6,42 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.casefile import Case, told
-from asperity.errors import InputError, choices, require_types, suggestion
+from asperity.errors import InputError, require_types
 from asperity.gearset.geometry import Geometry
-from asperity.gearset.library import find
-from asperity.gearset.lubricants import Lubricant
-from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
-from asperity.gearset.tolerancing.backlash import Backlash, backlash
+from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.table import Tolerances
-from asperity.rating.alternatives import Alternative, alternatives
+from asperity.rating.alternatives import Alternative
 from asperity.rating.bs721.tables import Tables
-from asperity.rating.by_standard import PROMISED, judge_of, rate_by
-from asperity.rating.changes import changed_words
+from asperity.rating.by_standard import PROMISED, rate_by
 from asperity.rating.driven import driven, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
+from asperity.rating.duty_words import duty_lines, loads_line
+from asperity.rating.endurance import Endurance, endurance
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs, inputs
-from asperity.rating.levers import Lever, levers
+from asperity.rating.iso14521.calculation import film_parameter_of
+from asperity.rating.iso14521.film_failure import FilmParameterError
+from asperity.rating.levers import Lever
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.play import play_of
 from asperity.rating.result import Rating
+from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking, self_locking
+from asperity.rating.standards import STANDARDS, known_standards, tables_of
+from asperity.rating.starting import Starting, starting, starting_table
+from asperity.rating.tables import operation_of
 from asperity.rating.verdict import Verdict, screen
-from asperity.rating.wanted import STANDARDS, known_standards, require_consistent, tables_of
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
-from asperity.results.system import converted, system
+from asperity.results.system import shown_frame
 from asperity.results.table import Column, Table
-from asperity.runs import Run
 from asperity.store import harmless_cell, write_text
 
 if TYPE_CHECKING:
     from asperity.results.report import Heading, Section
-
-ALL = "all"
 
 
 class Rated(Result):
@@ -74,6 +75,8 @@ class Rated(Result):
         What its report shows of how the flanks touch, where that was asked for.
     backlash : Backlash or None
         What the tolerances leave of it, where there are any.
+    rows : tuple of Row
+        What others than the standards say of the same gearbox, for its verdict.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -94,6 +97,7 @@ class Rated(Result):
     unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
     backlash: Backlash | None = None
+    rows: tuple[Row, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
@@ -104,6 +108,7 @@ class Rated(Result):
             self.alternatives,
             self.given.operation.wear_assumed,
             self.unanswered,
+            self.rows,
         )
 
     @property
@@ -120,6 +125,23 @@ class Rated(Result):
     def duty_cycle(self) -> tuple[DutyPart, ...]:
         """What each part of a duty cycle has in wear and heat, by ISO/TR 14521."""
         return () if self.iso14521 is None else duty_parts(self.given, self.iso14521)
+
+    @property
+    def endurance(self) -> tuple[Endurance, ...]:
+        """How long it runs until each limit of ISO/TR 14521 and BS 721, the shortest first."""
+        return endurance(self.given, self.found)
+
+    @property
+    def starting(self) -> tuple[Starting, ...]:
+        """What starting takes, where the spectrum has starts."""
+        return starting(self.given, self.iso14521, self.self_locking, self.holding)
+
+    @property
+    def of_duty(self) -> tuple[str, ...]:
+        """What the verdict says of spectrum and housing."""
+        lasts = self.endurance if self.given.operation.spectrum is not None else ()
+        parts = self.duty_cycle
+        return tuple(duty_lines(self.given, self.found, parts, lasts, self.starting))
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -151,6 +173,15 @@ class Rated(Result):
             "holding": [one.to_json() for one in self.holding],
             **({"duty_cycle": parts} if parts else {}),
             **({} if self.backlash is None else {"backlash": self.backlash.to_json()}),
+            **self._of_spectrum(),
+        }
+
+    def _of_spectrum(self) -> dict[str, Any]:
+        if self.given.operation.spectrum is None:
+            return {}
+        return {
+            "endurance": [one.to_json() for one in self.endurance],
+            "starting": [one.to_json() for one in self.starting],
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -175,8 +206,10 @@ class Rated(Result):
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
-        """Return the gearset's name."""
-        return self.gearset.name or "worm gearset"
+        """Return the gearset's name, and how it is loaded."""
+        name = self.gearset.name or "worm gearset"
+        spectrum = self.given.operation.spectrum
+        return name if spectrum is None else f"{name}: {loads_line(self.given)}"
 
     def __repr__(self) -> str:
         return f"{self.heading()}\n{self.verdict!r}"
@@ -189,6 +222,7 @@ class Rated(Result):
             self.self_locking,
             len(self.assumed),
             self.notes,
+            self.of_duty,
             () if self.backlash is None else (self.backlash.sentence(),),
         )
 
@@ -205,6 +239,8 @@ class Rated(Result):
             tables.append(Table(columns, tuple(tuple(row.values()) for row in rows), title))
         if self.holding:
             tables.append(held_table(self.holding))
+        if self.starting:
+            tables.append(starting_table(self.starting))
         if self.backlash is not None:
             tables.append(self.backlash.table())
         if self.notes:
@@ -238,11 +274,7 @@ class Rated(Result):
         from asperity.rating.workbook import write_rating
 
         names = super().write(folder, pictures="")
-        frame = self.to_frame()
-        if system() == "us":
-            pairs = zip(frame["value"], frame["unit"], strict=True)
-            frame[["value", "unit"]] = [converted(value, unit) for value, unit in pairs]
-        table = frame.map(harmless_cell)
+        table = shown_frame(self.to_frame()).map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
         return [*names, "rate.csv", "rate.xlsx"]
@@ -321,12 +353,14 @@ def rate(
         alternatives=(),
         unanswered=unanswered,
         contact=None,
-        backlash=None if tolerances is None else backlash(gearset, tolerances, worn(found)),
+        backlash=play_of(gearset, tolerances, found),
         given=given,
         tables_bs721=tables,
         gearset=gearset,
         geometry=gearset.geometry,
-        **{name: found.get(name) for name in STANDARDS},
+        iso14521=found.get("iso14521"),
+        bs721=found.get("bs721"),
+        agma6034=found.get("agma6034"),
         self_locking=self_locking(given, found, tables),
         notes=(*told_of(asked, operation), *notes),
         assumed=assumptions(given),
@@ -336,64 +370,29 @@ def rate(
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     """Rate the worm gearset of a case file; as `rate`."""
     options = case.get(RatingOptions)
-    gearset, operation = case.require(Gearset), case.require(Operation)
+    gearset, operation = case.require(Gearset), run_of(case)
     with told(case):
-        return rate(
-            gearset,
-            operation,
-            options,
-            standards,
-            folder=case.folder,
-            tolerances=case.get(Tolerances),
-        )
+        off, folder = case.get(Tolerances), case.folder
+        return rate(gearset, operation, options, standards, folder=folder, tolerances=off)
 
 
-def worn(found: Mapping[str, Rating]) -> float | None:
-    """Return how deep the wheel's flanks are worn at the end of the life by ISO/TR 14521, um."""
-    iso = found.get("iso14521")
-    return None if iso is None or "delta_Wn_mm" not in iso else 1e3 * float(iso["delta_Wn_mm"])
-
-
-def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
-    """Return what the command rates; raises InputError for a standard that is not known."""
-    allowed = (*STANDARDS, ALL)
-    if standard not in allowed:
-        raise InputError(
-            f"--standard {standard}: it must be one of {choices(allowed)}"
-            f"{suggestion(standard, allowed)}"
-        )
-    gearset, operation = case.require(Gearset), case.require(Operation)
-    options = case.get(RatingOptions, RatingOptions())
-    wanted = STANDARDS if standard == ALL else (standard,)
+def run_of(case: Case) -> Operation:
+    """Return how the gearset of a case is run; what is refused names the case."""
     with told(case):
-        operation = driven(gearset, operation, options)
-    require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
-    return case, wanted
+        return operation_of(case)
 
 
-def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
-    """Rate the gearset of a case, and find what moves the least safety."""
-    case, standards = problem
-    rated = rate_case(case, standards)
-    first, given = rated.verdict.first, rated.given
-    if first is None:
-        return rated
-    judge = judge_of(first.demand, given.options, rated.tables_bs721)
-    others = alternatives(judge, given.gearset, given.operation)
-    return dataclasses.replace(
-        rated,
-        levers=levers(judge, given.gearset, given.operation),
-        alternatives=tuple(_with_changes(rated, one, standards, case.folder) for one in others),
-    )
-
-
-def _with_changes(
-    rated: Rated, other: Alternative, standards: Sequence[str], folder: Path | None
-) -> Alternative:
-    """Return an alternative with what else it changes in the words of the verdict."""
-    given, (table, _, key) = rated.given, other.key.partition(".")
-    thing = find(Lubricant if key == "lubricant" else WheelMaterial, other.value)
-    tables: dict[str, Any] = {"gearset": given.gearset, "operation": given.operation}
-    tables[table] = tables[table].model_copy(update={key: thing})
-    changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
-    return other._replace(changes=changed_words(rated, changed))
+def require_consistent(given: Inputs, by_iso: bool) -> None:
+    """Raise InputError where the gearset's numbers do not belong together."""
+    try:
+        given.gearset.require_consistent()
+    except InputError as error:
+        # The end of h* tells more about a ratio or module that is too large.
+        try:
+            if by_iso:
+                film_parameter_of(given)
+        except FilmParameterError as film:
+            raise FilmParameterError(
+                f"{film}; {error}", film.value, film.driver, film.limits
+            ) from None
+        raise

@@ -11,7 +11,7 @@ import dataclasses
 import itertools
 import re
 from collections.abc import Iterator, Sequence
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from asperity.results.quantity import Number, Sentence
 from asperity.results.table import Column, Table
@@ -252,3 +252,12 @@ def _of_title(found: "re.Match[str]") -> str:
 
 def _of_heading(found: "re.Match[str]") -> str:
     return f"({US[found['unit']].unit})"
+
+
+def shown_frame(frame: Any) -> Any:
+    """Return a data frame with columns ``value`` and ``unit`` as people are shown it."""
+    if system() == "si" or not len(frame):
+        return frame
+    pairs = zip(frame["value"], frame["unit"], strict=True)
+    value, unit = zip(*(converted(*pair) for pair in pairs), strict=True)
+    return frame.assign(value=value, unit=unit)

@@ -21,8 +21,8 @@ from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.self_locking import locking_margins
+from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
-from asperity.rating.wanted import STANDARDS, tables_of
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.studies.series import grid

@@ -189,10 +189,10 @@ def own_mesh(wheel: Wheel, counts: Counts) -> HexMesh:
 
 def _exact(wheel: Wheel, surface: ContactSurface) -> tuple[FlankGrid, IntArray, IntArray]:
     """The exact flank about the quadrature points: a grid, and each point's row and column."""
-    lattice = _lattice(surface)
-    rows = np.linspace(0.0, 1.0, len(lattice))
-    share, z = np.empty(lattice.size), surface.positions[:, 2]
-    share[lattice] = rows[:, None]
+    nodes = lattice(surface)
+    rows = np.linspace(0.0, 1.0, len(nodes))
+    share, z = np.empty(nodes.size), surface.positions[:, 2]
+    share[nodes] = rows[:, None]
     at = np.stack([surface.to_points(share), surface.to_points(z)], axis=-1).reshape(-1, 2)
     shares, row = np.unique(np.round(at[:, 0], 12), return_inverse=True)
     places, column = np.unique(np.round(at[:, 1], 12), return_inverse=True)
@@ -228,7 +228,7 @@ def _interpolation(coarse: ContactSurface, fine: ContactSurface) -> sparse.csr_a
     rows: list[IntArray] = []
     columns: list[IntArray] = []
     values: list[FloatArray] = []
-    grids = [_lattice(surface) for surface in (coarse, fine)]
+    grids = [lattice(surface) for surface in (coarse, fine)]
     shape, target = grids[0].shape, grids[1].shape
     places = [np.linspace(0.0, n - 1.0, m) for n, m in zip(shape, target, strict=True)]
     low = [np.minimum(p.astype(np.int64), n - 2) for p, n in zip(places, shape, strict=True)]
@@ -244,8 +244,8 @@ def _interpolation(coarse: ContactSurface, fine: ContactSurface) -> sparse.csr_a
     return sparse.csr_array(sparse.coo_array(entries, shape=size))
 
 
-def _lattice(surface: ContactSurface) -> IntArray:
-    """The flank's nodes by row, from the inside out, and by column over the face."""
+def lattice(surface: ContactSurface) -> IntArray:
+    """Return the nodes of a flank by row, from the inside out, and by column over the face."""
     x, y, z = surface.positions.T
     order = np.lexsort((np.hypot(x, y), np.round(z, 9)))
     columns = len(np.unique(np.round(z, 9)))

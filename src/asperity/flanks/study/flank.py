@@ -29,7 +29,7 @@ from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating import Operation, RatingOptions, rate_case
 from asperity.rating.driven import driven
-from asperity.rating.rate import worn
+from asperity.rating.play import worn
 from asperity.rating.regime import Film
 from asperity.runs import Run
 from asperity.sources import Source

@@ -5,9 +5,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from asperity.casefile import Case
 from asperity.errors import InputError
-from asperity.rating.rate import ALL, Rated
-from asperity.rating.rate import answer as rated_answer
-from asperity.rating.rate import prepare as prepare_rating
+from asperity.rating.answered import answer as rated_answer
+from asperity.rating.answered import prepare as prepare_rating
+from asperity.rating.rate import Rated
+from asperity.rating.standards import ALL
 from asperity.results.report import Section
 from asperity.results.table import Table
 from asperity.runs import Run
@@ -32,7 +33,7 @@ def prepare(case: Case, *, standard: str = ALL, pattern: bool = False) -> Asked:
     Raises
     ------
     InputError
-        As from `asperity.rating.rate.prepare` and `asperity.flanks.study.flank.prepare`.
+        As from `asperity.rating.answered.prepare` and `asperity.flanks.study.flank.prepare`.
     """
     rating = prepare_rating(case, standard=standard)
     if not pattern:

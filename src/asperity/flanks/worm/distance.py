@@ -229,6 +229,18 @@ def distance_only_each(points, worm, out):
         out[i] = distance_only(points[i, 0], points[i, 1], points[i, 2], worm)
 
 
+@kernel
+def feet_each(points, worm, out, kinds):
+    """`distance_only` of every row of ``points``, and on which surface of the worm its foot is."""
+    for i in range(points.shape[0]):
+        x, y = points[i, 0], points[i, 1]
+        rho = math.sqrt(x * x + y * y)
+        _, v = place(x, y, points[i, 2], worm)
+        kind, d, _, _, _, _ = nearest(rho, v, worm)
+        out[i] = d
+        kinds[i] = kind
+
+
 def _rows(points: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
     given = np.asarray(points, dtype=np.float64)
     if given.shape[-1:] != (3,):

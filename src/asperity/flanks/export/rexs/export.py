@@ -14,6 +14,7 @@ from asperity.flanks.parameters import Disc, Hob, Mount
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.driven import driven
+from asperity.rating.rate import run_of
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
@@ -68,7 +69,8 @@ class Exchanged(Result):
 def prepare(case: Case) -> Given:
     """Return what is written of a case; raises InputError."""
     gearset = case.require(Gearset).require_consistent()
-    operation, options = case.get(Operation), case.get(RatingOptions)
+    operation = None if case.get(Operation) is None else run_of(case)
+    options = case.get(RatingOptions)
     given = Given(gearset, None, case.get(Hob), case.get(Disc), case.get(Mount))
     if operation is None:
         return given

@@ -1,0 +1,154 @@
+r"""Normal contact without friction: the forces of patches by Polonsky and Keer's conjugate gradients.
+
+Patches with forces :math:`f \ge 0` sink by :math:`K f`, :math:`K` symmetric; the bodies come
+together by :math:`\theta`, each patch by :math:`h\,\theta`. What is sought is
+
+.. math:: g = g_0 + K f - h\,\theta \ge 0, \qquad f g = 0, \qquad \sum h f = M .
+
+Where a patch bears no more than its area times a cap, as a body does that flows plastically, the
+gap may stay below zero at the cap: what is left is the depth by which it was pressed in.
+
+I. A. Polonsky and L. M. Keer, Wear 231 (1999), 206; with a cap: A. Almqvist, F. Sahlin, R. Larsson
+and S. Glavatskih, Tribol. Int. 40 (2007), 574. Here :math:`h` may differ from patch to patch.
+"""
+
+import dataclasses
+from collections.abc import Callable
+
+import numpy as np
+
+from asperity.arrays import BoolArray, FloatArray
+from asperity.errors import ConvergenceError
+
+_MOST = 2000
+_SCALINGS, _ROUNDING = 50, 1e-12
+# Of the gaps of patches that bear, over the approach.
+TOLERANCE = 1e-5
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Bearing:
+    """What was found."""
+
+    force: FloatArray  #: (n,): N
+    approach: float  #: :math:`\\theta`
+    gap: FloatArray  #: (n,): m; below zero where a patch is at its cap
+    iterations: int
+    residual: float  #: Root mean square of the gaps where patches bear, over the approach
+
+
+def bear(
+    gap: FloatArray,
+    deflection: Callable[[FloatArray], FloatArray],
+    arm: FloatArray,
+    moment: float,
+    *,
+    most: FloatArray | None = None,
+    start: FloatArray | None = None,
+    tolerance: float = TOLERANCE,
+) -> Bearing:
+    """Return the forces of patches that together bear a load.
+
+    Parameters
+    ----------
+    gap : ndarray, shape (n,)
+        Of the undeformed patches where the approach is 0, m.
+    deflection : callable
+        Takes forces, N, and returns what the patches sink, m: linear and symmetric.
+    arm : ndarray, shape (n,)
+        :math:`h`, above 0: 1 for a force, a lever in m for a moment.
+    moment : float
+        :math:`M`, above 0, N or N m.
+    most : ndarray, shape (n,), optional
+        Largest forces, N, 0 where there is no patch; none if left out.
+    start : ndarray, shape (n,), optional
+        Forces to begin with, N.
+    tolerance : float
+        Gap left where patches bear, root mean square, over the approach of the bodies.
+
+    Raises
+    ------
+    ConvergenceError
+        All patches at their caps do not bear the load, or it was not found.
+    """
+    limit = np.full(gap.shape, np.inf) if most is None else most
+    whole = _dot(arm, limit)
+    if not whole > moment:
+        raise ConvergenceError(
+            "the load is more than the patches bear at the pressure of plastic flow",
+            reached={"load": whole},
+        )
+    force = np.minimum(np.ones(gap.shape) if start is None else np.maximum(start, 0.0), limit)
+    force = _loaded(force, arm, moment, limit)
+    way = np.zeros(gap.shape)
+    before, last = np.inf, np.zeros(gap.shape)
+    residual = np.inf
+    for iteration in range(1, _MOST + 1):
+        free = (force > 0.0) & (force < limit)
+        left = gap + deflection(force)
+        theta = _level(left, arm, free)
+        left -= arm * theta
+        square = _dot(left[free], left[free])
+        size = max(float(np.abs(gap + arm * -theta).max(where=free, initial=0.0)), 1e-15)
+        residual = np.sqrt(square / max(1, int(free.sum()))) / size
+        wrong = _wrong(force, left, limit, tolerance * size)
+        if residual <= tolerance and not wrong.any():
+            return Bearing(force, theta, left, iteration, residual)
+        # Polak and Ribiere's: where patches come and go it begins anew by itself.
+        going_on = max(0.0, (square - _dot(left[free], last[free])) / before)
+        way = np.where(free, left + going_on * way, 0.0)
+        before, last = square or 1e-300, left
+        sunk = deflection(way)
+        sunk -= arm * _level(sunk, arm, free)
+        curvature = _dot(sunk[free], way[free])
+        step = _dot(left[free], way[free]) / curvature if curvature > 0.0 else 0.0
+        trial = force - step * way
+        clipped = np.clip(trial, 0.0, limit)
+        # Patches that overlap bear again, patches at the cap that part bear less: from anew.
+        back = _wrong(clipped, left, limit, 0.0) & ~free
+        size_step = abs(step) if step else 1.0 / max(float(np.abs(sunk).max()), 1e-300)
+        clipped[back] = np.clip(clipped[back] - size_step * left[back], 0.0, limit[back])
+        force = _loaded(clipped, arm, moment, limit)
+    raise ConvergenceError(
+        "the pressures of the contact were not found", reached={"residual": residual}
+    )
+
+
+def _dot(one: FloatArray, other: FloatArray) -> float:
+    # Threads of BLAS cost more than they save on vectors of this length.
+    return float(np.einsum("i,i->", one, other))
+
+
+def _wrong(force: FloatArray, gap: FloatArray, limit: FloatArray, slack: float) -> BoolArray:
+    """Patches that should bear more than nothing, or less than the most."""
+    more = (force <= 0.0) & (gap < -slack)
+    less = (force >= limit) & (gap > slack)
+    return np.asarray((more | less) & (limit > 0.0))
+
+
+def _level(values: FloatArray, arm: FloatArray, free: BoolArray) -> float:
+    chosen = arm[free]
+    return _dot(values[free], chosen) / max(_dot(chosen, chosen), 1e-300)
+
+
+def _loaded(
+    force: FloatArray, arm: FloatArray, moment: float, limit: FloatArray
+) -> FloatArray:
+    """Forces scaled to the load, those at their limit left there."""
+    for _ in range(_SCALINGS):
+        capped = force >= limit
+        rest = moment - _dot(arm[capped], limit[capped])
+        own = _dot(arm[~capped], force[~capped])
+        if rest <= 0.0:
+            # More than the load at the limit: all less.
+            force = force * (moment / _dot(arm, force))
+            break
+        if own <= 0.0:
+            # Nothing else bears: all patches alike, below their limits.
+            most = np.minimum(limit, moment)
+            force = most * (moment / _dot(arm, most))
+            break
+        force = np.where(capped, limit, np.minimum(force * (rest / own), limit))
+        if abs(_dot(arm, force) - moment) <= _ROUNDING * moment:
+            break
+    return force

@@ -1,0 +1,1 @@
+"""Pressures of loaded teeth resolved patch by patch, edges included."""

@@ -1,0 +1,375 @@
+r"""Pressures on all teeth in mesh at one angle of the worm, resolved beyond the mesh of the teeth.
+
+The condensed teeth and the balance of the drive say where the worm stands, what load the teeth
+bear together, how friction bends them, and what they give smoothly: their flexibility less that of
+a half-space at their nodes. A strip of patches on each tooth has the rest, half-spaces of wheel and
+worm, and the exact gap, with the rounding of the worm's tip and the wheel's edges. All patches of
+all teeth are solved together, under the moment of the normal forces about the wheel's axis that the
+condensed teeth bear: how teeth share it is found anew, as each gives with its resolved dent.
+
+Strips are made finer, each about what bears on it, until the largest pressures of flank and edges
+change by less than `CLOSE`, or stand at the pressure at which the softer body flows.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+
+from asperity.arrays import FloatArray, IntArray
+from asperity.contact.halfspace.conjugate_gradients import Bearing, bear
+from asperity.contact.halfspace.influence import HalfSpace
+from asperity.drive.resolved.flank import ExactFlank
+from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Approach, Frame, Strip
+from asperity.drive.teeth.contact import TeethContact
+from asperity.drive.teeth.placing import tooth_numbers
+from asperity.errors import ConvergenceError
+
+CLOSE = 0.05
+"""Relative change of a peak from one strip to the next finer one."""
+
+# Near: less than this part of the greatest inward motion of the nodes, and this at least.
+_NEAR, _LEAST_NEAR = 0.1, 1e-6
+# Patches across and along from strip to strip.
+_LEVELS = ((96, 64), (192, 80), (384, 96), (768, 112))
+# Force of an edge over that of the tooth from which on its peak counts.
+_COUNTS = 1e-3
+_TRIES = 12
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ToothPressure:
+    """The pressure on one tooth."""
+
+    number: int  #: Of the tooth, as `Action.teeth` has them
+    strip: Strip
+    pressure: FloatArray  #: (N,): Pa, 0 beside what bears
+    force: FloatArray  #: (N,): Normal forces of the patches, N
+    resolved: bool  #: Whether a finer strip changes no peak by more than `CLOSE`
+
+    @property
+    def normal(self) -> float:
+        """Normal force of the tooth, N."""
+        return float(self.force.sum())
+
+    @property
+    def area(self) -> float:
+        """Area that bears, m^2."""
+        return float(self.strip.area[self.force > 0.0].sum())
+
+    def extent(self) -> tuple[float, float]:
+        """Return length and width of the area that bears, as of an ellipse of its moments, m."""
+        frame = self.strip.frame
+        x, y = (a.ravel() for a in np.meshgrid(frame.x, frame.y, indexing="ij"))
+        on = self.force > 0.0
+        places = np.stack([x[on], y[on]])
+        spread = np.linalg.eigvalsh(np.cov(places, bias=True)) if on.sum() > 1 else np.zeros(2)
+        width, length = 4.0 * np.sqrt(np.maximum(spread, 0.0))
+        return float(length), float(width)
+
+    def peaks(self) -> FloatArray:
+        """Return the largest pressure of each of `ZONES`, Pa; 0 where it bears nothing."""
+        return np.array([self._of(self.pressure, k).max(initial=0.0) for k in range(len(ZONES))])
+
+    def forces(self) -> FloatArray:
+        """Return the normal force of each of `ZONES`, N."""
+        return np.array([self._of(self.force, k).sum() for k in range(len(ZONES))])
+
+    def _of(self, values: FloatArray, zone: int) -> FloatArray:
+        return values[self.strip.zone == zone]
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Resolved:
+    """The pressures at one angle of the worm."""
+
+    teeth: tuple[ToothPressure, ...]  #: Those that bear
+    approach: float  #: Turn of the wheel towards the worm beyond the condensed teeth's, rad
+    depth: float  #: By which patches at the pressure of plastic flow were pressed in, at most, m
+    iterations: int
+    residual: float
+
+
+class ResolvedContact:
+    """Resolves the pressures of balances of one drive.
+
+    Parameters
+    ----------
+    flank : ExactFlank
+        The flank of a tooth and what it gives smoothly.
+    modulus : float
+        E* of both bodies, Pa.
+    cap : float, optional
+        Pressure at which the softer body flows, Pa; none if left out.
+    """
+
+    def __init__(self, flank: ExactFlank, modulus: float, cap: float | None = None) -> None:
+        self.flank = flank
+        self.modulus = modulus
+        self.cap = cap
+
+    def resolve(
+        self,
+        contact: TeethContact,
+        beta: float,
+        phi: float,
+        shift: FloatArray,
+        *,
+        finer: bool = True,
+    ) -> Resolved:
+        """Return the pressures where worm and wheel stand, about what was last solved there.
+
+        Parameters
+        ----------
+        contact : TeethContact
+            Holds the fields of `TeethContact.act` at this place.
+        beta, phi : float
+            Angles of worm and wheel, rad.
+        shift : ndarray, shape (3,)
+            Of the worm along the axes of its own frame, m.
+        finer : bool
+            Whether strips are made finer until the peaks stand; the first ones are some 50 patches
+            across and along what is near.
+
+        Raises
+        ------
+        ConvergenceError
+            No equilibrium of the patches, or all of them at the pressure of plastic flow.
+        """
+        teeth = _Teeth.of(self, contact, beta, phi, shift)
+        strips, found = teeth.solve_within(teeth.first_strips(), [None] * len(teeth.numbers))
+        iterations = found.iterations
+        done = [False] * len(strips)
+        for shape in _LEVELS if finer else ():
+            before = teeth.pressures(strips, found, done)
+            finer = [
+                strip if ready else teeth.finer(strip, tooth, shape)
+                for strip, tooth, ready in zip(strips, before, done, strict=True)
+            ]
+            start = [
+                None if tooth is None else new.taken(strip, tooth.pressure)
+                for new, strip, tooth in zip(finer, strips, before, strict=True)
+            ]
+            strips, found = teeth.solve_within(finer, start)
+            iterations += found.iterations
+            after = teeth.pressures(strips, found, done)
+            done = [
+                one is None or two is None or ready or self._close(one, two)
+                for one, two, ready in zip(before, after, done, strict=True)
+            ]
+            if all(done):
+                break
+        pressures = teeth.pressures(strips, found, done)
+        return Resolved(
+            tuple(tooth for tooth in pressures if tooth is not None),
+            found.approach, max(0.0, -float(found.gap.min())), iterations, found.residual,
+        )  # fmt: skip
+
+    def _close(self, before: ToothPressure, after: ToothPressure) -> bool:
+        """Whether no peak that counts changes much, or it is at the cap."""
+        old, new = before.peaks(), after.peaks()
+        counts = np.maximum(before.forces(), after.forces()) > _COUNTS * after.normal
+        # The wheel's edges are sharp: the finer the patches, the higher the peak.
+        counts[[WHEEL_TIP, FACE_END]] = False
+        moved = np.abs(new - old) > CLOSE * np.maximum(new, old)
+        if self.cap is not None:
+            moved &= np.minimum(old, new) < 0.999 * self.cap
+        return not bool((moved & counts).any())
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Teeth:
+    """The teeth in mesh at one angle, ready for their strips."""
+
+    contact: ResolvedContact
+    numbers: tuple[int, ...]  #: In their row
+    order: IntArray  #: As the condensed teeth give way to each other: numbers times the side
+    approaches: tuple[Approach, ...]
+    rubbed: FloatArray  #: (K, n): Inward motion of the nodes under friction, m
+    moment: float  #: Of the normal forces about the wheel's axis, N m
+
+    @classmethod
+    def of(
+        cls,
+        owner: ResolvedContact,
+        contact: TeethContact,
+        beta: float,
+        phi: float,
+        shift: FloatArray,
+    ) -> _Teeth:
+        sector = contact.sector
+        _, rotation, translation = contact.placed(beta, phi, shift)
+        body = sector.body
+        numbers = tuple(tooth_numbers(phi, sector.pitch, contact.slots))
+        order = contact.side * np.array(numbers)
+        normals = sector.surface.nodal_normals
+        worm = contact.worm.numbers.worm
+        whole, rubbing, moment = [], [], 0.0
+        for k in range(contact.slots):
+            count = 4 * int(contact.candidates.counts[k, 0])
+            out = contact.answer.normal[k, :count]
+            pressed = contact.answer.pressure[k, :count] * contact.candidates.weights[k, :count]
+            place = contact.candidates.places[k, :count]
+            moment += float(
+                pressed @ (place[:, 0] * out[:, 1] - place[:, 1] * out[:, 0])
+            )
+            for values, friction in ((whole, False), (rubbing, True)):
+                force = contact.answer.force[k, :count].copy()
+                if friction:
+                    force -= np.einsum("qi,qi->q", force, out)[:, None] * out
+                nodal = np.zeros(3 * body.nodes)
+                if count:
+                    full = np.zeros_like(contact.answer.force[k])
+                    full[:count] = force
+                    contact.spread(k, full, nodal)
+                values.append(nodal)
+        moved = _response(body.flexibility, contact.blocks, order, np.array(whole))
+        rubbed = _response(body.flexibility, contact.blocks, order, np.array(rubbing))
+        inward = -np.einsum("kni,ni->kn", rubbed, normals)
+        approaches = tuple(
+            Approach(rotation[k], translation[k], worm, moved[k]) for k in range(contact.slots)
+        )
+        return cls(owner, numbers, order, approaches, inward, moment)
+
+    def first_strips(self) -> list[Strip | None]:
+        """Return a strip over what is near the worm on each tooth; None where nothing is."""
+        flank = self.contact.flank
+        points, normals, share, z = flank.grid
+        weights = flank.interpolation(share, z)
+        strips: list[Strip | None] = []
+        for approach in self.approaches:
+            moved = weights @ approach.moved
+            gap, *_ = approach.gaps(points + moved)
+            size = float(np.linalg.norm(moved, axis=1).max())
+            near = gap < max(_NEAR * size, _LEAST_NEAR)
+            if not near.any():
+                strips.append(None)
+                continue
+            weight = np.maximum(max(_NEAR * size, _LEAST_NEAR) - gap[near], 0.0)
+            frame = Frame.about(points[near], normals[near], weight, flank.least_reach)
+            strips.append(Strip.of(flank, frame, approach))
+        return strips
+
+    def finer(
+        self, strip: Strip | None, tooth: ToothPressure | None, shape: tuple[int, int]
+    ) -> Strip | None:
+        """Return a strip about what bears, of more patches; None where nothing does."""
+        if strip is None or tooth is None:
+            return None
+        frame = strip.cropped(tooth.force > 0.0, shape)
+        k = self.numbers.index(tooth.number)
+        return Strip.of(self.contact.flank, frame, self.approaches[k])
+
+    def pressures(
+        self, strips: list[Strip | None], found: Bearing, done: list[bool]
+    ) -> list[ToothPressure | None]:
+        """Return the pressures on each tooth; None where it bears nothing."""
+        teeth: list[ToothPressure | None] = []
+        at = 0
+        for number, strip, resolved in zip(self.numbers, strips, done, strict=True):
+            if strip is None:
+                teeth.append(None)
+                continue
+            force = found.force[at : at + len(strip.area)]
+            at += len(strip.area)
+            some = ToothPressure(number, strip, force / strip.area, force, resolved)
+            teeth.append(some if force.any() else None)
+        return teeth
+
+    def solve_within(
+        self, strips: list[Strip | None], start: list[FloatArray | None]
+    ) -> tuple[list[Strip | None], Bearing]:
+        """Solve, with strips that grow where what bears comes to their border."""
+        for _ in range(_TRIES):
+            found = self.solve(strips, start)
+            grown = False
+            pressures = self.pressures(strips, found, [False] * len(strips))
+            for k, tooth in enumerate(pressures):
+                if tooth is None:
+                    continue
+                strip = tooth.strip
+                start[k] = tooth.force
+                frame = strip.grown(tooth.force > 0.0)
+                if frame is None:
+                    continue
+                grown = True
+                strips[k] = Strip.of(self.contact.flank, frame, self.approaches[k])
+                start[k] = strips[k].taken(strip, tooth.pressure)
+            if not grown:
+                return strips, found
+        raise ConvergenceError("the pressures of the teeth find no bounds on the flank")
+
+    def solve(self, strips: list[Strip | None], start: list[FloatArray | None]) -> Bearing:
+        """Return the forces of all patches, those of one tooth after the other."""
+        owner = self.contact
+        some = [(k, strip) for k, strip in enumerate(strips) if strip is not None]
+        if not some:
+            raise ConvergenceError("no tooth is near the worm")
+        spaces = [HalfSpace(s.frame.shape, s.frame.spacing, owner.modulus) for _, s in some]
+        ends = np.cumsum([0] + [len(s.area) for _, s in some])
+        parts = [slice(a, b) for a, b in zip(ends, ends[1:], strict=False)]
+        smooth = self._smooth([k for k, _ in some])
+        nodes = smooth.shape[0] // len(some)
+
+        def deflection(force: FloatArray) -> FloatArray:
+            nodal = np.concatenate(
+                [strip.nodes.T @ force[part] for (_, strip), part in zip(some, parts, strict=True)]
+            )
+            # Threads of BLAS cost more than they save here.
+            moved = np.einsum("ij,j->i", smooth, nodal)
+            out = np.empty_like(force)
+            for i, ((_, strip), part, space) in enumerate(
+                zip(some, parts, spaces, strict=True)
+            ):
+                out[part] = space.deflection(force[part])
+                out[part] += strip.nodes @ moved[i * nodes : (i + 1) * nodes]
+            return out
+
+        gap = np.concatenate([s.gap + s.nodes @ self.rubbed[k] for k, s in some])
+        arm = np.concatenate([s.arm for _, s in some])
+        area = np.concatenate([s.area for _, s in some])
+        inside = np.concatenate([s.inside for _, s in some])
+        begun = [
+            _guess(strip) if first is None else first
+            for (_, strip), first in ((pair, start[pair[0]]) for pair in some)
+        ]
+        most = np.where(inside, (np.inf if owner.cap is None else owner.cap) * area, 0.0)
+        return bear(
+            gap, deflection, arm, self.moment, most=most,
+            start=np.concatenate(begun),
+        )  # fmt: skip
+
+    def _smooth(self, teeth: list[int]) -> FloatArray:
+        """What teeth give each other and themselves at their nodes, (K n, K n), m/N."""
+        blocks = self.contact.flank.smooth
+        rows = []
+        for k in teeth:
+            row = []
+            for j in teeth:
+                way = int(self.order[k] - self.order[j])
+                if abs(way) >= len(blocks):
+                    row.append(np.zeros_like(blocks[0]))
+                else:
+                    row.append(blocks[way] if way >= 0 else blocks[-way].T)
+            rows.append(np.hstack(row))
+        return np.vstack(rows)
+
+
+def _guess(strip: Strip) -> FloatArray:
+    return np.where(strip.inside & (strip.gap < strip.gap.min() + 1e-6), strip.area, 0.0)
+
+
+def _response(
+    flexibility: FloatArray, blocks: FloatArray, order: IntArray, force: FloatArray
+) -> FloatArray:
+    """Displacement of the nodes of all teeth under nodal forces (K, 3n), shape (K, n, 3), m."""
+    moved = np.zeros_like(force)
+    for k in range(len(order)):
+        for j in np.flatnonzero(force.any(axis=1)):
+            way = int(order[k] - order[j])
+            if abs(way) <= len(blocks):
+                block = flexibility if way == 0 else blocks[abs(way) - 1]
+                sums = "ij,j->i" if way >= 0 else "ji,j->i"
+                moved[k] += np.einsum(sums, block, force[j])
+    return moved.reshape(len(order), -1, 3)
