@@ -19,8 +19,8 @@ from asperity.thesis.said import said_of, slips
 
 EXCERPT = Path(__file__).with_name("literature") / "thesis-excerpt.toml"
 _HEAD = """\
-# The thesis as the machine read it: the words that the ledger quotes, uncorrected, with their lines,
-# and the first digits of a SHA-256 of each whole line, for whoever has the text. By tests/excerpt.py.
+# The thesis as the machine read it: the words that the ledger quotes, uncorrected, with lines,
+# and the first digits of a SHA-256 of each whole line, for whoever has the text; tests/excerpt.py.
 """
 
 

@@ -1,6 +1,7 @@
 """The thesis as a user reproduces it, with the numbers it must give."""
 
 import csv
+import html
 import json
 import os
 import re
@@ -308,9 +309,9 @@ def test_what_is_reproduced_names_what_it_could_have_failed_by():
         ("6.20", "bronze_rim_m_s", 2.872e-3, 1e-3),
         ("6.21", "mass_at_750_Hz_kg", 1.302, 1e-3),
         ("7.19", "apart_VA", 86.0, 1e-2),
-        ("7.20", "apart_at_k_1", 0.0754, 1e-2),
+        ("7.20", "apart_at_k_1", 0.0493, 1e-2),
         ("7.22", "force_at_k_w_1_N", 4280.0, 2e-3),
-        ("8.1", "lobes_times_amplitude_mm", 9.98, 2e-3),
+        ("8.1", "lobes_times_amplitude_mm", 10.019, 1e-3),
         ("4.11", "two_phase_0deg_N", 0.0256, 5e-3),
         ("4.11", "exponential_0deg_N", 0.0034, 2e-2),
         ("5.2", "relative_error_k_2", 0.009, 2e-2),
@@ -523,7 +524,7 @@ def test_the_page_quotes_the_thesis_and_says_who_read_it(result):
 
 
 def test_a_finding_that_several_claims_rest_on_is_told_once_and_linked(result):
-    page = result.index.read_text("utf-8")
+    page = html.unescape(result.index.read_text("utf-8"))
     for name, finding in findings().items():
         assert page.count(f'id="finding-{name}"') == 1
         assert page.count(f'href="#finding-{name}"') == sum(

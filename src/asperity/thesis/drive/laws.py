@@ -19,7 +19,7 @@ The rest, 0.848, is along the normal.
 """
 
 INCREMENTS = 1000
-_HOW = "asperity.thesis.drive.appendix_e.hammered(law, k_w, (0.424, 0.317), 0.16e-3, 1000)"
+HOW = "asperity.thesis.drive.appendix_e.hammered(law, k_w, (0.424, 0.317), 0.16e-3, 1000)"
 _AGREE = 0.01
 
 
@@ -79,6 +79,6 @@ def _coulomb() -> Finding:
             "subroutine_at_k_w_20": found[-1].subroutine,
             "coulomb_at_k_w_20": found[-1].coulomb,
         },
-        [_HOW, *(run for group in runs for run in group)],
+        [HOW, *(run for group in runs for run in group)],
         assumed=f"The exponent of the law, {LAW.exponent:g}, which is not stated. {assumed()}",
     )

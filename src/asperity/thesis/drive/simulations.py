@@ -102,7 +102,7 @@ TRIED = (1.0, 5.0, 20.0)
 def on_mesh(density: str) -> list[Simulation]:
     """Return simulations of set 3 with teeth meshed so."""
     return [
-        simulation(condition, f"drive.density={density}")
+        simulation(condition, "drive.phases=12", f"drive.density={density}")
         for condition in conditions(3)
         if condition.ratio in TRIED
     ]

@@ -1,4 +1,4 @@
-"""Claims 4.1 to 4.8: the sliding body."""
+"""Claims 4.1 to 4.6 and 4.8: the sliding body."""
 
 from collections.abc import Sequence
 
@@ -278,28 +278,6 @@ def _crossing() -> float:
         return float(along - across)
 
     return float(brentq(difference, 1.05, 2.0, xtol=1e-5))
-
-
-@claim("4.7", "App. A.5", "LuGre with zero damping and Stribeck terms equals Dahl.", "exact")
-def _lugre() -> Finding:
-    axes = ((RATIO, "2,20"), (DIRECTION, ALL_AROUND))
-    dahl = Sweep("table-4.4", axes, (PERIODIC,))
-    lugre = Sweep("table-4.4", axes, LUGRE)
-    apart = float(np.abs(dahl.ratios() - lugre.ratios()).max())
-    return Finding.judged(
-        {"exact": apart < 1e-12},
-        f"{f'differ by up to {apart:.0e}' if apart else 'the same to the last bit'}, in "
-        f"{dahl.values(1).size} directions at k = 2 and 20",
-        "Without damping and Stribeck terms LuGre's equation is Dahl's, and so are the two updates "
-        "compared here: an identity, which could not have come out otherwise. Zeros put into (43) "
-        "as the text has it make it 0/0, and its exponent has no bound for a negative slip "
-        "velocity; the square that is used here is more likely lost in the reading than in the "
-        "thesis, for the boxes of (44) and (45) beside it were read as roots. The two phases of "
-        "(44) to (47) are not solved as they stand.",
-        {"largest_difference": apart},
-        [dahl, lugre],
-        verdict=ARITHMETIC,
-    )
 
 
 @claim(

@@ -14,6 +14,7 @@ from asperity.flanks.parameters import Disc, Hob, Mount
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.driven import driven
+from asperity.rating.inputs import inputs
 from asperity.rating.rate import run_of
 from asperity.results import Result, quantity
 from asperity.results.table import Table
@@ -76,7 +77,11 @@ def prepare(case: Case) -> Given:
         return given
     with told(case):
         operation = driven(gearset, operation, options)
-    given = given._replace(operation=operation, sump=operation.oil_temperature)
+    steps = tuple(
+        (float(part.hours), float(part.torque), float(part.speed))
+        for part in inputs(gearset, operation, options or RatingOptions()).duty
+    )
+    given = given._replace(operation=operation, sump=operation.oil_temperature, steps=steps)
     try:
         rated = rate(gearset, operation, options, ("iso14521",), folder=case.folder)
     except InputError:

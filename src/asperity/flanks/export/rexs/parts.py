@@ -53,6 +53,8 @@ class Given(NamedTuple):
         On worm and wheel.
     sump : float or None
         Temperature of the oil, K.
+    steps : tuple of tuple of float
+        Hours, torque of the wheel, N m, and speed of the worm, rpm, of each step of the load.
     """
 
     gearset: Gearset
@@ -62,6 +64,7 @@ class Given(NamedTuple):
     mount: Mount | None = None
     forces: Forces | None = None
     sump: float | None = None
+    steps: tuple[tuple[float, float, float], ...] = ()
 
 
 def component(what: str, type_: str, name: str = "", /, **attributes: Any) -> Component:

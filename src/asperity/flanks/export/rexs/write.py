@@ -54,7 +54,7 @@ def _machine(given: Given) -> list[Component]:
     own: dict[str, Any] = {}
     life: float | None = None
     if run is not None:
-        life = _life(run, g.gear_ratio)
+        life = _life(run, g.gear_ratio, given.steps)
         own = {
             f"{OWN}seals": (run.seals, "none"), f"{OWN}fan": (run.fan, "none"),
             f"{OWN}immersed": (run.immersed, "none"), f"{OWN}service": (run.service, "none"),
@@ -91,10 +91,10 @@ def _machine(given: Given) -> list[Component]:
     ]  # fmt: skip
 
 
-def _life(run: Operation, ratio: float) -> float | None:
+def _life(run: Operation, ratio: float, steps: tuple[tuple[float, ...], ...]) -> float | None:
     """Operating time, h; None where none is asked for."""
-    if run.duty_cycle is not None:
-        return math.fsum(step.duration for step in run.duty_cycle) * _HOURS
+    if steps:
+        return math.fsum(hours for hours, *_ in steps)
     if run.life is not None:
         return float(f"{run.life * _HOURS:.15g}")
     if run.wheel_revolutions is not None:
@@ -269,19 +269,13 @@ def _relations() -> tuple[Relation, ...]:
 
 
 def _load_cases(given: Given) -> list[tuple[Component, ...]]:
-    """What the parts of a duty cycle are, each by its share of the operating time."""
-    run = given.operation
-    if run is None or run.duty_cycle is None:
-        return []
-    whole = math.fsum(step.duration for step in run.duty_cycle)
+    """What the steps of a duty cycle or spectrum are, each by its share of the operating time."""
+    whole = math.fsum(hours for hours, *_ in given.steps)
     return [
         (
-            component("unit", "gear_unit",
-                       operating_time_fraction=(100.0 * step.duration / whole, "%")),
-            component("worm_shaft", "shaft",
-                       rotational_speed=(_rpm(step.worm_speed or run.worm_speed), "1 / min")),
-            component("wheel_load", "external_load",
-                       torque_around_u_axis=(step.output_torque, "N m")),
+            component("unit", "gear_unit", operating_time_fraction=(100.0 * hours / whole, "%")),
+            component("worm_shaft", "shaft", rotational_speed=(speed, "1 / min")),
+            component("wheel_load", "external_load", torque_around_u_axis=(torque, "N m")),
         )
-        for step in run.duty_cycle
-    ]  # fmt: skip
+        for hours, torque, speed in given.steps
+    ]
