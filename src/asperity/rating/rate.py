@@ -220,15 +220,9 @@ class Rated(Result):
 
     def brief(self) -> str:
         """Return the verdict on one screen."""
-        return screen(
-            self.verdict,
-            self.found,
-            self.self_locking,
-            len(self.assumed),
-            self.notes,
-            self.of_duty,
-            () if self.backlash is None else (self.backlash.sentence(),),
-        )
+        play = () if self.backlash is None else (self.backlash.sentence(),)
+        shown = self.verdict, self.found, self.self_locking, len(self.assumed), self.notes
+        return screen(*shown, self.of_duty, play)
 
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
