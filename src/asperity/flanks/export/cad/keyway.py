@@ -4,14 +4,16 @@ Solids are made without a cut; a keyway, of planes alone, is cut from one that i
 """
 
 import math
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.export.cad.brep import Solid, check
 from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
 from asperity.flanks.parameters import Blanks
 from asperity.flanks.worm.setting import Pair
 from asperity.sources import Source
+
+if TYPE_CHECKING:
+    from asperity.flanks.export.cad.brep import Solid
 
 SOURCE = Source("DIN 6885-1:1968", "from memory", "width and depths of parallel keys by diameter")
 """Where the sizes come from."""
@@ -80,7 +82,7 @@ def require_keys(pair: Pair, blanks: Blanks | None) -> None:
             )
 
 
-def keyed(made: Solid, pair: Pair, blanks: Blanks | None) -> Solid:
+def keyed(made: "Solid", pair: Pair, blanks: Blanks | None) -> "Solid":
     """Return a solid of worm or wheel with its keyway, where one is wanted.
 
     Raises
@@ -98,6 +100,8 @@ def keyed(made: Solid, pair: Pair, blanks: Blanks | None) -> Solid:
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
     from OCP.TopoDS import TopoDS
+
+    from asperity.flanks.export.cad.brep import Solid, check
 
     box = BRepPrimAPI_MakeBox(gp_Pnt(*corner), *size).Shape()
     found = TopExp_Explorer(BRepAlgoAPI_Cut(made.shape, box).Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
