@@ -1,6 +1,6 @@
-"""The table ``[project]``: for whom and by whom; it heads a report and changes no number."""
+"""The table ``[project]``: for whom and by whom; it heads a report and calculates nothing."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 from asperity.casefile.table import Table
 
@@ -18,6 +18,8 @@ class Project(Table):
         Who does it.
     note : str, optional
         What else a reader of the report should know.
+    units : {'si', 'us'}
+        What screen, report, workbook and CSV are in; JSON and netCDF are in SI whatever it says.
     """
 
     table: ClassVar[str] = "project"
@@ -27,3 +29,4 @@ class Project(Table):
     customer: str | None = None
     author: str | None = None
     note: str | None = None
+    units: Literal["si", "us"] = "si"

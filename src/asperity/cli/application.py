@@ -172,6 +172,9 @@ def new(
     ] = "",
     output_torque: Annotated[str | None, _TORQUE] = None,
     worm_speed: Annotated[str | None, _SPEED] = None,
+    read: Annotated[
+        str, typer.Option("--from", metavar="FILE.rexs", help="A gear from another program's REXS.")
+    ] = "",
     settings: SetOption = None,
     defaults: Annotated[bool, typer.Option("--defaults", help="Ask nothing.")] = False,
     as_json: JsonOption = False,
@@ -184,7 +187,7 @@ def new(
 
     path = Path(file) if file else None
     asked = {"output_torque": output_torque, "worm_speed": worm_speed}
-    run(kind, path, asked, settings or (), ratio, defaults=defaults, as_json=as_json)
+    run(kind, path, asked, settings or (), ratio, read, defaults=defaults, as_json=as_json)
 
 
 @app.command()

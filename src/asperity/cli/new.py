@@ -24,6 +24,7 @@ def new(
     asked: Mapping[str, str | None],
     settings: Sequence[str],
     ratio: str,
+    read: str = "",
     *,
     defaults: bool,
     as_json: bool,
@@ -31,11 +32,13 @@ def new(
     """Write a case file of a kind, asking what is not given where there is somebody to ask.
 
     What is asked is by key of the operation, None where it is not; a file without an ending gets
-    one.
+    one. What is read is the name of a REXS file, which says all that is not asked or set.
     """
     path = file or Path(name)
     path = path if path.suffix else path.with_name(f"{path.name}.toml")
     if name == BEARING:
+        if read:
+            raise InputError(f"--from {plain(read)}: a REXS file is read as a gear, not as {name}")
         _new_bearing(path, asked, settings, ratio, as_json=as_json)
         return
     kind = kind_of(name)
@@ -43,27 +46,33 @@ def new(
         raise InputError(f"--output-torque and --worm-speed are of a gear; {name} has neither")
     if path.exists():
         raise InputError(f"{plain(str(path))} is there already; name another file")
-    values = kind.begun()
+    values, told = kind.begun(), tuple[str, ...]()
+    if read:
+        values, told = _received(name, read, values, ratio)
     given = _given(values, asked, settings)
     wanted = ratio or RATIO
-    if not defaults and sys.stdin is not None and sys.stdin.isatty() and not as_json:
+    if not defaults and not read and sys.stdin is not None and sys.stdin.isatty() and not as_json:
         for question in kind.questions:
             if question.path == "ratio":
                 wanted = ratio or _asked_ratio(question)
             elif question.path not in given:
                 _ask(question, values)
     remarks = ["Every key that stands behind a # may be given as well; what it says is assumed."]
+    remarks += told
     if kind.case:
         remarks.append(
             f"What is given is that of {kind.case}; asperity cases {kind.case} prints it with "
             "where each value comes from. Replace it by your own."
         )
-    if "gearset" in values:
+    if "gearset" in values and not read:
         remarks += _sized(values, given, ratio_of(wanted))
     case = Case(path.name, path.parent.absolute(), {}, values, case_tables()).replace(())
     title = f"{kind.title}, begun by asperity new"
-    text = case_text(title, values, case_tables(), kind.tables, remarks)
+    names = (*kind.tables, *(table for table in values if table not in kind.tables))
+    text = case_text(title, values, case_tables(), names, remarks)
     write_text(path, text)
+    for remark in told[1:]:
+        show.note(remark)
     if as_json:
         show.print_json({"file": str(path), "tables": list(case.tables)})
     else:
@@ -71,6 +80,26 @@ def new(
         operation = case.get(Operation)
         if operation and operation.wear_assumed:
             show.print_text(f"\n{operation.wear_assumed}")
+
+
+def _received(name: str, file: str, begun: Values, ratio: str) -> tuple[Values, tuple[str, ...]]:
+    """Return the tables of a REXS file and what is to be said of them; raises InputError."""
+    from asperity.flanks.export.rexs.read import read_rexs
+
+    if name != "gear":
+        raise InputError(f"--from {plain(file)}: a REXS file is read as a gear, not as {name}")
+    if ratio:
+        raise InputError(f"--ratio {ratio}: --from {plain(file)} says the ratio; keep one of them")
+    found = read_rexs(Path(file))
+    tables = found.tables
+    operation = tables.setdefault("operation", {})
+    missing = [key for key in ("worm_speed", "output_torque", "lubricant") if key not in operation]
+    for key in missing:
+        operation[key] = begun["operation"][key]
+    said = [f"It was read from {plain(Path(file).name)}.", *found.remarks]
+    if missing:
+        said.append(f"assumed, replace it by your own: operation.{', operation.'.join(missing)}")
+    return tables, tuple(said)
 
 
 def _new_bearing(

@@ -38,6 +38,12 @@ OutOption = Annotated[
     Path | None,
     typer.Option("--out", metavar="DIR", parser=folder_of, help="Folder to write files to."),
 ]
+UnitsOption = Annotated[
+    str,
+    typer.Option(
+        "--units", metavar="SYSTEM", help="Show it in si or us units; JSON and netCDF are SI."
+    ),
+]
 FormatOption = Annotated[
     str, typer.Option("--format", metavar="FORMAT", help="Of pictures: png, svg or pdf.")
 ]
@@ -72,6 +78,7 @@ def _command(command: Command, into: typer.Typer) -> None:
         **({"full": (FullOption, False)} if command.brief else {}),
         **({"pictures": (FormatOption, "png")} if command.draws else {}),
         "settings": (SetOption, None),
+        "units": (UnitsOption, ""),
         "as_json": (JsonOption, False),
         "out": (_out(command), None),
     }

@@ -26,7 +26,11 @@ def note(line: str) -> None:
 
 def wrapped(sentence: str) -> str:
     """Return a sentence in lines of the terminal's least width."""
-    return textwrap.fill(sentence, _WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+    from asperity.results.system import shown_text
+
+    return textwrap.fill(
+        shown_text(sentence), _WIDTH, subsequent_indent="  ", break_on_hyphens=False
+    )
 
 
 def print_text(text: str) -> None:

@@ -9,12 +9,14 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, get_args
 
 from asperity.casefile import told
+from asperity.casefile.project import Project
 from asperity.commands.command import Command
-from asperity.errors import ConvergenceError, InputError, StorageError, plain, shown
+from asperity.errors import ConvergenceError, InputError, StorageError, choices, plain, shown
 from asperity.results.files import picture_format
+from asperity.results.system import System, shown_in
 from asperity.runs import Run
 from asperity.store import output_folder, reason, write_text
 
@@ -59,6 +61,7 @@ def execute(
     version: str,
     out: Path | None,
     pictures: str = "png",
+    units: str = "",
     **options: Any,
 ) -> None:
     """Do what a command does with a case, tell the answer and write its files.
@@ -79,9 +82,13 @@ def execute(
         Where to write; None: where the command writes if nothing is said, or nowhere.
     pictures : str
         What pictures are written as; empty: none are.
+    units : str
+        What people are shown it in, ``si`` or ``us``; empty: as the case says.
     **options
         What the command takes beside a case.
     """
+    if units not in ("", *get_args(System)):
+        raise InputError(f"--units {units}: it must be one of {choices(get_args(System))}")
     pictures = pictures and picture_format(pictures)
     file = out if command.out != "DIR" else None
     if file is not None:
@@ -108,23 +115,31 @@ def execute(
             raise
     # What was measured is what an answer is about, rather than how it is read.
     source = plain(given[0]) if given else found.source
-    shown = teller.show(source, found, result)
-    if file is not None:
-        teller.written(result.save(file), ())
-    elif folder is not None:
-        names = result.write(folder, pictures=pictures)
-        if result.reported:
-            from asperity.results.report import Heading
+    with shown_in(_system(units, found)):
+        shown = teller.show(source, found, result)
+        if file is not None:
+            teller.written(result.save(file), ())
+        elif folder is not None:
+            names = result.write(folder, pictures=pictures)
+            if result.reported:
+                from asperity.results.report import Heading
 
-            heading = Heading.of(found, version)
-            write_text(folder / _REPORT, result.to_html(heading, folder))
-            names.append(_REPORT)
-        run.finished()
-        teller.written(folder, names)
+                heading = Heading.of(found, version)
+                write_text(folder / _REPORT, result.to_html(heading, folder))
+                names.append(_REPORT)
+            run.finished()
+            teller.written(folder, names)
     if shown is not None:
         raise shown
     if result.failure is not None:
         raise result.failure
+
+
+def _system(units: str, case: "Case") -> System | None:
+    """Return the system of units that is asked for, or that of the case."""
+    project = case.get(Project)
+    own: System | None = None if project is None else project.units
+    return "us" if units == "us" else "si" if units == "si" else own
 
 
 def _check_new(file: Path, command: Command) -> None:

@@ -175,7 +175,17 @@ COMMANDS = (
                 default="intermediate",
             ),
             Option("step", "Also write worm, wheel and both in mesh as STEP.", default=False),
+            Option("dxf", "Also write a drawing with dimensions and data as DXF.", default=False),
         ),
+    ),
+    Command(
+        "rexs",
+        "Write a worm gearset in the exchange format of gearbox programs, REXS.",
+        "It is of version 1.5; asperity new gear --from reads such files, of any version.",
+        module="asperity.flanks.export.rexs.export",
+        needs=("gearset",),
+        draws=False,
+        out="GEARSET.rexs",
     ),
     Command(
         "drive",

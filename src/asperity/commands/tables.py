@@ -17,6 +17,7 @@ _TABLES = {
     "wear": "asperity.slider.wear:Wear",
     "solve": "asperity.slider.parameters:Solve",
     "gearset": "asperity.gearset.parameters:Gearset",
+    "tolerances": "asperity.gearset.tolerancing.table:Tolerances",
     "operation": "asperity.rating.parameters:Operation",
     "rating": "asperity.rating.parameters:RatingOptions",
     "worm_shaft": "asperity.shafts.parameters:WormShaft",

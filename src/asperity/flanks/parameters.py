@@ -203,6 +203,8 @@ class Blanks(Table):
     chamfer : float or str, optional
         Chamfer of the bore and of the shaft's ends, m; 0 for none. Left out: a twentieth of their
         diameter, at most 1 mm.
+    keyways : {'none', 'wheel', 'worm', 'both'}
+        Which have a keyway of DIN 6885-1 in STEP: the wheel's bore, the worm's driven end.
     """
 
     table: ClassVar[str] = "blank"
@@ -215,6 +217,7 @@ class Blanks(Table):
     drive_end: Annotated[float, _length("60 mm", ge=0.0, le=10.0)] | None = None
     free_end: Annotated[float, _length("40 mm", ge=0.0, le=10.0)] | None = None
     chamfer: Annotated[float, _length("1 mm", ge=0.0, le=0.1)] | None = None
+    keyways: Literal["none", "wheel", "worm", "both"] = "none"
 
 
 class MeasuringOptions(Table):

@@ -5,11 +5,29 @@ their conjugates, which are involutes; a curved profile departs from that by les
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import Protocol
 
 from asperity.gearset.geometry import Geometry
 from asperity.results.quantity import text_of
 from asperity.results.svg import Drawing, Point, Words, scale_for, scale_text
+
+
+class Pen(Protocol):
+    """What draws, in mm of paper with y downwards: `asperity.results.svg.Drawing`, or another."""
+
+    def line(self, points: Sequence[Point], pen: str = "wide", *, closed: bool = False) -> None:
+        """Draw straight lines through points."""
+
+    def circle(self, centre: Point, radius: float, pen: str = "wide") -> None:
+        """Draw a circle."""
+
+    def dimension(self, one: Point, other: Point, at: float, words: Words) -> None:
+        """Draw a dimension between two points."""
+
+    def hatch(self, corners: Sequence[Point]) -> None:
+        """Hatch a polygon that is cut."""
+
 
 _WIDEST, _HIGHEST = 82.0, 115.0
 _GAP = 7.0
@@ -27,6 +45,12 @@ def along_the_wheel(g: Geometry) -> tuple[str, str]:
     """Return the view along the wheel's axis, the worm above it, as SVG; and what it shows."""
     s = scale_of(g)
     drawing = Drawing("Worm gearset seen along the wheel's axis")
+    draw_along(drawing, g, s)
+    return drawing.svg(), f"Along the wheel's axis, scale {scale_text(s)}, lengths in mm"
+
+
+def draw_along(drawing: Pen, g: Geometry, s: float) -> None:
+    """Draw the view along the wheel's axis at a scale, the axis at (0, 0)."""
     a = s * g.centre_distance
     wheel = [(s * x, s * y) for x, y in _wheel_teeth(g)]
     drawing.line(wheel, closed=True)
@@ -51,13 +75,19 @@ def along_the_wheel(g: Geometry) -> tuple[str, str]:
     drawing.dimension((-half, -a - tip), (half, -a - tip), top, _named(g, "worm_face_width"))
     bottom = outer + _GAP
     drawing.dimension((-outer, 0.0), (outer, 0.0), bottom, _named(g, "wheel_throat_diameter"))
-    return drawing.svg(), f"Along the wheel's axis, scale {scale_text(s)}, lengths in mm"
 
 
 def through_the_wheel(g: Geometry) -> tuple[str, str]:
     """Return the section through the wheel's axis, across the worm's, as SVG; and what it shows."""
     s = scale_of(g)
     drawing = Drawing("Section of the worm gearset through the wheel's axis")
+    draw_through(drawing, g, s)
+    said = "Section through the wheel's axis, without hub and shafts"
+    return drawing.svg(), f"{said}, scale {scale_text(s)}"
+
+
+def draw_through(drawing: Pen, g: Geometry, s: float) -> None:
+    """Draw the section through the wheel's axis at a scale, the middle of the axis at (0, 0)."""
     a = s * g.centre_distance
     for name, pen in (("tip", "wide"), ("pitch", "chain"), ("root", "narrow")):
         drawing.circle((0.0, -a), s * getattr(g, f"worm_{name}_diameter") / 2.0, pen)
@@ -83,8 +113,6 @@ def through_the_wheel(g: Geometry) -> tuple[str, str]:
     drawing.dimension((half, -outer), (half, outer), -wide - _GAP,
                       _named(g, "wheel_outside_diameter"))  # fmt: skip
     drawing.dimension((-half, outer), (half, outer), outer + _GAP, _named(g, "wheel_face_width"))
-    said = "Section through the wheel's axis, without hub and shafts"
-    return drawing.svg(), f"{said}, scale {scale_text(s)}"
 
 
 def _named(g: Geometry, name: str) -> Words:

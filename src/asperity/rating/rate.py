@@ -9,6 +9,8 @@ from asperity.casefile import Case, told
 from asperity.errors import InputError, require_types
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
+from asperity.gearset.tolerancing.backlash import Backlash
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.alternatives import Alternative
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.by_standard import PROMISED, rate_by
@@ -24,6 +26,7 @@ from asperity.rating.iso14521.calculation import film_parameter_of
 from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.levers import Lever
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.play import play_of
 from asperity.rating.result import Rating
 from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking, self_locking
@@ -33,6 +36,7 @@ from asperity.rating.tables import operation_of
 from asperity.rating.verdict import Verdict, screen
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
+from asperity.results.system import shown_frame
 from asperity.results.table import Column, Table
 from asperity.store import harmless_cell, write_text
 
@@ -73,6 +77,8 @@ class Rated(Result):
         Why a standard that was asked for could not be applied.
     contact : Section or None
         What its report shows of how the flanks touch, where that was asked for.
+    backlash : Backlash or None
+        What the tolerances leave of it, where there are any.
     rows : tuple of Row
         What others than the standards say of the same gearbox, for its verdict.
     """
@@ -94,6 +100,7 @@ class Rated(Result):
     tables_bs721: Tables
     unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
+    backlash: Backlash | None = None
     rows: tuple[Row, ...] = ()
 
     @property
@@ -169,6 +176,7 @@ class Rated(Result):
             "forces": {one.rotation: one.to_json() for one in self.forces} or None,
             "holding": [one.to_json() for one in self.holding],
             **({"duty_cycle": parts} if parts else {}),
+            **({} if self.backlash is None else {"backlash": self.backlash.to_json()}),
             **self._of_spectrum(),
         }
 
@@ -212,14 +220,9 @@ class Rated(Result):
 
     def brief(self) -> str:
         """Return the verdict on one screen."""
-        return screen(
-            self.verdict,
-            self.found,
-            self.self_locking,
-            len(self.assumed),
-            self.notes,
-            self.of_duty,
-        )
+        play = () if self.backlash is None else (self.backlash.sentence(),)
+        shown = self.verdict, self.found, self.self_locking, len(self.assumed), self.notes
+        return screen(*shown, self.of_duty, play)
 
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
@@ -238,6 +241,8 @@ class Rated(Result):
             tables.append(endurance_table(self.endurance))
         if self.starting:
             tables.append(starting_table(self.starting))
+        if self.backlash is not None:
+            tables.append(self.backlash.table())
         if self.notes:
             tables.append(Table((), (), remarks=self.notes))
         return tuple(tables)
@@ -269,7 +274,7 @@ class Rated(Result):
         from asperity.rating.workbook import write_rating
 
         names = super().write(folder, pictures="")
-        table = self.to_frame().map(harmless_cell)
+        table = shown_frame(self.to_frame()).map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         if len(self.given.duty) > _MOST_SHEETS:
             return [*names, "rate.csv"]
@@ -284,6 +289,7 @@ def rate(
     standards: Sequence[str] = STANDARDS,
     *,
     folder: Path | None = None,
+    tolerances: Tolerances | None = None,
 ) -> Rated:
     """Rate a worm gearset.
 
@@ -299,6 +305,8 @@ def rate(
         Which to apply.
     folder : path, optional
         Where a relative file name among the options starts.
+    tolerances : Tolerances, optional
+        The ``[tolerances]`` table, which leaves a backlash.
 
     Returns
     -------
@@ -317,6 +325,7 @@ def rate(
         gearset=(gearset, Gearset),
         operation=(operation, Operation),
         options=(options, RatingOptions | None),
+        tolerances=(tolerances, Tolerances | None),
     )
     options = options or RatingOptions()
     wanted = known_standards(standards)
@@ -346,6 +355,7 @@ def rate(
         alternatives=(),
         unanswered=unanswered,
         contact=None,
+        backlash=play_of(gearset, tolerances, found),
         given=given,
         tables_bs721=tables,
         gearset=gearset,
@@ -364,7 +374,8 @@ def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     options = case.get(RatingOptions)
     gearset, operation = case.require(Gearset), run_of(case)
     with told(case):
-        return rate(gearset, operation, options, standards, folder=case.folder)
+        off, folder = case.get(Tolerances), case.folder
+        return rate(gearset, operation, options, standards, folder=folder, tolerances=off)
 
 
 def run_of(case: Case) -> Operation:

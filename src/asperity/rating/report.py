@@ -56,6 +56,8 @@ def sections(rated: Reported) -> Iterator[Section]:
         yield Section(by, (said, *_of_agma(rated)), tables=(_forces(rated),))
     yield rated.contact or Section("Contact pattern and lines", (_NO_CONTACT,))
     yield Section("Self-locking", tables=(_self_locking(rated), *_held(rated)))
+    if rated.backlash is not None:
+        yield Section("Backlash", tables=(rated.backlash.table(),))
     limits = tuple(
         Table((), (), title, rating.violations or ("no limit of validity is violated",))
         for title, rating in ((rating.standard, rating) for rating in rated.ratings)
@@ -112,6 +114,8 @@ def _come_to(rated: Reported) -> Iterator[str]:
     if verdict.film is not None:
         yield verdict.film.sentence("verdict.film")
     yield locking_line(rated.self_locking)
+    if rated.backlash is not None:
+        yield rated.backlash.sentence()
 
 
 def _columns(*names: str) -> tuple[Column, ...]:

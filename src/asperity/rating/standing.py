@@ -11,6 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 from asperity.rating.demands import DEMANDS
 from asperity.rating.result import Rating
+from asperity.results.system import shown_text
 
 NAMES = {"iso14521": "ISO/TR 14521", "bs721": "BS 721", "agma6034": "AGMA 6034"}
 """What people call the standards."""
@@ -137,7 +138,7 @@ def listed(words: Sequence[str]) -> str:
 
 def wrapped(text: str) -> list[str]:
     """Return a text in lines of at most 79 characters."""
-    return textwrap.wrap(text, WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+    return textwrap.wrap(shown_text(text), WIDTH, subsequent_indent="  ", break_on_hyphens=False)
 
 
 def lines_of(texts: Iterable[str]) -> list[str]:

@@ -2,12 +2,14 @@
 
 from asperity.casefile import Case, Table
 from asperity.gearset import Gearset
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.spectrum import Spectrum
 
 TABLES: dict[str, type[Table]] = {
-    table.table: table for table in (Gearset, Operation, RatingOptions, Spectrum, Housing)
+    table.table: table
+    for table in (Gearset, Tolerances, Operation, RatingOptions, Spectrum, Housing)
 }
 
 

@@ -14,6 +14,7 @@ from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
 from asperity.results.quantity import Number, Sentence
+from asperity.results.system import shown_text
 
 _LONGEST = 3.0
 _BAR = 27
@@ -286,6 +287,7 @@ def screen(
     assumed: int,
     notes: Iterable[str],
     duty: Iterable[str] = (),
+    play: Iterable[str] = (),
 ) -> str:
     """Return what is shown first: the verdict, in lines of at most 79 characters.
 
@@ -300,7 +302,7 @@ def screen(
     remarks = *(note for note in notes if note not in said), *_outside(found)
     kept = {"film": film, "remarks": remarks}
     blocks = {"stands": verdict.stands(), "first": first, "best": best, "power": power,
-              "duty": duty, "locking": (locking_line(locking),)}  # fmt: skip
+              "duty": duty, "locking": (locking_line(locking),), "play": play}  # fmt: skip
     lines = {name: [line for one in of for line in wrapped(one)] for name, of in blocks.items()}
     lines |= {"bars": ["", *verdict.bars(), ""], "film": [], "remarks": []}
     if sum(map(len, lines.values())) >= _MOST_LINES:
@@ -310,7 +312,7 @@ def screen(
         for text in texts[:_MOST_REMARKS]:
             own = wrapped(text)
             if name == "remarks":
-                own = [textwrap.shorten(f"- {text}", WIDTH, placeholder=" ...")]
+                own = [textwrap.shorten(f"- {shown_text(text)}", WIDTH, placeholder=" ...")]
             if len(own) <= _MOST_LINES - 1 - sum(map(len, lines.values())):
                 lines[name] += own
                 shown += name == "remarks"
@@ -322,7 +324,10 @@ def screen(
         f"assumed {assumed} key{'s' * (assumed != 1)}, {memory} {rest} on sources from memory"
         f"{further}: --full"
     ]
-    order = "stands", "first", "best", "bars", "power", "duty", "film", "locking", "remarks", "end"
+    order = (
+        "stands", "first", "best", "bars", "power", "duty", "film", "locking", "play", "remarks",
+        "end",
+    )  # fmt: skip
     return "\n".join(line for name in order for line in lines[name])
 
 

@@ -27,13 +27,14 @@ from asperity.rating.inputs import Inputs, Part, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.result import Rating
 from asperity.rating.variation import derived
-from asperity.results.xlsx import Formula, Input, Sheet, place, write_workbook
+from asperity.results.xlsx import Formula, Input, Sheet, in_shown_units, place, write_workbook
 from asperity.units import unit_of
 
 _INPUTS, _GEOMETRY = "inputs", "geometry"
 _VALUE = 1  # column
 _GIVEN_WIDTHS = (12, 24, 10, 44, 44)
 _FOUND_WIDTHS = (12, 24, 10, 44, 60, 44, 10, 10)
+_SHOWN_WIDTHS = (14, 10)
 # Numbers of a case that are in SI, where the sheet has the standards' units.
 _FROM_SI = {"MPa": 1e-6, "mm2/s": 1e6}
 _HEADING = ("symbol", "value", "unit", "meaning", "equation", "source", "asked", "holds")
@@ -87,8 +88,12 @@ def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], pat
                 page.add(values[standard][entry.key], *about, asked=asked.get(entry.key))
         pages.append(page)
     remarks = [("", "", "", remark) for remark in ("", *_REMARKS)]
-    sheets = {_INPUTS: Sheet([*cells.rows, *remarks], _GIVEN_WIDTHS)}
-    sheets |= {page.name: Sheet(page.rows, _FOUND_WIDTHS) for page in pages}
+    given_rows = in_shown_units(cells.rows, len(_GIVEN_WIDTHS))
+    sheets = {_INPUTS: Sheet([*given_rows, *remarks], (*_GIVEN_WIDTHS, *_SHOWN_WIDTHS))}
+    sheets |= {
+        page.name: Sheet(in_shown_units(page.rows, len(_HEADING)), (*_FOUND_WIDTHS, *_SHOWN_WIDTHS))
+        for page in pages
+    }
     return write_workbook(sheets, path)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from asperity.results.quantity import Sentence
+from asperity.results.system import shown_table
 from asperity.results.table import Bar, Number
 from asperity.results.typeset import typeset
 
@@ -41,7 +42,7 @@ def environment() -> "Environment":
 def fragment(tables: "Iterable[Table]") -> str:
     """Return tables as HTML without a page around them."""
     made: Any = environment().get_template("tables.html.j2").module
-    return str(made.of(list(tables)))
+    return str(made.of([shown_table(table) for table in tables]))
 
 
 def data(number: Number) -> "Markup":

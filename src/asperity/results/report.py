@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from asperity.casefile.case import Case
 from asperity.casefile.project import Project
 from asperity.results.page import environment
+from asperity.results.system import shown_table, shown_text
 from asperity.results.table import Table
 
 if TYPE_CHECKING:
@@ -191,8 +192,17 @@ def report(title: str, sections: Iterable[Section], heading: Heading | None = No
     heading = heading or Heading()
     template = environment().get_template("report.html.j2")
     named = f"{heading.project.name}: {title}" if heading.project.name else title
-    parts = [*sections, *_given(heading)]
+    parts = [*map(_shown, sections), *_given(heading)]
     return template.render(title=named, heading=heading, sections=parts)
+
+
+def _shown(section: Section) -> Section:
+    """Return a part as people are shown it; the case stands as it was written."""
+    return dataclasses.replace(
+        section,
+        texts=tuple(map(shown_text, section.texts)),
+        tables=tuple(map(shown_table, section.tables)),
+    )
 
 
 def _given(heading: Heading) -> Iterator[Section]:

@@ -7,6 +7,8 @@ import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from asperity.results.system import shown_table
+
 if TYPE_CHECKING:
     from asperity.results.table import Column, Table
 
@@ -28,7 +30,7 @@ def rendered(tables: "Iterable[Table]", width: int | None = None) -> str:
         In characters; left out: the terminal's.
     """
     width = width or _terminal_width()
-    return "\n\n".join("\n".join(_lines(table, width)) for table in tables)
+    return "\n\n".join("\n".join(_lines(table, width)) for table in map(shown_table, tables))
 
 
 def _terminal_width() -> int:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from xml.sax.saxutils import escape
 
 from asperity.errors import plain
+from asperity.results.system import US, system
 from asperity.store import write_atomically
 
 
@@ -57,6 +58,32 @@ class Input(NamedTuple):
 def place(sheet: str, row: int, column: int) -> str:
     """Return what a formula calls a cell; rows and columns count from 0."""
     return f"'{sheet}'!${chr(ord('A') + column)}${row + 1}"
+
+
+def in_shown_units(rows: Sequence[Sequence[Any]], width: int) -> list[tuple[Any, ...]]:
+    """Return rows with value and unit as people are shown them behind their columns.
+
+    Parameters
+    ----------
+    rows : sequence of sequence
+        A heading and rows with the value in the second column and its unit in the third.
+    width : int
+        Columns that they have.
+    """
+    if system() == "si":
+        return [tuple(row) for row in rows]
+    made = []
+    for number, row in enumerate(rows):
+        shown, value = US.get(row[2]), getattr(row[1], "value", row[1])
+        more: tuple[Any, ...] = ()
+        if number == 0:
+            more = "value, US", "unit, US"
+        elif shown is not None and isinstance(value, int | float):
+            text = f"B{number + 1}*{shown.factor!r}+{shown.offset!r}"
+            more = Formula(text, value * shown.factor + shown.offset), shown.unit
+        padding = ("",) * (width - len(row)) if more else ()
+        made.append((*row, *padding, *more))
+    return made
 
 
 def write_workbook(sheets: Mapping[str, Sheet], path: Path) -> Path:

@@ -20,3 +20,6 @@ require_cad = functools.partial(_require, "OCP.Geom", "cad", "STEP needs")
 
 require_view = functools.partial(_require, "pyvista", "view", "pictures in space need")
 """Raise MissingExtraError unless the ``view`` extra is installed."""
+
+require_draw = functools.partial(_require, "ezdxf", "draw", "DXF needs")
+"""Raise MissingExtraError unless the ``draw`` extra is installed."""

@@ -190,7 +190,7 @@ def volume(section: FloatArray) -> float:
 
 def _millimetres(blanks: Blanks | None) -> dict[str, float]:
     """The sizes that are given, mm."""
-    given = (blanks or Blanks()).model_dump(exclude_none=True)
+    given = (blanks or Blanks()).model_dump(exclude_none=True, exclude={"keyways"})
     return {key: float(f"{value * _MILLIMETRES:.12g}") for key, value in given.items()}
 
 

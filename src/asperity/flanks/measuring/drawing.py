@@ -6,12 +6,17 @@ Which data belong on a drawing is from memory of DIN 3966-3.
 import csv
 import io
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.worm.setting import Pair
+from asperity.gearset.tolerancing.backlash import Backlash
+from asperity.gearset.tolerancing.grades import Allowed
 from asperity.results.quantity import plain, text_of
+from asperity.results.system import converted
 
+_MICROMETRES = 1e3
 _Line = tuple[str, str, object, str]
 
 
@@ -25,8 +30,25 @@ class Datum(NamedTuple):
     unit: str = ""
 
 
-def drawing_data(pair: Pair, found: Measuring) -> list[Datum]:
-    """Return the lines for worm and wheel, then those of both, lengths in mm."""
+def drawing_data(
+    pair: Pair,
+    found: Measuring,
+    graded: Sequence[Allowed] = (),
+    backlash: Backlash | None = None,
+) -> list[Datum]:
+    """Return the lines for worm and wheel, then those of both, lengths in mm.
+
+    Parameters
+    ----------
+    pair : Pair
+        Worm and wheel.
+    found : Measuring
+        What they measure.
+    graded : sequence of Allowed, optional
+        Deviations that a grade of accuracy allows.
+    backlash : Backlash, optional
+        What the tolerances leave of it.
+    """
     g, worm = pair.geometry, pair.worm
     of_worm: list[_Line] = [
         ("number of threads", "z_1", g.starts, ""),
@@ -64,6 +86,7 @@ def drawing_data(pair: Pair, found: Measuring) -> list[Datum]:
         ("throat form radius", "r_k", g.wheel_throat_radius, "mm"),
         ("face width", "b_2", g.wheel_face_width, "mm"),
         ("tooth thickness on the mean circle", "s_m2", found.tooth_thickness, "mm"),
+        ("upper allowance, normal", "E_sn2,s", found.tooth_allowance_upper, "mm"),
         ("lower allowance, normal", "E_sn2,i", found.tooth_allowance_lower, "mm"),
         ("measuring ball diameter", "D_M2", found.ball_diameter, "mm"),
         ("dimension over two balls, upper", "M_dK2,s", found.over_balls_upper, "mm"),
@@ -80,6 +103,12 @@ def drawing_data(pair: Pair, found: Measuring) -> list[Datum]:
         ("circumferential backlash, least", "j_t,min", found.backlash_circumferential_min, "mm"),
         ("circumferential backlash, greatest", "j_t,max", found.backlash_circumferential_max, "mm"),
     ]
+    for one in graded:
+        line = (f"{one.name} ({_short(one)})", one.symbol, one.value / _MICROMETRES, "mm")
+        (of_worm if one.part == "worm" else of_wheel).append(line)
+    if backlash is not None and backlash.allowances.centre_distance:
+        off = backlash.allowances.centre_distance
+        of_both.append(("deviation of the centre distance, to either side", "f_a", off, "mm"))
     parts: dict[str, list[_Line]] = {"worm": of_worm, "wheel": of_wheel, "both": of_both}
     return [
         Datum(part, name, symbol, plain(value), unit)
@@ -89,16 +118,28 @@ def drawing_data(pair: Pair, found: Measuring) -> list[Datum]:
     ]
 
 
+def _short(one: Allowed) -> str:
+    return f"grade {one.grade}, {one.source.name.partition(' after ')[0]}"
+
+
 def csv_of(data: list[Datum]) -> str:
     """Return the lines as CSV, with full digits and, beside them, as a drawing has them."""
     text = io.StringIO()
     rows = csv.writer(text, lineterminator="\n")
     rows.writerow(["part", "name", "symbol", "value", "unit", "on the drawing"])
     for datum in data:
-        rows.writerow([*datum, _drawn(datum)])
+        if isinstance(datum.value, float):
+            value, unit = converted(datum.value, datum.unit)
+            datum = datum._replace(value=value, unit=unit)
+        rows.writerow([*datum, on_drawing(datum)])
     return text.getvalue()
 
 
-def _drawn(datum: Datum) -> str:
-    """Thousandths of a mm and of a degree."""
-    return f"{datum.value + 0.0:.3f}" if isinstance(datum.value, float) else text_of(datum.value)
+def on_drawing(datum: Datum) -> str:
+    """Thousandths of a mm and of a degree, ten thousandths of an inch."""
+    digits = 4 if datum.unit == "in" else 3
+    return (
+        f"{datum.value + 0.0:.{digits}f}"
+        if isinstance(datum.value, float)
+        else text_of(datum.value)
+    )

@@ -18,6 +18,10 @@ from asperity.flanks.meshing.backlash import Play
 from asperity.flanks.parameters import MeasuringOptions
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
+from asperity.gearset import Geometry
+from asperity.gearset.tolerancing import thickness
+from asperity.gearset.tolerancing.backlash import Backlash
+from asperity.gearset.tolerancing.thickness import thickness_tolerance
 from asperity.results import Quantities, quantity
 from asperity.results.quantity import Number
 from asperity.results.table import Column, Table
@@ -35,19 +39,11 @@ SIZES = (
 )  # fmt: skip
 """Diameters of pins and balls for measuring, mm; below 1 mm DIN 3977 has wires of other sizes."""
 
-TOLERANCES = (
-    (10.0, 0.02), (50.0, 0.03), (125.0, 0.04), (280.0, 0.05), (560.0, 0.06), (1000.0, 0.08),
-    (1600.0, 0.1), (2500.0, 0.13), (4000.0, 0.16), (6300.0, 0.2), (10000.0, 0.25),
-)  # fmt: skip
-"""Tolerance of the normal thickness by diameter up to which it holds, mm: series 25."""
-
 SOURCES = {
     "measuring pins and balls": Source(
         "DIN 3977:1981, table 1", "one source", "as the tests of the program gearcore have it"
     ),
-    "tolerance of the tooth thickness": Source(
-        "DIN 3967:1978, table 2, series 25", "one source", "made for cylindrical gears"
-    ),
+    "tolerance of the tooth thickness": thickness.SOURCE,
 }
 """Where what is assumed of measuring comes from."""
 
@@ -89,6 +85,9 @@ class Measuring(Quantities):
     tooth_thickness: float = quantity("s_m2", "mm", "thickness of the wheel's tooth, upper")
     tooth_thickness_normal: float = quantity(
         "s_mn2", "mm", "normal thickness of the wheel's tooth, upper"
+    )
+    tooth_allowance_upper: float | None = quantity(
+        "E_sn2,s", "mm", "upper allowance of the tooth", default=None, optional=True
     )
     tooth_allowance_lower: float = quantity("E_sn2,i", "mm", "lower allowance of the tooth")
     ball_diameter_optimum: float | None = quantity("", "mm", "ball that touches at the mean circle")
@@ -139,8 +138,24 @@ class Measuring(Quantities):
         )
 
 
-def measure(wheel: Wheel, play: Play, options: MeasuringOptions | None = None) -> Measuring:
-    """Return what to measure on a pair whose backlash is known.
+def measure(
+    wheel: Wheel,
+    play: Play,
+    options: MeasuringOptions | None = None,
+    backlash: Backlash | None = None,
+) -> Measuring:
+    """Return what to measure on a pair whose play is known.
+
+    Parameters
+    ----------
+    wheel : Wheel
+        With the pair.
+    play : Play
+        Of the pair, with nothing off.
+    options : MeasuringOptions, optional
+        The ``[measuring]`` table.
+    backlash : Backlash, optional
+        By the exact flanks, with what is allowed of both thicknesses.
 
     Raises
     ------
@@ -152,11 +167,9 @@ def measure(wheel: Wheel, play: Play, options: MeasuringOptions | None = None) -
     given = {key: value * _MILLIMETRES for key, value in given.items()}
     worm, slant = pair.worm, math.cos(pair.worm.lead_angle)
     mean = 0.5 * geometry.wheel_mean_diameter
-    thread = given.get("thread_tolerance", _tolerance(geometry.worm_pitch_diameter))
-    tooth = given.get("tooth_tolerance", _tolerance(geometry.wheel_mean_diameter))
+    limits = _limits(geometry, slant, given, backlash)
     axial = 2.0 * (worm.half_pitch - worm.half_space)
     allowance = (axial - worm.half_pitch) * slant
-    tooth_angle = tooth / slant / mean
     missing: list[str] = []
 
     def rests(
@@ -174,53 +187,81 @@ def measure(wheel: Wheel, play: Play, options: MeasuringOptions | None = None) -
         missing.append(f"{what}: none rests on the flanks and stands out of them")
         return best.diameter if best else None, None, None
 
-    groove = Groove(worm)
-    thinner = Groove(worm.with_half_space(worm.half_space + 0.5 * thread / slant))
+    def groove(thinner: float) -> Groove:
+        return Groove(worm.with_half_space(worm.half_space + 0.5 * thinner / slant))
+
+    (thread, thin_thread), (tooth, thin_tooth) = limits
     pin, over, under = rests(
-        "pin_diameter", "pins on the worm", groove, thinner, 0.5 * geometry.worm_pitch_diameter
-    )
+        "pin_diameter", "pins on the worm", groove(thread), groove(thin_thread),
+        0.5 * geometry.worm_pitch_diameter,
+    )  # fmt: skip
     ball, above, below = rests(
-        "ball_diameter", "balls on the wheel", Space(wheel), Space(wheel, tooth_angle), mean
-    )
+        "ball_diameter", "balls on the wheel", Space(wheel, tooth / slant / mean),
+        Space(wheel, thin_tooth / slant / mean), mean,
+    )  # fmt: skip
     thickness = _thickness(wheel, mean)
-    turn = play.wheel_angle + thread / slant / (worm.reduced_lead * pair.ratio) + tooth_angle
+    turn = play.wheel_angle + thin_thread / slant / (worm.reduced_lead * pair.ratio)
+    turn += thin_tooth / slant / mean
     least = min(play.normal.values())
+    more = (thin_thread + thin_tooth) * math.cos(geometry.pressure_angle)
+    normal, around = (least, least + more), (play.wheel_angle * mean, turn * mean)
+    if backlash is not None:
+        new, factor = backlash.states["new"], backlash.measures[1].factor
+        around = new.least / _MILLIMETRES, new.greatest / _MILLIMETRES
+        normal = around[0] * factor, around[1] * factor
     return Measuring(
-        thread_thickness_axial=axial,
-        thread_thickness=axial * slant,
-        thread_allowance_upper=allowance,
-        thread_allowance_lower=allowance - thread,
+        thread_thickness_axial=axial - thread / slant,
+        thread_thickness=axial * slant - thread,
+        thread_allowance_upper=allowance - thread,
+        thread_allowance_lower=allowance - thin_thread,
         pin_diameter_optimum=pin,
         pin_diameter=over.diameter if over else None,
         over_pins_upper=over.dimension if over else None,
         over_pins_lower=under.dimension if under else None,
         pin_contact_diameter=2.0 * over.contact if over else None,
-        tooth_thickness=thickness,
-        tooth_thickness_normal=thickness * slant,
-        tooth_allowance_lower=-tooth,
+        tooth_thickness=thickness - tooth / slant,
+        tooth_thickness_normal=thickness * slant - tooth,
+        tooth_allowance_upper=None if backlash is None else 0.0 - tooth,
+        tooth_allowance_lower=-thin_tooth,
         ball_diameter_optimum=ball,
         ball_diameter=above.diameter if above else None,
         over_balls_upper=above.dimension if above else None,
         over_balls_lower=below.dimension if below else None,
         ball_contact_diameter=2.0 * above.contact if above else None,
-        backlash_normal_min=least,
-        backlash_normal_max=least + (thread + tooth) * math.cos(geometry.pressure_angle),
-        backlash_circumferential_min=play.wheel_angle * mean,
-        backlash_circumferential_max=turn * mean,
+        backlash_normal_min=normal[0],
+        backlash_normal_max=normal[1],
+        backlash_circumferential_min=around[0],
+        backlash_circumferential_max=around[1],
         missing=tuple(missing),
-        assumed={key: text for key, text in _ASSUMED.items() if key not in given},
+        assumed={
+            key: text
+            for key, text in _ASSUMED.items()
+            if key not in given and not (backlash is not None and key.endswith("tolerance"))
+        },
     )
+
+
+_Limits = tuple[tuple[float, float], tuple[float, float]]
+
+
+def _limits(
+    geometry: Geometry, slant: float, given: dict[str, float], backlash: Backlash | None
+) -> _Limits:
+    """By how much thread and tooth are thinner, normal to them: at least and at most, mm."""
+    if backlash is not None:
+        off = backlash.allowances
+        thread = (0.0 - off.thread[0], 0.0 - off.thread[1])
+        return thread, (0.0 - off.tooth[0] * slant, 0.0 - off.tooth[1] * slant)
+    own = thickness_tolerance(geometry.worm_pitch_diameter)
+    wheel = thickness_tolerance(geometry.wheel_mean_diameter)
+    thread = (0.0, given.get("thread_tolerance", own))
+    return thread, (0.0, given.get("tooth_tolerance", wheel))
 
 
 def _thickness(wheel: Wheel, radius: float) -> float:
     """Arc between both flanks of a tooth in mid-face, mm."""
     plus, minus = (float(wheel.flank(side).at(radius, 0.0).angle) for side in (1, -1))
     return radius * (plus - minus)
-
-
-def _tolerance(diameter: float) -> float:
-    found = (tolerance for most, tolerance in TOLERANCES if diameter <= most)
-    return next(found, TOLERANCES[-1][1])
 
 
 def _tried(find: Callable[[float], Rest], size: float) -> Rest | None:

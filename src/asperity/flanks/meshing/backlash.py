@@ -96,7 +96,7 @@ def _gaps(
 def play(meshes: dict[int, Transmission]) -> Play:
     """Return the play of a mesh from the transmission on both flanks, over the same places."""
     pair = meshes[1].search.pair
-    turn = _turn(meshes)
+    turn = worm_turn(meshes)
     return Play(
         normal=_normal(meshes),
         axial=pair.worm.reduced_lead * turn,
@@ -115,8 +115,8 @@ def _thinned(meshes: dict[int, Transmission], half_space: float) -> dict[int, Tr
     return both(lambda side: meshes[side].with_worm(half_space))
 
 
-def _turn(meshes: dict[int, Transmission]) -> float:
-    """Return by how much the worm can be turned with the wheel held, the least over a pitch."""
+def worm_turn(meshes: dict[int, Transmission]) -> float:
+    """Return by how much the worm can be turned with the wheel held, rad, least over a pitch."""
     searches = [meshes[side].search for side in (1, -1)]
     leads = meshes[1].lead + meshes[-1].lead
     step = searches[0].pitch / leads.size
@@ -143,7 +143,7 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
     worm = meshes[1].search.pair.worm
     widest = worm.half_space + worm.half_pitch - float(worm.curve(2.0)[1])
     normal = math.cos(worm.lead_angle) * math.cos(worm.pressure_angle)
-    turn = _turn(meshes)
+    turn = worm_turn(meshes)
     slope = 2.0 * normal
     tried: list[tuple[float, float]] = []
     # For ZI this is the answer.

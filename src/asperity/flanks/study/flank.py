@@ -7,7 +7,8 @@ from asperity.casefile import Case
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
 from asperity.flanks.export.assembly import Assembly
-from asperity.flanks.export.extras import require_cad, require_view
+from asperity.flanks.export.cad.keyway import require_keys
+from asperity.flanks.export.extras import require_cad, require_draw, require_view
 from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
 from asperity.flanks.measuring import measures
 from asperity.flanks.mesh.tooth import element_size, read_density, tooth
@@ -16,13 +17,19 @@ from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
-from asperity.flanks.study.result import FlankStudy, ToothMesh
+from asperity.flanks.study.meshed import ToothMesh
+from asperity.flanks.study.mounted import MountedStudy
+from asperity.flanks.study.result import FlankStudy
+from asperity.flanks.study.toleranced import Toleranced, require_once
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
+from asperity.gearset.tolerancing.backlash import backlash
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating import Operation, RatingOptions, rate_case
 from asperity.rating.driven import driven
+from asperity.rating.play import worn
 from asperity.rating.regime import Film
 from asperity.runs import Run
 from asperity.sources import Source
@@ -44,7 +51,7 @@ class Prepared:
     """What a study begins with; what can be refused without much work has been.
 
     The notes are of the load; ``step`` says whether its files are to hold STEP, ``seconds`` what it
-    took.
+    took; the wear is that of the life by ISO/TR 14521, um.
     """
 
     gearset: Gearset
@@ -56,8 +63,11 @@ class Prepared:
     load: Load | None = None
     notes: tuple[str, ...] = ()
     step: bool = False
+    dxf: bool = False
     blanks: Blanks | None = None
     measuring: MeasuringOptions | None = None
+    tolerances: Tolerances | None = None
+    wear: float | None = None
 
 
 def prepare_gearset(
@@ -88,7 +98,9 @@ def prepare_gearset(
     return Prepared(gearset, hob, disc, wheel, mesh, time.perf_counter() - began)
 
 
-def prepare(case: Case, *, density: str | float = "intermediate", step: bool = False) -> Prepared:
+def prepare(
+    case: Case, *, density: str | float = "intermediate", step: bool = False, dxf: bool = False
+) -> Prepared:
     """Return what the study of a case begins with.
 
     Parameters
@@ -100,16 +112,20 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
         text with its unit or in mm.
     step : bool
         Whether the files are to hold tooth, worm, wheel and both in mesh as STEP.
+    dxf : bool
+        Whether they are to hold a drawing as DXF.
 
     Raises
     ------
     InputError
         As from `prepare_gearset`.
     MissingExtraError
-        STEP is asked for and the ``cad`` extra is not installed.
+        STEP is asked for and the ``cad`` extra is not installed, or DXF without ``draw``.
     """
     if step:
         require_cad()
+    if dxf:
+        require_draw()
     size = read_density(density) if isinstance(density, str) else density
     gearset = case.require(Gearset).require_consistent()
     made = prepare_gearset(
@@ -119,22 +135,33 @@ def prepare(case: Case, *, density: str | float = "intermediate", step: bool = F
     pair = made.wheel.pair
     wheel_sizes(pair.geometry, blanks)
     shaft_sizes(pair, blanks)
+    require_keys(pair, blanks)
+    tolerances, measuring = case.get(Tolerances), case.get(MeasuringOptions)
+    require_once(tolerances, case.get(Mount), measuring)
+    if tolerances is not None:
+        backlash(gearset, tolerances)
     load, notes = _load(case, gearset)
     return dataclasses.replace(
         made,
         load=load,
         notes=tuple(notes),
         step=step,
+        dxf=dxf,
         blanks=blanks,
-        measuring=case.get(MeasuringOptions),
+        measuring=measuring,
+        tolerances=tolerances,
+        wear=None if tolerances is None else _wear(case),
     )
 
 
 def answer(prepared: Prepared, run: Run) -> FlankStudy:
     """Find how a gearset meshes, as the command does; errors as in `study`."""
     if run.folder is None:
-        if prepared.step:
-            raise InputError("--step: there is no folder for the files; name one with --out DIR")
+        for asked in ("step", "dxf"):
+            if getattr(prepared, asked):
+                raise InputError(
+                    f"--{asked}: there is no folder for the files; name one with --out DIR"
+                )
         return study(prepared)
     try:
         require_view()
@@ -164,7 +191,11 @@ def study(prepared: Prepared) -> FlankStudy:
         found = analyse(pair, prepared.wheel, worm_speed=load.worm_speed)
         notes.append(f"no load on the contact lines: {error}")
     wheel = Wheel(found.pair)
-    measured = measures.measure(wheel, found.play, prepared.measuring)
+    off = None
+    if prepared.tolerances is not None:
+        off = Toleranced.of(prepared.gearset, wheel, found, prepared.tolerances, prepared.wear)
+    between = None if off is None else off.backlash
+    measured = measures.measure(wheel, found.play, prepared.measuring, between)
     assembly = Assembly.of(found, made=prepared.step)
     if assembly.thinned:
         less = MICROMETRES * assembly.thinned
@@ -178,7 +209,8 @@ def study(prepared: Prepared) -> FlankStudy:
         thinnest = min(lines.numbers.film_mean for lines in loaded)
         notes.append(Film(thinnest, 1e6 * prepared.gearset.worm_roughness).sentence())
     assumed = _assumed(prepared.gearset, prepared.hob, prepared.disc)
-    return FlankStudy(
+    kind = MountedStudy if off is not None and off.corners else FlankStudy
+    return kind(
         name=prepared.gearset.name,
         wheel=wheel,
         analysis=found,
@@ -190,7 +222,9 @@ def study(prepared: Prepared) -> FlankStudy:
         assembly=assembly,
         measuring=measured,
         step=prepared.step,
+        dxf=prepared.dxf,
         blanks=prepared.blanks,
+        toleranced=off,
     )
 
 
@@ -237,6 +271,16 @@ def _load(case: Case, gearset: Gearset) -> tuple[Load | None, list[str]]:
     sump = float(rated["theta_S_degC"]) if rated is not None else 0.0
     note = f"oil at {sump:.4g} degC, from the heat balance of ISO/TR 14521"
     return Load.of(gearset, operation, sump + _ZERO_CELSIUS), [note]
+
+
+def _wear(case: Case) -> float | None:
+    """Depth that the life wears off the wheel's flanks, um; None where the standard cannot say."""
+    if case.get(Operation) is None:
+        return None
+    try:
+        return worn(rate_case(case, ("iso14521",)).found)
+    except InputError:
+        return None
 
 
 def _assumed(gearset: Gearset, hob: Hob | None, disc: Disc | None) -> dict[str, str]:

@@ -6,8 +6,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from asperity.errors import AsperityError
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
@@ -16,11 +14,12 @@ from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.meshing.analysis import LABELS, Analysis
 from asperity.flanks.meshing.lubrication import LoadedNumbers
 from asperity.flanks.parameters import Blanks
+from asperity.flanks.study.meshed import ToothMesh
+from asperity.flanks.study.toleranced import Toleranced
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
-from asperity.mesh import HexMesh
 from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.dataset import to_dataset
 from asperity.results.quantity import Entry, Number, text_of
@@ -52,34 +51,6 @@ _WORST = {
 }
 
 
-class ToothMesh(Quantities):
-    """One tooth with its share of the rim in mm, and how good its hexahedra are."""
-
-    density: str = quantity("", "", "density", shown=False)
-    element_size: float = quantity("", "mm", "element size on the flank")
-    nodes: int = quantity("", "", "nodes")
-    elements: int = quantity("", "", "elements")
-    scaled_jacobian_min: float = quantity("", "", "scaled Jacobian, least")
-    scaled_jacobian_median: float = quantity("", "", "scaled Jacobian, median")
-    volume: float = quantity("", "mm3", "volume", shown=False)
-    hexahedra: HexMesh
-
-    @classmethod
-    def of(cls, hexahedra: HexMesh, density: str, element_size: float) -> "ToothMesh":
-        """Return a mesh with its quality; the density as it was asked for, the size in mm."""
-        quality = hexahedra.scaled_jacobian()
-        return cls(
-            density=density,
-            element_size=element_size,
-            nodes=len(hexahedra.points),
-            elements=len(hexahedra.cells),
-            scaled_jacobian_min=float(quality.min()),
-            scaled_jacobian_median=float(np.median(quality)),
-            volume=hexahedra.volume(),
-            hexahedra=hexahedra,
-        )
-
-
 class FlankStudy(Drawn):
     """The flanks of a worm gearset: how they were made, how they touch, and a mesh.
 
@@ -96,8 +67,12 @@ class FlankStudy(Drawn):
         How both stand in mesh in the files.
     step : bool
         Whether the files hold tooth, worm, wheel and both in mesh as STEP.
+    dxf : bool
+        Whether they hold a drawing as DXF.
     blanks : Blanks, optional
         What wheel and worm are beside their teeth.
+    toleranced : Toleranced, optional
+        What the tolerances come to, where there are any.
     """
 
     title: ClassVar[str] = "worm gearset"
@@ -128,7 +103,9 @@ class FlankStudy(Drawn):
     measuring: Measuring
     assembly: Assembly
     step: bool = False
+    dxf: bool = False
     blanks: Blanks | None = None
+    toleranced: Toleranced | None = None
     seconds: float = quantity("", "s", "time it took", key="seconds", only="json", shown=False)
 
     @property
@@ -190,7 +167,10 @@ class FlankStudy(Drawn):
     @property
     def drawing(self) -> list[Datum]:
         """The data of worm and wheel that stand on their drawings."""
-        return drawing_data(self.wheel.pair, self.measuring)
+        off = self.toleranced
+        if off is None:
+            return drawing_data(self.wheel.pair, self.measuring)
+        return drawing_data(self.wheel.pair, self.measuring, off.graded, off.backlash)
 
     def resolution(self, name: str) -> float:
         """Return the size below which a quantity is rounding and shown as zero, in its unit."""
@@ -225,6 +205,7 @@ class FlankStudy(Drawn):
             "mesh": self.mesh.to_json(),
             "assumed": dict(self.assumed),
             "from_memory": dict(self.from_memory),
+            **({} if self.toleranced is None else {"tolerances": self.toleranced.to_json()}),
         }
 
     def to_dataset(self) -> "xr.Dataset":
@@ -247,7 +228,8 @@ class FlankStudy(Drawn):
             "worm_speed_rad_per_s": flanks[1].motion.worm_speed,
         }
         numbers = to_dataset(self, {}, attributes, title=f"flanks of {self.heading()}")
-        return whole.assign_coords(side=side).merge(numbers).assign_attrs(numbers.attrs)
+        made = whole.assign_coords(side=side).merge(numbers).assign_attrs(numbers.attrs)
+        return made if self.toleranced is None else self.toleranced.added(made)
 
     def heading(self) -> str:
         """Return what it is of."""
@@ -289,6 +271,7 @@ class FlankStudy(Drawn):
             ),
             Table.of(("part of a vibration, s = +1", *parts), vibration),
             self.measuring.table(),
+            *(() if self.toleranced is None else self.toleranced.tables()),
             table_of(
                 self.mesh,
                 title=f"mesh of a tooth, {self.mesh.density}",
@@ -330,6 +313,7 @@ class FlankStudy(Drawn):
         return [
             *names,
             _DRAWING,
+            *self._drawn(folder),
             *write_bodies(
                 self.wheel,
                 self.mesh.hexahedra,
@@ -340,6 +324,20 @@ class FlankStudy(Drawn):
                 solids=self.solids,
             ),
         ]
+
+    def _drawn(self, folder: Path) -> tuple[str, ...]:
+        if not self.dxf:
+            return ()
+        from asperity.flanks.export.cad.dxf import write_dxf
+
+        off = self.toleranced
+        deviation = 0.0 if off is None else off.backlash.allowances.centre_distance
+        pair, name = self.wheel.pair, self.heading()
+        return (
+            write_dxf(
+                folder, pair, self.drawing, blanks=self.blanks, deviation=deviation, name=name
+            ),
+        )
 
 
 def _texts(side: int, answer: Quantities) -> dict[tuple[str, str], str]:

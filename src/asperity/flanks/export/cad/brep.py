@@ -1,7 +1,7 @@
 """Solids of smooth patches through Open CASCADE: faces, sewing, checks.
 
-No solid is cut from another: every face is a spline surface through exact points or a plane, and
-faces that meet have the same curve there.
+No solid is cut from another, but for keyways: every face is a spline surface through exact points
+or a plane, and faces that meet have the same curve there.
 """
 
 import functools

@@ -9,6 +9,7 @@ import numpy as np
 from asperity.errors import ConvergenceError
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.cad.brep import solid
+from asperity.flanks.export.cad.keyway import keyed
 from asperity.flanks.export.cad.step import Component, write_assembly, write_step
 from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.patch import Body
@@ -54,7 +55,7 @@ class Solids:
         parts, refused = {}, {}
         for name, body in bodies.items():
             try:
-                parts[name] = Component(solid(body()), *stands[name])
+                parts[name] = Component(keyed(solid(body()), assembly.pair, blanks), *stands[name])
             except ConvergenceError as error:
                 refused[name] = str(error)
         return cls(parts, refused)

@@ -1,0 +1,190 @@
+"""A drawing of worm and wheel as DXF: two views with dimensions, and the data of both.
+
+It is of R2010, in mm and at full size; letters and arrows are as large as on paper at the scale of
+the sheet. Outlines, narrow lines, centre lines, hatches, dimensions and texts have a layer each.
+"""
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from asperity.flanks.export.extras import require_draw
+from asperity.flanks.export.turned import shaft_sections, wheel_section, wheel_sizes
+from asperity.flanks.measuring.drawing import Datum, on_drawing
+from asperity.flanks.parameters import Blanks
+from asperity.flanks.worm.setting import Pair
+from asperity.gearset.drawing import draw_along, draw_through, scale_of
+from asperity.results.svg import Point, Words, scale_text
+from asperity.store import write_text
+
+NAME = "gearset.dxf"
+"""Of the file."""
+
+_LETTERS, _ARROW, _LINE = 3.0, 2.0, 1.7
+_LAYERS = {"wide": "OUTLINE", "narrow": "NARROW", "chain": "CENTRE"}
+_WEIGHTS = {
+    "OUTLINE": 50, "NARROW": 25, "CENTRE": 25, "HATCH": 13, "DIMENSIONS": 25, "TEXT": 25,
+}  # fmt: skip
+_STYLE = "ASPERITY"
+_APART, _BLOCK, _COLUMNS = 45.0, 156.0, (0.0, 92.0, 112.0, 134.0)
+_PARTS = {"worm": "Worm", "wheel": "Worm wheel", "both": "Gearset"}
+
+
+class Sheet:
+    """A sheet that draws as `asperity.results.svg.Drawing` does, in an entity for each line.
+
+    Parameters
+    ----------
+    scale : float
+        Of the sheet: mm of paper for a mm.
+    deviation : float
+        Of the centre distance to either side, mm; 0 for none.
+    """
+
+    def __init__(self, scale: float, deviation: float = 0.0) -> None:
+        require_draw()
+        import ezdxf
+
+        self.scale, self.deviation, self.origin = scale, deviation, (0.0, 0.0)
+        self.reach = 0.0
+        self._document: Any = ezdxf.new("R2010", setup=["linetypes"])
+        self._document.header["$INSUNITS"] = 4
+        self._document.header["$MEASUREMENT"] = 1
+        self._document.header["$LTSCALE"] = 0.5 / scale
+        for name, weight in _WEIGHTS.items():
+            line = "CENTER" if name == "CENTRE" else "CONTINUOUS"
+            self._document.layers.add(name, lineweight=weight, linetype=line)
+        self._document.styles.add("LETTERS", font="arial.ttf")
+        own = self._document.dimstyles.new(_STYLE)
+        own.dxf.dimtxt, own.dxf.dimasz = _LETTERS / scale, _ARROW / scale
+        own.dxf.dimexe, own.dxf.dimexo, own.dxf.dimgap = 1.0 / scale, 0.5 / scale, 0.8 / scale
+        own.dxf.dimdec, own.dxf.dimzin, own.dxf.dimtad = 3, 8, 1
+        own.dxf.dimdsep = ord(".")
+        own.dxf.dimtxsty, own.dxf.dimscale = "LETTERS", 1.0
+        self._space = self._document.modelspace()
+
+    def _at(self, point: Point) -> Point:
+        x = (self.origin[0] + point[0]) / self.scale
+        self.reach = max(self.reach, self.origin[0] + point[0])
+        return x, -(self.origin[1] + point[1]) / self.scale
+
+    def line(self, points: Sequence[Point], pen: str = "wide", *, closed: bool = False) -> None:
+        """Draw straight lines through points."""
+        self._space.add_lwpolyline(
+            [self._at(point) for point in points], close=closed, dxfattribs={"layer": _LAYERS[pen]}
+        )
+
+    def circle(self, centre: Point, radius: float, pen: str = "wide") -> None:
+        """Draw a circle."""
+        self._at((centre[0] + radius, centre[1]))
+        self._space.add_circle(
+            self._at(centre), radius / self.scale, dxfattribs={"layer": _LAYERS[pen]}
+        )
+
+    def hatch(self, corners: Sequence[Point]) -> None:
+        """Hatch a polygon that is cut."""
+        made = self._space.add_hatch(dxfattribs={"layer": "HATCH"})
+        made.set_pattern_fill("ANSI31", scale=0.5 / self.scale)
+        made.paths.add_polyline_path([self._at(point) for point in corners], is_closed=True)
+
+    def dimension(self, one: Point, other: Point, at: float, words: Words) -> None:
+        """Draw a dimension that measures what is between two points."""
+        upright = abs(one[0] - other[0]) < 1e-9 or (abs(one[0] - other[0]) < abs(one[1] - other[1]))
+        said = str(words[0])
+        text = "%%c<>" if "\u2300" in said else "<>"
+        if said.split()[0] == "a" and self.deviation:
+            text += f" %%p{self.deviation:.4g}"
+        base = self._at((at, one[1]) if upright else (one[0], at))
+        self._space.add_linear_dim(
+            base=base, p1=self._at(one), p2=self._at(other), angle=90.0 if upright else 0.0,
+            dimstyle=_STYLE, text=text, dxfattribs={"layer": "DIMENSIONS"},
+        ).render()  # fmt: skip
+
+    def text(self, at: Point, words: str, height: float = _LETTERS) -> None:
+        """Write a text from a point to the right."""
+        attributes = {"layer": "TEXT", "style": "LETTERS", "height": height / self.scale}
+        self._space.add_text(words, dxfattribs=attributes).set_placement(self._at(at))
+
+    def content(self) -> str:
+        """Return the file's text."""
+        stream = io.StringIO()
+        self._document.write(stream)
+        return stream.getvalue()
+
+
+def write_dxf(
+    folder: Path,
+    pair: Pair,
+    data: Sequence[Datum],
+    *,
+    blanks: Blanks | None = None,
+    deviation: float = 0.0,
+    name: str = "",
+) -> str:
+    """Write the drawing to a folder that exists, whole or not at all; return its name.
+
+    Parameters
+    ----------
+    folder : path
+        Where to.
+    pair : Pair
+        Worm and wheel.
+    data : sequence of Datum
+        What stands beside the views.
+    blanks : Blanks, optional
+        What both are beside their teeth.
+    deviation : float
+        Of the centre distance to either side, mm.
+    name : str
+        Of the gearset.
+
+    Raises
+    ------
+    MissingExtraError
+        The ``draw`` extra is not installed.
+    """
+    g = pair.geometry
+    s = scale_of(g)
+    sheet = Sheet(s, deviation)
+    draw_along(sheet, g, s)
+    for section in shaft_sections(pair, blanks):
+        outline = [(s * z, s * r) for r, z in section]
+        ends = [(x, -s * g.centre_distance - y) for x, y in outline]
+        back = [(x, -s * g.centre_distance + y) for x, y in reversed(outline)]
+        sheet.line([*ends, *back], closed=True)
+    sheet.origin = (sheet.reach + _APART, 0.0)
+    left = sheet.origin[0]
+    draw_through(sheet, g, s)
+    for side in (-1.0, 1.0):
+        blank = [(s * z, side * s * r) for r, z in wheel_section(g, blanks)]
+        sheet.line(blank, closed=True)
+        sheet.hatch(blank)
+    sizes = wheel_sizes(g, blanks)
+    wide = s * max(0.5 * g.worm_tip_diameter, 0.5 * sizes["hub_width"])
+    for step, key in enumerate(("bore", "hub_diameter"), 1):
+        high = s * 0.5 * sizes[key]
+        edge = s * 0.5 * sizes["hub_width"]
+        sheet.dimension((edge, -high), (edge, high), wide + 10.0 * step + 8.0, ("\u2300",))
+    sheet.origin = (max(sheet.reach, left) + _APART / 2.0, 0.0)
+    _block(sheet, data, s * (g.centre_distance + 0.5 * g.worm_tip_diameter))
+    sheet.origin = (0.0, 0.0)
+    low = s * 0.5 * g.wheel_outside_diameter + 25.0
+    sheet.text((-s * 0.5 * g.wheel_throat_diameter, low), f"{name}  {scale_text(s)}  mm", 5.0)
+    write_text(folder / NAME, sheet.content())
+    return NAME
+
+
+def _block(sheet: Sheet, data: Sequence[Datum], top: float) -> None:
+    """Write the data of worm and wheel beside each other, and those of both below the worm's."""
+    y = {0.0: -top, _BLOCK: -top}
+    for part, title in _PARTS.items():
+        left = _BLOCK if part == "wheel" else 0.0
+        sheet.text((left, y[left]), title, 3.5)
+        y[left] += _LINE * _LETTERS
+        for datum in (one for one in data if one.part == part):
+            cells = datum.name, datum.symbol, on_drawing(datum), datum.unit
+            for x, words in zip(_COLUMNS, cells, strict=True):
+                sheet.text((left + x, y[left]), str(words), 2.5)
+            y[left] += _LINE * 2.5
+        y[left] += _LINE * _LETTERS

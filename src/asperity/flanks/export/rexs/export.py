@@ -1,0 +1,108 @@
+"""``asperity rexs``: a case's gearset as a file of the exchange format REXS."""
+
+import os
+from importlib.metadata import version
+from pathlib import Path
+from typing import ClassVar
+
+from asperity.casefile import Case, told
+from asperity.errors import InputError
+from asperity.flanks.export.rexs.document import VERSION, Document
+from asperity.flanks.export.rexs.parts import Given
+from asperity.flanks.export.rexs.write import document
+from asperity.flanks.parameters import Disc, Hob, Mount
+from asperity.gearset import Gearset
+from asperity.rating import Operation, RatingOptions, rate
+from asperity.rating.driven import driven
+from asperity.rating.inputs import inputs
+from asperity.rating.rate import run_of
+from asperity.results import Result, quantity
+from asperity.results.table import Table
+from asperity.runs import Run
+from asperity.store import write_text
+
+_APPLICATION = "asperity"
+
+
+class Exchanged(Result):
+    """A gearset as a REXS model.
+
+    Attributes
+    ----------
+    name : str
+        Of the gearset.
+    document : Document
+        The model.
+    """
+
+    title: ClassVar[str] = "REXS model"
+    stem: ClassVar[str] = "rexs"
+
+    name: str
+    rexs: str = quantity("", "", "version of REXS")
+    components: int = quantity("", "", "components")
+    attributes: int = quantity("", "", "attributes")
+    relations: int = quantity("", "", "relations")
+    load_cases: int = quantity("", "", "load cases")
+    document: Document
+
+    def heading(self) -> str:
+        """Return what it is of."""
+        return f"{self.name or 'worm gearset'} as REXS {self.rexs}"
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return what it holds."""
+        counts: dict[str, int] = {}
+        for one in self.document.components:
+            counts[one.type] = counts.get(one.type, 0) + 1
+        rows = list(counts.items())
+        return (*super().tables()[:1], Table.of(("component", "number"), rows))
+
+    def text(self) -> str:
+        """Return it as the text of a file."""
+        return self.document.xml(_APPLICATION, version(_APPLICATION))
+
+    def save(self, path: str | os.PathLike[str]) -> Path:
+        """Write the model, whole or not at all."""
+        return write_text(path, self.text())
+
+
+def prepare(case: Case) -> Given:
+    """Return what is written of a case; raises InputError."""
+    gearset = case.require(Gearset).require_consistent()
+    operation = None if case.get(Operation) is None else run_of(case)
+    options = case.get(RatingOptions)
+    given = Given(gearset, None, case.get(Hob), case.get(Disc), case.get(Mount))
+    if operation is None:
+        return given
+    with told(case):
+        operation = driven(gearset, operation, options)
+    steps = tuple(
+        (float(part.hours), float(part.torque), float(part.speed))
+        for part in inputs(gearset, operation, options or RatingOptions()).duty
+    )
+    given = given._replace(operation=operation, sump=operation.oil_temperature, steps=steps)
+    try:
+        rated = rate(gearset, operation, options, ("iso14521",), folder=case.folder)
+    except InputError:
+        return given
+    clockwise = next((one for one in rated.forces if one.rotation == "clockwise"), None)
+    return given._replace(forces=clockwise)
+
+
+def answer(given: Given, _: Run) -> Exchanged:
+    """Return the model of a case."""
+    made = document(given)
+    notes = ["results of a rating are left out: the format has names for those of DIN 3996:2019"]
+    if given.operation is None:
+        notes.append("the case has no [operation]: speed, torque and oil are left out")
+    return Exchanged(
+        name=given.gearset.name,
+        rexs=VERSION,
+        components=len(made.components),
+        attributes=sum(len(one.attributes) for one in made.components),
+        relations=len(made.relations),
+        load_cases=len(made.load_cases),
+        document=made,
+        notes=tuple(notes),
+    )

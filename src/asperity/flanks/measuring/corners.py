@@ -1,0 +1,264 @@
+r"""What mounting tolerances do to exact flanks: backlash, contact pattern, transmission error.
+
+The play of a mesh is the least, over the places where worm and wheel may touch, of what is nearly
+linear in how the worm stands: it is concave, so that the least of all assemblies is found at a
+corner of the tolerances. The greatest is found at the corners, between them or in the middle. How
+thick threads and teeth are turns out in the play exactly.
+
+Lengths are in mm, angles in rad.
+"""
+
+import dataclasses
+import itertools
+import math
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from asperity.arrays import FloatArray
+from asperity.errors import ConvergenceError
+from asperity.flanks.meshing.analysis import COLUMNS, ROWS
+from asperity.flanks.meshing.backlash import worm_turn
+from asperity.flanks.meshing.pattern.marking import pattern
+from asperity.flanks.meshing.transmission import Transmission, transmission
+from asperity.flanks.sides import both
+from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.worm.setting import Pair
+from asperity.gearset import Gearset
+from asperity.gearset.tolerancing.allowances import Allowances
+from asperity.gearset.tolerancing.backlash import (
+    Backlash,
+    Interval,
+    Part,
+    assembled,
+    thickness_parts,
+)
+from asperity.gearset.tolerancing.table import Tolerances
+from asperity.results.quantity import text_of
+from asperity.results.table import Column, Table
+
+_MILLIMETRES = _MICROMETRES = 1e3
+_NAMES = "centre distance", "axial offset", "shaft angle"
+_SHORT = "a", "offset", "angle"
+_MINUTES = 60.0 * 180.0 / math.pi
+
+
+class Place(NamedTuple):
+    """How far the worm stands off: along centre distance and wheel's axis, mm, and its angle, rad.
+
+    In the gearset's own frame, as ``[mount]`` has them.
+    """
+
+    centre_distance: float = 0.0
+    axial_offset: float = 0.0
+    shaft_angle: float = 0.0
+
+    @property
+    def name(self) -> str:
+        """Which way it stands off, in words."""
+        signs = (
+            f"{name} {'+' if value > 0.0 else '-'}"
+            for name, value in zip(_SHORT, self, strict=True)
+            if value
+        )
+        return ", ".join(signs) or "nominal"
+
+    def of(self, pair: Pair) -> Pair:
+        """Return a pair that stands off so much further."""
+        nominal, mirror = pair.mounting, pair.mirror
+        mounting = dataclasses.replace(
+            nominal,
+            centre_distance=nominal.centre_distance + self.centre_distance,
+            axial_offset=nominal.axial_offset + mirror * self.axial_offset,
+            tilt=nominal.tilt + mirror * self.shaft_angle,
+        )
+        return dataclasses.replace(pair, mounting=mounting)
+
+
+class Side(NamedTuple):
+    """How a flank meshes at a place: marked share, the pattern's centre, mm, and error, rad."""
+
+    share: float
+    face: float
+    radial: float
+    error: float
+
+
+class Corner(NamedTuple):
+    """How the gearset meshes at a corner of its mounting tolerances.
+
+    Attributes
+    ----------
+    place : Place
+        Where the worm stands.
+    sides : mapping of int to Side
+        By flank, 1 and -1.
+    gap : ndarray
+        Of the flank s = +1 on the grid of the maps, mm.
+    """
+
+    place: Place
+    sides: dict[int, Side]
+    gap: FloatArray
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it by key."""
+        flanks = {
+            f"{side:+d}": {
+                "pattern_area_fraction": own.share,
+                "pattern_centre_mm": [own.face, own.radial],
+                "transmission_error_rad": own.error,
+            }
+            for side, own in self.sides.items()
+        }
+        return {
+            "name": self.place.name,
+            "centre_distance_mm": self.place.centre_distance,
+            "axial_offset_mm": self.place.axial_offset,
+            "shaft_angle_deg": math.degrees(self.place.shaft_angle),
+            "flanks": flanks,
+        }
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Mounted:
+    """A pair, and how its mesh is wherever tolerances let the worm stand."""
+
+    pair: Pair
+    wheel: Wheel
+    deviations: Place
+
+    @classmethod
+    def of(cls, pair: Pair, wheel: Wheel, given: Tolerances) -> "Mounted":
+        """Return it of the tolerances of a case."""
+        allowed = Allowances.of(pair.geometry, given)
+        offset = given.axial_offset * _MILLIMETRES
+        return cls(pair, wheel, Place(allowed.centre_distance, offset, given.shaft_angle))
+
+    def meshes(self, place: Place) -> dict[int, Transmission]:
+        """Return the transmission on both flanks with the worm at a place.
+
+        Raises
+        ------
+        ConvergenceError
+            The worm does not reach the wheel all over the pitch.
+        """
+        pair = place.of(self.pair)
+        try:
+            return both(lambda side: transmission(pair, self.wheel.flank(side)))
+        except ConvergenceError as error:
+            raise ConvergenceError(
+                f"at {place.name} of the tolerances {error}", reached=error.reached
+            ) from None
+
+    def play(self, place: Place) -> float:
+        """Return the backlash on the mean circle with the worm at a place, um."""
+        turn = worm_turn(self.meshes(place)) / self.pair.ratio
+        return 0.5 * _MICROMETRES * self.pair.geometry.wheel_mean_diameter * turn
+
+    def places(self, steps: tuple[int, ...]) -> Iterator[Place]:
+        """Yield the places so many deviations off, along all that may be off."""
+        own = [steps if value else (0,) for value in self.deviations]
+        for signs in itertools.product(*own):
+            off = (sign * value for sign, value in zip(signs, self.deviations, strict=True))
+            yield Place(*off)
+
+    def corners(self) -> tuple[Corner, ...]:
+        """Return how it meshes at the corners; none where the worm stands without tolerance."""
+        if not any(self.deviations):
+            return ()
+        return tuple(self._corner(place) for place in self.places((-1, 1)))
+
+    def _corner(self, place: Place) -> Corner:
+        meshes = self.meshes(place)
+        patterns = both(
+            lambda side: pattern(meshes[side], self.wheel.flank(side).grid(ROWS, COLUMNS))
+        )
+        sides = {}
+        for side, found in patterns.items():
+            face, radial = found.centre
+            error = meshes[side].peak_to_peak
+            sides[side] = Side(found.area_fraction, self.pair.mirror * face, radial, error)
+        return Corner(place, sides, patterns[1].gap)
+
+    def backlash(
+        self, gearset: Gearset, given: Tolerances, nominal: float, wear: float | None = None
+    ) -> Backlash:
+        """Return the backlash by the exact flanks.
+
+        Parameters
+        ----------
+        gearset : Gearset
+            Whose it is.
+        given : Tolerances
+            What is allowed.
+        nominal : float
+            Angle that the worm can be turned by, the wheel held, with nothing off, rad.
+        wear : float, optional
+            Depth that is worn off, um.
+        """
+        g = self.pair.geometry
+        allowed = Allowances.of(g, given)
+        middle = 0.5 * _MICROMETRES * g.wheel_mean_diameter * nominal / self.pair.ratio
+        found = {Place(): middle}
+        for place in self.places((-1, 0, 1)):
+            if place not in found:
+                found[place] = self.play(place)
+        alone = []
+        for n, value in enumerate(self.deviations):
+            if value:
+                ends = [
+                    found[Place(*(sign * value if k == n else 0.0 for k in range(3)))] - middle
+                    for sign in (-1.0, 1.0)
+                ]
+                alone.append(Part(_NAMES[n], min(*ends, 0.0), 0.0, max(*ends, 0.0)))
+        thread, tooth = thickness_parts(g, allowed)
+        # What a thread is thinner by turns the worm by itself over the lead, and the wheel with it.
+        factor = g.wheel_mean_diameter / g.wheel_reference_diameter
+        thread = Part(thread.name, *(factor * value for value in thread[1:]))
+        parts = (Part("hob and worm", middle, middle, middle), thread, tooth, *alone)
+        thickest, thinnest = thread.least + tooth.least, thread.greatest + tooth.greatest
+        likely = Interval.of(parts)
+        new = Interval(
+            min(found.values()) + thickest,
+            max(found.values()) + thinnest,
+            likely.likely_least,
+            likely.likely_greatest,
+        )
+        return assembled(
+            gearset, given, allowed, parts, new, wear, by="by the exact flanks", exact=True
+        )
+
+
+def corner_table(corners: tuple[Corner, ...], nominal: Corner, resolution: float) -> Table:
+    """Return how far both flanks bear at each corner, where, and how evenly they turn.
+
+    Errors up to the resolution, rad, are rounding.
+    """
+    rows: list[tuple[str, ...]] = []
+    for number, corner in enumerate((nominal, *corners)):
+        for side, own in corner.sides.items():
+            within = f"tolerances.corners.{number - 1}.flanks.{side:+d}" if number else ""
+            numbers = (
+                (own.share, 0.0, "pattern_area_fraction"),
+                (own.face, 0.0, "pattern_centre_mm.0"),
+                (own.radial, 0.0, "pattern_centre_mm.1"),
+                (own.error, resolution, "transmission_error_rad"),
+            )
+            texts = (
+                text_of(value, below, f"{within}.{key}" if within else "")
+                for value, below, key in numbers
+            )
+            rows.append((corner.place.name, f"{side:+d}", *texts))
+    heads = (
+        "mounted", "flank", "share that bears", "centre: face (mm)", "radial (mm)",
+        "transmission error (rad)",
+    )  # fmt: skip
+    columns = tuple(Column(head, right=n > 0, folds=True) for n, head in enumerate(heads))
+    worst = max(own.error for corner in corners for own in corner.sides.values())
+    least = min(own.share for corner in corners for own in corner.sides.values())
+    said = "rounding" if worst <= resolution else f"{_MINUTES * worst:.3g} arcmin"
+    remarks = (
+        f"at the corners {100.0 * least:.3g} % of a flank bears at least, and the transmission "
+        f"error from peak to peak is at most {said}",
+    )
+    return Table(columns, tuple(rows), "Corners of the mounting tolerances", remarks)
