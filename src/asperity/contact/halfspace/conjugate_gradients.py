@@ -1,4 +1,4 @@
-r"""Normal contact without friction: the forces of patches by Polonsky and Keer's conjugate gradients.
+r"""Normal contact without friction: forces of patches by Polonsky and Keer's conjugate gradients.
 
 Patches with forces :math:`f \ge 0` sink by :math:`K f`, :math:`K` symmetric; the bodies come
 together by :math:`\theta`, each patch by :math:`h\,\theta`. What is sought is
@@ -131,9 +131,7 @@ def _level(values: FloatArray, arm: FloatArray, free: BoolArray) -> float:
     return _dot(values[free], chosen) / max(_dot(chosen, chosen), 1e-300)
 
 
-def _loaded(
-    force: FloatArray, arm: FloatArray, moment: float, limit: FloatArray
-) -> FloatArray:
+def _loaded(force: FloatArray, arm: FloatArray, moment: float, limit: FloatArray) -> FloatArray:
     """Forces scaled to the load, those at their limit left there."""
     for _ in range(_SCALINGS):
         capped = force >= limit

@@ -14,6 +14,7 @@ change by less than `CLOSE`, or stand at the pressure at which the softer body f
 from __future__ import annotations
 
 import dataclasses
+import itertools
 
 import numpy as np
 
@@ -211,9 +212,7 @@ class _Teeth:
             out = contact.answer.normal[k, :count]
             pressed = contact.answer.pressure[k, :count] * contact.candidates.weights[k, :count]
             place = contact.candidates.places[k, :count]
-            moment += float(
-                pressed @ (place[:, 0] * out[:, 1] - place[:, 1] * out[:, 0])
-            )
+            moment += float(pressed @ (place[:, 0] * out[:, 1] - place[:, 1] * out[:, 0]))
             for values, friction in ((whole, False), (rubbing, True)):
                 force = contact.answer.force[k, :count].copy()
                 if friction:
@@ -308,7 +307,7 @@ class _Teeth:
             raise ConvergenceError("no tooth is near the worm")
         spaces = [HalfSpace(s.frame.shape, s.frame.spacing, owner.modulus) for _, s in some]
         ends = np.cumsum([0] + [len(s.area) for _, s in some])
-        parts = [slice(a, b) for a, b in zip(ends, ends[1:], strict=False)]
+        parts = [slice(a, b) for a, b in itertools.pairwise(ends)]
         smooth = self._smooth([k for k, _ in some])
         nodes = smooth.shape[0] // len(some)
 
@@ -319,9 +318,7 @@ class _Teeth:
             # Threads of BLAS cost more than they save here.
             moved = np.einsum("ij,j->i", smooth, nodal)
             out = np.empty_like(force)
-            for i, ((_, strip), part, space) in enumerate(
-                zip(some, parts, spaces, strict=True)
-            ):
+            for i, ((_, strip), part, space) in enumerate(zip(some, parts, spaces, strict=True)):
                 out[part] = space.deflection(force[part])
                 out[part] += strip.nodes @ moved[i * nodes : (i + 1) * nodes]
             return out
