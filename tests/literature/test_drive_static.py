@@ -255,7 +255,7 @@ def test_gearset_2_locks_itself():
 
 def patterns_of(*settings):
     model = model_of(*ONE_TOOTH, *settings, phases=2)
-    forward = Pattern(model)
+    forward = Pattern(model.resolved)
     model.courses([Asked(PATTERNS[-1] * LOAD, look=forward.look)])
     back = _back_patterns(model, 0, 2)
     return forward.largest, back

@@ -1,12 +1,13 @@
 r"""Half-spaces in normal contact on a grid of patches, against closed forms.
 
 Sources:
-- K. L. Johnson, Contact Mechanics, Cambridge 1985: sphere (4.22)-(4.24), line (4.43)-(4.45), ellipse
-  (4.26)-(4.32), a square under an even pressure (3.29): 1.122 p a (1 - nu^2)/E in its middle.
-- M. Ciavarella, D. A. Hills and G. Monno, Proc. Instn Mech. Engrs C 212 (1998), 319: a flat punch with
-  rounded edges in plane strain. With half-widths a of the flat and b of the contact, cos = a/b:
-  :math:`P = E^* (b^2/2R)\,\{\phi - \sin\phi\cos\phi\}`, :math:`\phi = \arccos(a/b)`; its pressure is
-  found here by the quadrature of the punch's slope,
+- K. L. Johnson, Contact Mechanics, Cambridge 1985: sphere (4.22)-(4.24), line (4.43)-(4.45),
+  ellipse (4.26)-(4.32), a square under an even pressure (3.29): 1.122 p a (1 - nu^2)/E in the
+  middle.
+- M. Ciavarella, D. A. Hills and G. Monno, Proc. Instn Mech. Engrs C 212 (1998), 319: a flat punch
+  with rounded edges in plane strain. With half-widths a of the flat and b of the contact,
+  :math:`P = E^* (b^2/2R)\,\{\phi - \sin\phi\cos\phi\}`, :math:`\phi = \arccos(a/b)`; its pressure
+  is found here by the quadrature of the punch's slope,
   :math:`p(x) = -\frac{E^*}{2\pi}\sqrt{b^2 - x^2}\int \frac{h'(t)\,dt}{\sqrt{b^2 - t^2}\,(t - x)}`.
 """
 

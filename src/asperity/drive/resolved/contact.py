@@ -144,15 +144,15 @@ class ResolvedContact:
         done = [False] * len(strips)
         for shape in _LEVELS if finer else ():
             before = teeth.pressures(strips, found, done)
-            finer = [
+            next_strips = [
                 strip if ready else teeth.finer(strip, tooth, shape)
                 for strip, tooth, ready in zip(strips, before, done, strict=True)
             ]
             start = [
-                None if tooth is None else new.taken(strip, tooth.pressure)
-                for new, strip, tooth in zip(finer, strips, before, strict=True)
+                None if tooth is None or new is None else new.taken(tooth.strip, tooth.pressure)
+                for new, tooth in zip(next_strips, before, strict=True)
             ]
-            strips, found = teeth.solve_within(finer, start)
+            strips, found = teeth.solve_within(next_strips, start)
             iterations += found.iterations
             after = teeth.pressures(strips, found, done)
             done = [
@@ -206,7 +206,9 @@ class _Teeth:
         order = contact.side * np.array(numbers)
         normals = sector.surface.nodal_normals
         worm = contact.worm.numbers.worm
-        whole, rubbing, moment = [], [], 0.0
+        whole: list[FloatArray] = []
+        rubbing: list[FloatArray] = []
+        moment = 0.0
         for k in range(contact.slots):
             count = 4 * int(contact.candidates.counts[k, 0])
             out = contact.answer.normal[k, :count]
@@ -293,8 +295,8 @@ class _Teeth:
                 if frame is None:
                     continue
                 grown = True
-                strips[k] = Strip.of(self.contact.flank, frame, self.approaches[k])
-                start[k] = strips[k].taken(strip, tooth.pressure)
+                wider = Strip.of(self.contact.flank, frame, self.approaches[k])
+                strips[k], start[k] = wider, wider.taken(strip, tooth.pressure)
             if not grown:
                 return strips, found
         raise ConvergenceError("the pressures of the teeth find no bounds on the flank")
