@@ -1,10 +1,10 @@
-"""Resolved pressures of loaded teeth: balance, independence of the mesh, edges and what removes them.
+"""Resolved pressures of loaded teeth: balance, three meshes, edges and what removes them.
 
-Source: figures of another implementation with dense matrices on gearset 3 of 2.9 in, rigid shaft, at
-phase 0.75 rad of the worm: 389, 623, 822, 1294 and 1526 MPa at 10, 41, 100, 366 and 600 N m; elastic
-5,500 to 7,200 MPa on the rounding of the worm's tip at 1.40 and 0.10 rad, 1,540 with 20 um of relief.
-It subtracts a half-space from the coarse mesh as it is; near nodes are continued here, which makes
-the middle of the flank alike on all meshes, and 2 to 5 % higher there than its own.
+Source: figures of another implementation with dense matrices on gearset 3 of 2.9 in, rigid shaft,
+at phase 0.75 rad of the worm: 389, 623, 822, 1294 and 1526 MPa at 10, 41, 100, 366 and 600 N m;
+elastic 5,500 to 7,200 MPa on the rounding of the worm's tip at 1.40 and 0.10 rad, 1,540 with 20 um
+of relief. It subtracts a half-space from the coarse mesh as it is; near nodes are continued here,
+which makes the middle of the flank alike on all meshes, and 0 to 5 % higher than its own.
 """
 
 import functools
@@ -67,7 +67,9 @@ def test_the_worm_s_tip_edge_bears_and_relief_takes_it_off():
         _, relieved = at(beta, ELASTIC, "modification.tip_relief=20 um")
         assert 5500.0 < peak(sharp, WORM_TIP) < 7800.0
         assert peak(relieved, WORM_TIP) < 200.0
-        assert peak(relieved, FLANK) < peak(sharp, WORM_TIP) / 3.0
+        entering = max(sharp.teeth, key=lambda tooth: tooth.peaks()[WORM_TIP]).number
+        there = next(tooth for tooth in relieved.teeth if tooth.number == entering)
+        assert there.pressure.max() / 1e6 == pytest.approx(1540.0, rel=0.15)
 
 
 def test_an_edge_flows_at_the_hardness_of_the_wheel():
