@@ -78,7 +78,7 @@ class ToothPressure:
         return np.array([self._of(self.force, k).sum() for k in range(len(ZONES))])
 
     def _of(self, values: FloatArray, zone: int) -> FloatArray:
-        return values[self.strip.zone == zone]
+        return np.asarray(values[self.strip.zone == zone])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
