@@ -2,8 +2,12 @@
 
 import math
 import os
+import re
 import shutil
+import signal
 from collections import defaultdict
+from collections.abc import Generator
+from pathlib import Path
 
 import hypothesis
 import pytest
@@ -15,6 +19,17 @@ if "PYTEST_XDIST_WORKER" in os.environ:
     # that a test starts.
     for _library in ("OMP", "OPENBLAS", "MKL"):
         os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+# What is started in the background of a script, or by nohup, ignores these signals, and so would
+# all that it starts; tests send them.
+for _name, _default in {
+    "SIGINT": signal.default_int_handler,
+    "SIGQUIT": signal.SIG_DFL,
+    "SIGHUP": signal.SIG_DFL,
+}.items():
+    _number = getattr(signal, _name, None)
+    if _number is not None and signal.getsignal(_number) == signal.SIG_IGN:
+        signal.signal(_number, _default)
 
 # Without a deadline, because the first example may load a unit registry or compile a kernel; the
 # same examples every time, so that a failure is about the change at hand.
@@ -40,9 +55,32 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
-@pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    # Last, when ordinary tests are deselected: `apparatus.grid` leaves parts of campaigns to them.
+# A slow test stands in a file or a folder that says so, or has a grid of cases.
+_NAMES_SLOW = re.compile(r"\b(slow|grid)\b")
+
+
+def _may_be_slow(path: Path) -> bool:
+    files = (path, path.with_name("conftest.py"))
+    return any(_NAMES_SLOW.search(file.read_text("utf-8")) for file in files if file.exists())
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    # Half of the files have none: collecting them takes each worker as long as a dear test.
+    is_test = collection_path.match("test_*.py")
+    if config.option.markexpr == "slow" and is_test and not _may_be_slow(collection_path):
+        return True
+    return None
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_collection_modifyitems(
+    config: pytest.Config, items: list[pytest.Item]
+) -> Generator[None]:
+    for path in {item.path for item in items if item.get_closest_marker("slow")}:
+        if not _may_be_slow(path):
+            raise pytest.UsageError(f"{path}: has slow tests, and no word of what makes them slow")
+    yield
+    # When ordinary tests are deselected: `apparatus.grid` leaves parts of campaigns to them.
     # Parts of a campaign differ in the parameter it is over, or in any if it names none. Of each
     # campaign one part is run at least, but where another test tries the statement on less.
     share = config.getoption("share")

@@ -329,6 +329,17 @@ def _zero_off(run):
     run.volts["torque_steel"] += 0.030 / 0.4
 
 
+def _zeros_off(share):
+    """The speed's zero is off by so much of its level, and the torque's by 30 mN m."""
+
+    def fault(run):
+        _zero_off(run)
+        level = np.median(run.volts["speed_steel"][run.within(*run.spans[0][:2])])
+        run.volts["speed_steel"] += share * level
+
+    return fault
+
+
 def _zero_drifts(run):
     run.volts["torque_steel"] += 0.025 / 0.4 * run.time / run.time[-1]
 
@@ -511,6 +522,8 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "samples missing in the torque": (_nan, {}),
     "samples missing in the drive": (_nan_in_drive, {}),
     "torque hears the vibration's amplifier": (_noisy, {}),
+    "zeros of torque and speed off": (_zeros_off(0.15), {}),
+    "zero of the speed far off": (_zeros_off(-0.4), {}),
 }  # fmt: skip
 
 

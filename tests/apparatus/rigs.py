@@ -266,6 +266,21 @@ class WrongSupply:
         return given
 
 
+class StuckSupply:
+    """A supply that takes no order to be off."""
+
+    def __init__(self, supply):
+        self._supply, self.name = supply, supply.name
+
+    def __getattr__(self, name):
+        return getattr(self._supply, name)
+
+    def off(self):
+        pass
+
+    safe = off
+
+
 def in_a_child(act):
     """Do something in a process of its own; returns whether it came to its end and was true."""
     child = os.fork()

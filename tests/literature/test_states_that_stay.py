@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.slider import TABLES, Model, solve
+from asperity.slider import TABLES, Model, solve, solve_many
 from asperity.slider.periodic import solve_periodic
 
 OBLIQUE = """
@@ -81,6 +81,36 @@ def test_a_state_of_a_contact_without_damping_is_one_of_many(ratio, law):
     assert "one of many" in answer.settled_by
     assert "without a ringing of its own" in answer.settled_by
     assert any("one of many" in note for note in answer.notes)
+
+
+@pytest.mark.parametrize("ratio", [6, 12])
+def test_a_march_of_a_contact_without_damping_shows_one_of_many_and_says_so(ratio):
+    settings = f"vibration.velocity_ratio={ratio}", "normal.damping_ratio=0"
+    state = pin("solve.method=periodic", *settings)
+    sudden = pin("solve.method=march", *settings)
+    # A vibration that grows slowly leaves the contact no ringing of its own.
+    slow = pin("solve.method=march", "vibration.ramp=0.1 s", *settings)
+    assert slow.ratio == pytest.approx(state.ratio, abs=1e-5)
+    assert abs(sudden.ratio - state.ratio) > 2e-3
+    for marched in (sudden, slow):
+        assert any("rings as the vibration began" in note for note in marched.notes)
+
+
+@pytest.mark.parametrize(
+    "calm",
+    ["normal.damping_ratio=1e-4", "vibration.elevation=0 deg", "normal.control=displacement"],
+)
+def test_no_ringing_is_told_of_where_it_fades_or_nothing_wakes_it(calm):
+    marched = pin("solve.method=march", "normal.damping_ratio=0", calm, "solve.duration=0.1 s")
+    assert not any("rings" in note for note in marched.notes)
+
+
+def test_bodies_that_are_marched_together_tell_of_a_contact_without_damping():
+    model = Model.from_case(
+        read_case("normal-pin", TABLES, ["solve.method=march", "normal.damping_ratio=0"])
+    )
+    for together in solve_many([model, model]):
+        assert any("rings as the vibration began" in note for note in together.notes)
 
 
 @pytest.mark.parametrize("ratio", [2, 6, 12])

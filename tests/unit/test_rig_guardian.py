@@ -202,7 +202,7 @@ def test_whatever_ends_it_everything_is_off(made, way):
     if way != "end":
         assert one.hears("tripped")["still_on"] == []
         # And nothing is switched on again.
-        assert "everything was switched off" in one.ask("steel", "on")["error"]
+        assert "everything was told to be off" in one.ask("steel", "on")["error"]
     assert one.leave() == 0
     assert not any(one.fakes[key].on_ for key in KEYS)
     # By a signal it is switched off once, however often that comes.

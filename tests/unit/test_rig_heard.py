@@ -43,6 +43,8 @@ TOLD = {
     "accelerometer hears an overtone": "accelerometer hears overtones",
     "samples missing in the torque": "torque_steel has samples missing",
     "samples missing in the drive": "drive_voltage has samples missing",
+    "zeros of torque and speed off": "zero of torque_steel: 0.0",
+    "zero of the speed far off": "zero of speed_steel",
 }
 
 
@@ -143,7 +145,7 @@ def test_a_zero_that_is_off_and_drifts_is_taken_off(tmp_path):
 def test_intervals_hold_the_truth_whatever_the_zero(tmp_path, size):
     held, _ = covered(range(200), size, tmp_path / "run.nc")
     # Of 1,800 intervals, nine of one file: 0.95 with a deviation of 0.01.
-    assert 0.93 <= np.mean(held) <= 0.985
+    assert 0.93 <= np.mean(held) <= 0.97
 
 
 def zero(times, values, deviation=1e-3):

@@ -260,6 +260,79 @@ def test_a_supply_that_gives_something_else_latches(tmp_path):
     assert not rig.on & {"steel", "bronze", "vibration"}
 
 
+class Asked:
+    """A person who notes what is on when they are sent to the rig."""
+
+    def __init__(self, person, rig):
+        self._person, self._rig, self.found = person, rig, []
+
+    def __getattr__(self, name):
+        def asked(*given):
+            self.found.append((given[0], set(self._rig.on)))
+            return getattr(self._person, name)(*given)
+
+        return asked
+
+
+def test_nobody_is_sent_to_a_rig_that_is_on(tmp_path):
+    case = rigs.small_case()
+    bench, rig = rigs.made_bench(case)
+    person = Asked(bench.person, rig)
+    answer = rigs.run(case, tmp_path, bench=dataclasses.replace(bench, person=person))
+    assert answer.failure is None
+    assert len(person.found) > 10
+    assert not any(on for _, on in person.found)
+
+
+@pytest.mark.parametrize("disc", ["steel", "bronze"])
+def test_what_is_not_read_back_to_be_off_keeps_a_person_from_the_rig(disc, tmp_path):
+    # No sample tells of it, since nothing is recorded between the cell and the person.
+    case = rigs.small_case('plan.idle="0 s"', 'plan.frequencies=["750 Hz"]')
+    bench, rig = rigs.made_bench(case)
+    person = Asked(bench.person, rig)
+    motors = dict(bench.motors)
+    motors[disc] = rigs.StuckSupply(motors[disc])
+    answer = rigs.run(
+        case, tmp_path, bench=dataclasses.replace(bench, motors=motors, person=person)
+    )
+    assert answer.failure.kind == "still on"
+    assert answer.failure.exit_code == 4
+    assert answer.cells_done == 1
+    assert f"supply of {disc}: its output's state is on" in str(answer.failure)
+    assert not any(on for _, on in person.found)
+    assert rigs.journal(tmp_path)[-1]["still_on"]
+
+
+@pytest.mark.parametrize(("begins_again", "kind"), [(False, ""), (True, "vibration")])
+def test_a_drive_that_only_its_signal_tells_of_is_listened_to(begins_again, kind, tmp_path):
+    case = rigs.small_case('plan.idle="0 s"', 'plan.frequencies=["750 Hz"]')
+    bench, rig = rigs.made_bench(case)
+
+    class Mute(type(bench.vibration)):
+        def vibrates(self):
+            return None
+
+        def off(self):
+            super().off()
+            if begins_again:
+                self._rig.on |= {"vibration"}
+
+    class Heard(type(bench)):
+        """Its guardian has listened before and will again."""
+
+        def begun(self):
+            return ()
+
+        safe = begun
+
+    person = Asked(bench.person, rig)
+    parts = {one.name: getattr(bench, one.name) for one in dataclasses.fields(bench)}
+    parts |= {"vibration": Mute(rig), "amplifier": None, "listener": None, "person": person}
+    answer = rigs.run(case, tmp_path, bench=Heard(**parts))
+    assert getattr(answer.failure, "kind", "") == kind
+    assert not any(on - {"amplifier"} for _, on in person.found)
+
+
 @pytest.mark.parametrize(
     ("pair", "kind"),
     [

@@ -118,10 +118,13 @@ def test_claims_of_equal_ratios_are_judged_by_the_ratio_too(monkeypatch, share, 
     monkeypatch.setattr(ElasticBlock, "settled", settled)
     monkeypatch.setattr(claims_contact.Body, "result", slid)
     monkeypatch.setattr(claims_contact.Sweep, "ratios", lambda one: np.full(8, 1.0 / 30.0))
-    for number in ("5.1", "7.8"):
-        finding = CLAIMS[number].make()
-        assert finding.verdict == verdict
-        assert f"({share:.1%})" in finding.ours
+    finding = CLAIMS["5.1"].make()
+    assert finding.verdict == verdict
+    assert f"({share:.1%})" in finding.ours
+    # One trend on an axis from 0 to 1 is what this one is about.
+    shaken = CLAIMS["7.8"].make()
+    assert shaken.verdict == "reproduced"
+    assert f"({share:.1%})" in shaken.ours
 
 
 def test_touched_at_its_nodes_a_cylinder_sinks_between_them():

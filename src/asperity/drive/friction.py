@@ -35,6 +35,7 @@ from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.iso14521.friction import base_friction
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.tables import operation_of
 
 _POINTS = 4097
 _MM2 = 1e6
@@ -53,7 +54,7 @@ def rating_inputs(case: Case) -> Inputs:
     with told(case):
         options = case.get(RatingOptions, RatingOptions())
         gearset = case.require(Gearset)
-        given = inputs(gearset, driven(gearset, case.require(Operation), options), options)
+        given = inputs(gearset, driven(gearset, operation_of(case), options), options)
         for key in ("friction", "base_friction"):
             value = getattr(options, key)
             if value is not None:

@@ -11,12 +11,14 @@ from asperity.drive.friction import check_friction, mesh_friction
 from asperity.drive.lacking import FREE_WORM, moved, require_all
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.point import MeshPoint
+from asperity.drive.worm_shaft import shaft_of
 from asperity.errors import InputError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
 from asperity.gearset import Gearset, Geometry
 from asperity.rating import Operation, RatingOptions
 from asperity.rating.driven import driven
+from asperity.rating.tables import operation_of
 from asperity.slider.parameters import Solve
 from asperity.vibration import Vibration
 from asperity.waveform import Shape
@@ -97,7 +99,7 @@ class DriveProblem:
         """
         require_all(case, shaken=shaken)
         with told(case):
-            run = case.require(Operation)
+            run = operation_of(case)
             operation = driven(case.require(Gearset), run, case.get(RatingOptions))
             vibration = shape = None
             if shaken and Vibration.table in case:
@@ -110,7 +112,7 @@ class DriveProblem:
                 operation=operation,
                 friction=mesh_friction(case, gearset, operation, drive),
                 drive=drive,
-                shaft=case.get(Shaft, Shaft()),
+                shaft=shaft_of(case),
                 solve=case.get(Solve, Solve()),
                 vibration=vibration,
                 shape=shape,

@@ -6,6 +6,7 @@ from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.inputs import inputs
 from asperity.rating.iso14521.calculation import rated_efficiency
+from asperity.rating.load_steps import LOADS
 from asperity.rating.parameters import Operation, RatingOptions
 
 
@@ -22,30 +23,76 @@ def driven(
     InputError
         What drives does not even turn the gearbox without load, or the standard has no answer.
     """
+    return _steps_driven(gearset, _driven(gearset, operation, options), options)
+
+
+def _driven(gearset: Gearset, operation: Operation, options: RatingOptions | None) -> Operation:
     key = operation.driven_by
     if not key:
         return operation
     power = operation.input_power or operation.worm_speed * (operation.input_torque or 0.0)
-    put_in = []
-    for torque in (1.0, 2.0):
-        run = operation.model_copy(update={"output_torque": torque, **_WITHOUT}, units="SI")
-        given = inputs(gearset, run, options or RatingOptions())
-        put_in.append(float(rated_efficiency(given)["input_power_W"]))
-    share = put_in[1] - put_in[0]
-    idle = put_in[0] - share
-    if not power > idle:
-        value, unit = getattr(operation, key), "W" if key == "input_power" else "N m"
-        least = idle if key == "input_power" else idle / operation.worm_speed
-        raise InputError(
-            f"operation.{key} is {value:.4g} {unit}; without load the gearbox takes "
-            f"{least:.4g} {unit} by ISO/TR 14521: give more, or operation.output_torque"
-        )
+    idle, share = _put_in(gearset, operation, options, operation.worm_speed)
+    _require_more(
+        f"operation.{key}", key, getattr(operation, key), idle, operation.worm_speed, power
+    )
     found = (power - idle) / share
     assert math.isfinite(found)
     return operation.model_copy(update={"output_torque": found}, units="SI")
 
 
-_WITHOUT = {"through_travel_torque": None, "duty_cycle": None}
+def _steps_driven(
+    gearset: Gearset, operation: Operation, options: RatingOptions | None
+) -> Operation:
+    """Return the operation with the torque of the wheel in each of its steps."""
+    steps = operation.steps or ()
+    if all(step.output_torque for step in steps):
+        return operation
+    name = "spectrum.step" if operation.spectrum is not None else "operation.duty_cycle"
+    found, known = [], {}
+    for step in steps:
+        key = next((key for key in LOADS if getattr(step, key) is not None), LOADS[0])
+        if key == "output_torque":
+            found.append(step)
+            continue
+        speed = step.worm_speed or operation.worm_speed
+        if speed not in known:
+            known[speed] = _put_in(gearset, operation, options, speed)
+        idle, share = known[speed]
+        given = getattr(step, key)
+        power = given if key == "input_power" else given * speed
+        _require_more(f"{name}.{key}", key, given, idle, speed, power)
+        torque = {"output_torque": (power - idle) / share}
+        found.append(step.model_copy(update=torque, units="SI"))
+    return operation.with_steps(tuple(found))
+
+
+def _put_in(
+    gearset: Gearset, operation: Operation, options: RatingOptions | None, speed: float
+) -> tuple[float, float]:
+    """Return the power of the worm without load, W, and that for each N m of the wheel."""
+    put_in = []
+    for torque in (1.0, 2.0):
+        update = {"output_torque": torque, "worm_speed": speed, **_WITHOUT}
+        run = operation.model_copy(update=update, units="SI")
+        given = inputs(gearset, run, options or RatingOptions())
+        put_in.append(float(rated_efficiency(given)["input_power_W"]))
+    share = put_in[1] - put_in[0]
+    return put_in[0] - share, share
+
+
+def _require_more(
+    name: str, key: str, value: float, idle: float, speed: float, power: float
+) -> None:
+    if power > idle:
+        return
+    unit, least = ("W", idle) if key == "input_power" else ("N m", idle / speed)
+    raise InputError(
+        f"{name} is {value:.4g} {unit}; without load the gearbox takes "
+        f"{least:.4g} {unit} by ISO/TR 14521: give more, or {name.rpartition('.')[0]}.output_torque"
+    )
+
+
+_WITHOUT = {"through_travel_torque": None, "duty_cycle": None, "spectrum": None}
 
 
 def told_of(operation: Operation, driven_by: Operation) -> tuple[str, ...]:

@@ -3,8 +3,10 @@
 import math
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from asperity.formulas import masking
-from asperity.rating.inputs import Inputs
+from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import parts_of
 from asperity.rating.result import Rating
 from asperity.results.quantity import text_of
@@ -55,6 +57,8 @@ def duty_parts(given: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
         return ()
     with masking():
         found = parts_of(given, {key: iso[key] for key in ("p_m_star", "E_red_MPa")})
+    if given.together:
+        found = _each(found[0], len(given.duty))
     depths = [float(own["delta_Wn_mm"]) for own in found]
     whole = math.fsum(depths)
     return tuple(
@@ -69,6 +73,13 @@ def duty_parts(given: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
         )
         for part, own, depth in zip(given.duty, found, depths, strict=True)
     )
+
+
+def _each(together: Values, count: int) -> tuple[Values, ...]:
+    """Return the parts of arrays one by one, as far as they are shown."""
+    keys = "delta_Wn_mm", "theta_S_degC", "loss_total_W"
+    columns = (np.broadcast_to(together[key], (count,)).tolist() for key in keys)
+    return tuple(dict(zip(keys, row, strict=True)) for row in zip(*columns, strict=True))
 
 
 def duty_table(parts: tuple[DutyPart, ...]) -> Table:

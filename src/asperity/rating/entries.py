@@ -187,7 +187,7 @@ def assumptions(given: Inputs) -> Mapping[str, str]:
     """Return what was assumed, by ``table.key``."""
     return {
         f"{table.table}.{key}": reason
-        for table in (given.gearset, given.operation, given.options)
+        for table in (given.gearset, given.operation, given.options, *given.operation.parts)
         for key, reason in table.assumed.items()
     }
 

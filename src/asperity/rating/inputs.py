@@ -7,14 +7,15 @@ arrays of one shape where variants of a gearset are rated.
 import dataclasses
 import functools
 import math
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from asperity.arrays import Real, smaller
 from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
+from asperity.rating.load_steps import LoadStep
 from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
 
 Values = dict[str, Real]
@@ -57,12 +58,21 @@ def scaled(value: float, factor: float) -> float:
     return float(f"{value * factor:.15g}")
 
 
+MANY = 16
+"""Steps above which those of one gearset go through the formulas together, as arrays."""
+
+
 class Part(NamedTuple):
-    """A part of a duty cycle: its running time in h, torque of the wheel in N m, worm in rpm."""
+    """A part of a duty cycle: its running time in h, torque of the wheel in N m, worm in rpm.
+
+    ``starts`` are those an hour, ``back`` is true where the load drives.
+    """
 
     hours: Real
     torque: Real
     speed: Real
+    starts: Real
+    back: Any = False
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -107,23 +117,48 @@ class Inputs:
     friction: Real | None
     friction_factor: Real
     hours: Real | None = None
+    part_starts: Real | None = None
+    load_drives: Any = False
+    sump: Real | None = None
 
-    @property
+    @functools.cached_property
     def duty(self) -> tuple[Part, ...]:
         """The parts of the duty cycle; none without one, or where this is one of them."""
         if self.hours is not None:
             return ()
-        return tuple(
-            Part(
-                scaled(step.duration, 1.0 / _HOUR),
-                step.output_torque,
-                self.worm_speed if step.worm_speed is None else scaled(step.worm_speed, RPM),
-            )
-            for step in self.operation.duty_cycle or ()
-        )
+        return tuple(map(self._part, self.operation.steps or ()))
+
+    def _part(self, step: LoadStep) -> Part:
+        speed = self.worm_speed if step.worm_speed is None else scaled(step.worm_speed, RPM)
+        if step.duration is not None:
+            hours: Real = scaled(step.duration, 1.0 / _HOUR)
+        else:
+            assert step.turns is not None
+            hours = step.turns / (60.0 * (speed / self.gear_ratio))
+        starts = step.starts_per_hour
+        starts = self.operation.starts_per_hour if starts is None else starts
+        return Part(hours, step.torque, speed, starts, step.drives == "load")
+
+    @functools.cached_property
+    def loads(self) -> tuple[Part, ...]:
+        """The parts of the duty cycle; many of one gearset are one part, of arrays."""
+        if not self.together:
+            return self.duty
+        hours, torque, speed, starts, back = map(np.asarray, zip(*self.duty, strict=True))
+        return (Part(hours, torque, speed, starts, back),)
+
+    @property
+    def together(self) -> bool:
+        """Whether the parts of the duty cycle go through the formulas together, as arrays."""
+        return len(self.duty) > MANY and not any(np.ndim(part.hours) for part in self.duty[:1])
+
+    @property
+    def speeds(self) -> tuple[Real, ...]:
+        """The worm's speeds of all parts of one gearset, each once, rpm."""
+        return tuple(dict.fromkeys(part.speed for part in self.duty)) or (self.worm_speed,)
 
     def parted(self) -> "tuple[Inputs, ...]":
-        """Return what the formulas start from in each part of the duty cycle, a load of its own."""
+        """Return what the formulas start from in each of the `loads`."""
         return tuple(
             dataclasses.replace(
                 self,
@@ -131,25 +166,66 @@ class Inputs:
                 worm_speed=part.speed,
                 output_torque=part.torque,
                 through_travel_torque=part.torque,
+                part_starts=part.starts,
+                load_drives=part.back,
             )
-            for part in self.duty
+            for part in self.loads
         )
+
+    def total(self, values: Iterable[Real]) -> Real:
+        """Return the sum over all parts of what the `loads` have."""
+        return self._over(np.add, values)
+
+    def greatest(self, values: Iterable[Real]) -> Real:
+        """Return the greatest over all parts of what the `loads` have."""
+        return self._over(np.maximum, values)
+
+    def least(self, values: Iterable[Real]) -> Real:
+        """Return the least over all parts of what the `loads` have."""
+        return self._over(np.minimum, values)
+
+    def _over(self, joined: Any, values: Iterable[Real]) -> Real:
+        if self.together:
+            (value,) = values
+            every = np.broadcast_to(value, (len(self.duty),))
+            # A sum in order would gather rounding over thousands of steps.
+            found: Real = math.fsum(every) if joined is np.add else float(joined.reduce(every))
+            return found
+        return functools.reduce(joined, values)
 
     def most_of_hardest(self, values: Sequence[Real]) -> Real:
         """Return the greatest of the parts' values, of those with the greatest torque."""
-        most = functools.reduce(np.maximum, [part.torque for part in self.duty])
-        known = (
+        most = self.greatest(part.torque for part in self.loads)
+        return self.greatest(
             np.where(part.torque >= most, value, 0.0)
-            for part, value in zip(self.duty, values, strict=True)
+            for part, value in zip(self.loads, values, strict=True)
         )
-        return functools.reduce(np.maximum, known)
+
+    @property
+    def measured_at(self) -> Real:
+        """Speed of the worm at which losses of the housing were measured, rpm."""
+        housing = self.operation.housing
+        if housing is None or housing.measured_at is None:
+            return scaled(self.operation.worm_speed, RPM)
+        return scaled(housing.measured_at, RPM)
+
+    @property
+    def cycle(self) -> float:
+        """Cycle of load and rest, s."""
+        spectrum = self.operation.spectrum
+        return 0.0 if spectrum is None else spectrum.cycle
+
+    @property
+    def starts_per_hour(self) -> Real:
+        """Those of the part of a duty cycle, or of the operation."""
+        return self.operation.starts_per_hour if self.part_starts is None else self.part_starts
 
     @property
     def hardest_speed(self) -> Real:
         """The worm's with the greatest torque of the duty cycle (the fastest such part), rpm."""
         if not self.duty:
             return self.worm_speed
-        return self.most_of_hardest([part.speed for part in self.duty])
+        return self.most_of_hardest([part.speed for part in self.loads])
 
     @property
     def wheel_speed(self) -> Real:
@@ -211,11 +287,10 @@ class Inputs:
 
     def _equivalent_hours(self, exponent: int, torque: Real, speed: Real) -> Real:
         # asperity.rating.bs721.equivalent_hours, for arrays of speeds and torques.
-        total: Real = 0.0
-        for part in self.duty:
-            turns = part.hours * (part.speed / speed)
-            total += turns * (part.torque / torque) ** exponent
-        return total
+        return self.total(
+            part.hours * (part.speed / speed) * (part.torque / torque) ** exponent
+            for part in self.loads
+        )
 
 
 def face_width_that_carries(

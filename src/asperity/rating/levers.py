@@ -119,13 +119,18 @@ def _raised(gearset: Gearset, operation: Operation) -> Iterator[Raised]:
     if operation.through_travel_torque is not None:
         torques["through_travel_torque"] = operation.through_travel_torque * more
         keys.append("operation.through_travel_torque")
-    if operation.duty_cycle is not None:
-        torques["duty_cycle"] = tuple(
-            step.model_copy(update={"output_torque": step.output_torque * more}, units="SI")
-            for step in operation.duty_cycle
+    spectrum = operation.spectrum
+    if operation.steps is None or (spectrum is not None and spectrum.duty_class is not None):
+        # The steps of a class follow the rated torque.
+        yield "torque", tuple(keys), run(**torques)
+    else:
+        steps = tuple(
+            step.model_copy(update={"output_torque": step.torque * more}, units="SI")
+            for step in operation.steps
         )
-        keys.append("operation.duty_cycle")
-    yield "torque", tuple(keys), run(**torques)
+        keys.append("operation.duty_cycle" if spectrum is None else "spectrum.step")
+        heavier = operation.with_steps(steps, **torques)
+        yield "torque", tuple(keys), lambda: (gearset, heavier)
     oil = operation.lubricant
     thicker = {key: getattr(oil, key) * _GRADE for key in ("viscosity_40", "viscosity_100")}
     yield (
@@ -135,7 +140,7 @@ def _raised(gearset: Gearset, operation: Operation) -> Iterator[Raised]:
     )
     speed = operation.worm_speed * more
     yield "worm speed", ("operation.worm_speed",), run(worm_speed=speed)
-    if operation.duty_cycle is None:
+    if operation.steps is None:
         turns = operation.wheel_revolutions
         if turns is None:
             life = (operation.life or DEFAULT_LIFE) * more

@@ -1,5 +1,6 @@
 """The `[operation]` and `[rating]` tables: how a worm gearset is run, and how it is to be rated."""
 
+import functools
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,10 +10,22 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
 from asperity.casefile import Table
-from asperity.errors import InputError, shown
+from asperity.errors import InputError
 from asperity.gearset.bearings import Bearings
 from asperity.gearset.library import find, resolve
 from asperity.gearset.lubricants import Lubricant
+from asperity.rating.housing import Housing
+from asperity.rating.load_steps import (
+    LoadStep,
+    Power,
+    Speed,
+    Starts,
+    Time,
+    Torque,
+    Turns,
+    steps_of,
+)
+from asperity.rating.spectrum import Spectrum
 from asperity.results.quantity import Number, Sentence
 from asperity.units import Quantity
 
@@ -40,46 +53,10 @@ _ASSUMED = {
 _ROUNDING = 1.0 + 1e-12
 _LEAST_SHARE = 1e-9
 
-Torque = Annotated[float, Quantity("N m", what="a torque", example="366 N m", gt=0)]
 Temperature = Annotated[
     float, Quantity("K", what="a temperature", example="20 degC", gt=173.15, lt=573.15)
 ]
-Time = Annotated[float, Quantity("s", what="a time", example="25000 h", gt=0)]
 Ratio = Annotated[float, Quantity("", what="a factor", example="1.0", gt=0)]
-Speed = Annotated[float, Quantity("rad/s", what="a speed of rotation", example="1440 rpm", gt=0)]
-
-
-class LoadStep(Table):
-    """A part of a duty cycle.
-
-    Parameters
-    ----------
-    duration : float or str
-        s ("10 h" in a file), of the whole life.
-    output_torque : float or str
-        Wheel torque, N m, at most the rated one.
-    worm_speed : float or str, optional
-        rad/s; that of the operation if left out.
-    """
-
-    table: ClassVar[str] = "operation.duty_cycle"
-
-    duration: Annotated[float, Quantity("s", what="a time", example="10 h", gt=0)]
-    output_torque: Torque
-    worm_speed: Speed | None = None
-
-
-def _steps(value: Any, context: Any) -> tuple[LoadStep, ...]:
-    listed = isinstance(value, list | tuple) and len(value) > 0
-    if not listed or not all(isinstance(step, Mapping | LoadStep) for step in value):
-        raise InputError(
-            f"operation.duty_cycle is {shown(value)}; it must be a list of tables with "
-            "'duration', 'output_torque' and perhaps 'worm_speed'"
-        )
-    return tuple(
-        step if isinstance(step, LoadStep) else LoadStep.model_validate(step, context=context)
-        for step in value
-    )
 
 
 class Operation(Table):
@@ -132,6 +109,8 @@ class Operation(Table):
         Application factor :math:`K_A`, which multiplies the torque.
     starts_per_hour : float
         Starts per hour :math:`N_S`.
+    spectrum, housing : table, optional
+        What the tables ``[spectrum]`` and ``[housing]`` of a case say; see `with_tables`.
     """
 
     table: ClassVar[str] = "operation"
@@ -145,15 +124,11 @@ class Operation(Table):
     worm_speed: Speed
     # Which is never missing where a standard is applied: see asperity.rating.driven.
     output_torque: Torque = None  # type: ignore[assignment]
-    input_power: Annotated[float, Quantity("W", what="a power", example="0.25 kW", gt=0)] | None = (
-        None
-    )
+    input_power: Power | None = None
     input_torque: Torque | None = None
     through_travel_torque: Torque | None = None
     service: Literal["continuous", "valve"] = "continuous"
-    wheel_revolutions: (
-        Annotated[float, Quantity("", what="a number of turns", example="500000", gt=0)] | None
-    ) = None
+    wheel_revolutions: Turns | None = None
     life: Time | None = None
     duty_cycle: Annotated[tuple[LoadStep, ...], Field(min_length=1)] | None = None
     lubricant: Lubricant
@@ -168,7 +143,9 @@ class Operation(Table):
     fan: Annotated[bool, Field(strict=True)] = False
     immersed: Literal["worm", "wheel"] = "worm"
     application_factor: Ratio = 1.0
-    starts_per_hour: Annotated[float, Quantity("", what="a number", example="0", ge=0)] = 0.0
+    starts_per_hour: Starts = 0.0
+    spectrum: Spectrum | None = Field(default=None, exclude=True)
+    housing: Housing | None = Field(default=None, exclude=True)
 
     @model_validator(mode="before")
     @classmethod
@@ -179,7 +156,12 @@ class Operation(Table):
         if "lubricant" in named:
             named["lubricant"] = resolve(Lubricant, named["lubricant"], info.context)
         if named.get("duty_cycle") is not None:
-            named["duty_cycle"] = _steps(named["duty_cycle"], info.context)
+            named["duty_cycle"] = steps_of(
+                named["duty_cycle"], info.context, "operation.duty_cycle"
+            )
+        for key in ("spectrum", "housing"):
+            if isinstance(named.get(key), Mapping):
+                raise InputError(f"operation.{key} is a table of its own; write it as [{key}]")
         if "bearings" in named:
             try:
                 named["bearings"] = resolve(Bearings, named["bearings"], info.context)
@@ -199,21 +181,72 @@ class Operation(Table):
                 f"operation.through_travel_torque is {self.through_travel_torque:g} N m; it must "
                 f"not exceed operation.output_torque, {self.output_torque:g} N m"
             )
-        most = max((step.output_torque for step in self.duty_cycle or ()), default=0.0)
+        if self.spectrum is not None and self.duty_cycle is not None:
+            raise InputError("operation.duty_cycle and [spectrum] are given; keep one of them")
+        key = "spectrum.step" if self.spectrum is not None else "operation.duty_cycle"
+        # Those that what drives is given for are looked at once it is known.
+        torques = [step.output_torque for step in self.steps or () if step.output_torque]
+        most, least = max(torques, default=0.0), min(torques, default=math.inf)
         if most > self.output_torque * _ROUNDING:
             raise InputError(
-                f"operation.duty_cycle has a part with {most:g} N m; none may exceed "
+                f"{key} has a part with {most:g} N m; none may exceed "
                 f"operation.output_torque, {self.output_torque:g} N m: raise that, by which "
                 "strength is judged"
             )
-        least = min((step.output_torque for step in self.duty_cycle or ()), default=math.inf)
         if least < self.output_torque * _LEAST_SHARE:
             raise InputError(
-                f"operation.duty_cycle has a part with {least:g} N m; it must be at least "
+                f"{key} has a part with {least:g} N m; it must be at least "
                 f"{_LEAST_SHARE:g} of operation.output_torque, {self.output_torque:g} N m: leave "
                 "out what carries nothing"
             )
         return self
+
+    @functools.cached_property
+    def _steps(self) -> tuple[LoadStep, ...] | None:
+        if self.spectrum is not None:
+            return self.spectrum.steps(self.output_torque)
+        return self.duty_cycle
+
+    @property
+    def steps(self) -> tuple[LoadStep, ...] | None:
+        """The steps of the duty cycle or spectrum; None of a load that is all the same."""
+        return self._steps
+
+    def with_steps(self, steps: tuple[LoadStep, ...], **more: float) -> "Operation":
+        """Return it with other steps in the place of its own, and other numbers in SI."""
+        update: dict[str, Any] = {"duty_cycle": steps, **more}
+        if self.spectrum is not None:
+            whole = {"step": steps, "duty_class": None, "life": None, "stroke": None}
+            spectrum = self.spectrum.model_copy(update={**whole, "cycles": None})
+            update = {"spectrum": spectrum, **more}
+        return self.model_copy(update=update, units="SI")
+
+    def with_tables(
+        self, spectrum: Spectrum | None = None, housing: Housing | None = None
+    ) -> "Operation":
+        """Return it with what the tables ``[spectrum]`` and ``[housing]`` say of the same run."""
+        given = {"spectrum": spectrum, "housing": housing}
+        update = {key: table for key, table in given.items() if table is not None}
+        return self.model_copy(update=update) if update else self
+
+    @property
+    def parts(self) -> tuple[Spectrum | Housing, ...]:
+        """What `with_tables` gave it."""
+        return tuple(table for table in (self.spectrum, self.housing) if table is not None)
+
+    @property
+    def service_factor(self) -> float | None:
+        """That of AGMA 6034, by the spectrum; None where ``application_factor`` counts."""
+        if self.spectrum is None:
+            return None
+        return self.spectrum.service_factor(self.most_starts)
+
+    @property
+    def most_starts(self) -> float:
+        """Most starts per hour of any step."""
+        own = (step.starts_per_hour for step in self.steps or ())
+        each = [self.starts_per_hour if starts is None else starts for starts in own]
+        return max(each, default=self.starts_per_hour)
 
     @property
     def driven_by(self) -> str:
@@ -224,8 +257,8 @@ class Operation(Table):
     @property
     def travel_torque(self) -> float:
         """Torque of the wheel that wear is judged by, N m: T_2; of a duty cycle, the greatest."""
-        if self.duty_cycle is not None:
-            return max(step.output_torque for step in self.duty_cycle)
+        if self.steps is not None:
+            return max(step.torque for step in self.steps)
         if self.through_travel_torque is not None:
             return self.through_travel_torque
         return self.travel_share * self.output_torque
@@ -242,7 +275,7 @@ class Operation(Table):
 
     def wear_told(self, within: str = "") -> Sentence | str:
         """As `wear_assumed`, its numbers by where they stand ``within`` an answer's JSON."""
-        given = self.through_travel_torque is not None or self.duty_cycle is not None
+        given = self.through_travel_torque is not None or self.steps is not None
         if given or self.service != "valve":
             return ""
         of_wear, rated = (
@@ -265,9 +298,9 @@ class Operation(Table):
             for key, reason in _ASSUMED.items()
             if key not in self.model_fields_set or getattr(self, key) is None
         }
-        if self.wheel_revolutions is not None or self.duty_cycle is not None:
+        if self.wheel_revolutions is not None or self.steps is not None:
             left_out.pop("life", None)
-        if self.duty_cycle is not None:
+        if self.steps is not None:
             left_out.pop("through_travel_torque", None)
         elif self.service == "valve" and "through_travel_torque" in left_out:
             left_out["through_travel_torque"] = "a third of output_torque, as of a valve"

@@ -6,42 +6,42 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.casefile import Case, told
-from asperity.errors import InputError, choices, require_types, suggestion
+from asperity.errors import InputError, require_types
 from asperity.gearset.geometry import Geometry
-from asperity.gearset.library import find
-from asperity.gearset.lubricants import Lubricant
-from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
-from asperity.rating.alternatives import Alternative, alternatives
-from asperity.rating.bs721.tables import Tables, read_tables
-from asperity.rating.by_standard import PROMISED, judge_of, rate_by
-from asperity.rating.changes import changed_words
+from asperity.rating.alternatives import Alternative
+from asperity.rating.bs721.tables import Tables
+from asperity.rating.by_standard import PROMISED, rate_by
 from asperity.rating.driven import driven, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
+from asperity.rating.duty_words import duty_lines, loads_line
+from asperity.rating.endurance import Endurance, endurance
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs, inputs
 from asperity.rating.iso14521.calculation import film_parameter_of
 from asperity.rating.iso14521.film_failure import FilmParameterError
-from asperity.rating.levers import Lever, levers
+from asperity.rating.levers import Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
+from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking, self_locking
+from asperity.rating.standards import STANDARDS, known_standards, tables_of
+from asperity.rating.starting import Starting, starting, starting_table
+from asperity.rating.tables import operation_of
 from asperity.rating.verdict import Verdict, screen
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.results.table import Column, Table
-from asperity.runs import Run
 from asperity.store import harmless_cell, write_text
 
 if TYPE_CHECKING:
     from asperity.results.report import Heading, Section
 
-STANDARDS = ("iso14521", "bs721", "agma6034")
-"""The standards, by the name they have in results."""
 
-ALL = "all"
+_MOST_SHEETS = 100
+"""Loads of a spectrum above which there is no workbook, which has cells for each of them."""
 
 
 class Rated(Result):
@@ -73,6 +73,8 @@ class Rated(Result):
         Why a standard that was asked for could not be applied.
     contact : Section or None
         What its report shows of how the flanks touch, where that was asked for.
+    rows : tuple of Row
+        What others than the standards say of the same gearbox, for its verdict.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -92,6 +94,7 @@ class Rated(Result):
     tables_bs721: Tables
     unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
+    rows: tuple[Row, ...] = ()
 
     @property
     def verdict(self) -> Verdict:
@@ -102,6 +105,7 @@ class Rated(Result):
             self.alternatives,
             self.given.operation.wear_assumed,
             self.unanswered,
+            self.rows,
         )
 
     @property
@@ -118,6 +122,23 @@ class Rated(Result):
     def duty_cycle(self) -> tuple[DutyPart, ...]:
         """What each part of a duty cycle has in wear and heat, by ISO/TR 14521."""
         return () if self.iso14521 is None else duty_parts(self.given, self.iso14521)
+
+    @property
+    def endurance(self) -> tuple[Endurance, ...]:
+        """How long it runs until each limit of ISO/TR 14521 and BS 721, the shortest first."""
+        return endurance(self.given, self.found)
+
+    @property
+    def starting(self) -> tuple[Starting, ...]:
+        """What starting takes, where the spectrum has starts."""
+        return starting(self.given, self.iso14521, self.self_locking, self.holding)
+
+    @property
+    def of_duty(self) -> tuple[str, ...]:
+        """What the verdict says of spectrum and housing."""
+        lasts = self.endurance if self.given.operation.spectrum is not None else ()
+        parts = self.duty_cycle
+        return tuple(duty_lines(self.given, self.found, parts, lasts, self.starting))
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -148,6 +169,15 @@ class Rated(Result):
             "forces": {one.rotation: one.to_json() for one in self.forces} or None,
             "holding": [one.to_json() for one in self.holding],
             **({"duty_cycle": parts} if parts else {}),
+            **self._of_spectrum(),
+        }
+
+    def _of_spectrum(self) -> dict[str, Any]:
+        if self.given.operation.spectrum is None:
+            return {}
+        return {
+            "endurance": [one.to_json() for one in self.endurance],
+            "starting": [one.to_json() for one in self.starting],
         }
 
     def entries(self) -> Iterator[Entry]:
@@ -172,15 +202,24 @@ class Rated(Result):
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
-        """Return the gearset's name."""
-        return self.gearset.name or "worm gearset"
+        """Return the gearset's name, and how it is loaded."""
+        name = self.gearset.name or "worm gearset"
+        spectrum = self.given.operation.spectrum
+        return name if spectrum is None else f"{name}: {loads_line(self.given)}"
 
     def __repr__(self) -> str:
         return f"{self.heading()}\n{self.verdict!r}"
 
     def brief(self) -> str:
         """Return the verdict on one screen."""
-        return screen(self.verdict, self.found, self.self_locking, len(self.assumed), self.notes)
+        return screen(
+            self.verdict,
+            self.found,
+            self.self_locking,
+            len(self.assumed),
+            self.notes,
+            self.of_duty,
+        )
 
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""
@@ -195,6 +234,8 @@ class Rated(Result):
             tables.append(Table(columns, tuple(tuple(row.values()) for row in rows), title))
         if self.holding:
             tables.append(held_table(self.holding))
+        if self.starting:
+            tables.append(starting_table(self.starting))
         if self.notes:
             tables.append(Table((), (), remarks=self.notes))
         return tuple(tables)
@@ -228,6 +269,8 @@ class Rated(Result):
         names = super().write(folder, pictures="")
         table = self.to_frame().map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
+        if len(self.given.duty) > _MOST_SHEETS:
+            return [*names, "rate.csv"]
         write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
         return [*names, "rate.csv", "rate.xlsx"]
 
@@ -278,7 +321,7 @@ def rate(
     asked = operation
     operation = driven(gearset, operation, options)
     given = inputs(gearset, operation, options)
-    _require_consistent(given, "iso14521" in wanted)
+    require_consistent(given, "iso14521" in wanted)
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
@@ -305,7 +348,9 @@ def rate(
         tables_bs721=tables,
         gearset=gearset,
         geometry=gearset.geometry,
-        **{name: found.get(name) for name in STANDARDS},
+        iso14521=found.get("iso14521"),
+        bs721=found.get("bs721"),
+        agma6034=found.get("agma6034"),
         self_locking=self_locking(given, found, tables),
         notes=(*told_of(asked, operation), *notes),
         assumed=assumptions(given),
@@ -315,76 +360,19 @@ def rate(
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     """Rate the worm gearset of a case file; as `rate`."""
     options = case.get(RatingOptions)
-    gearset, operation = case.require(Gearset), case.require(Operation)
+    gearset, operation = case.require(Gearset), run_of(case)
     with told(case):
         return rate(gearset, operation, options, standards, folder=case.folder)
 
 
-def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
-    """Return what the command rates; raises InputError for a standard that is not known."""
-    allowed = (*STANDARDS, ALL)
-    if standard not in allowed:
-        raise InputError(
-            f"--standard {standard}: it must be one of {choices(allowed)}"
-            f"{suggestion(standard, allowed)}"
-        )
-    gearset, operation = case.require(Gearset), case.require(Operation)
-    options = case.get(RatingOptions, RatingOptions())
-    wanted = STANDARDS if standard == ALL else (standard,)
+def run_of(case: Case) -> Operation:
+    """Return how the gearset of a case is run; what is refused names the case."""
     with told(case):
-        operation = driven(gearset, operation, options)
-    _require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
-    return case, wanted
+        return operation_of(case)
 
 
-def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
-    """Rate the gearset of a case, and find what moves the least safety."""
-    case, standards = problem
-    rated = rate_case(case, standards)
-    first, given = rated.verdict.first, rated.given
-    if first is None:
-        return rated
-    judge = judge_of(first.demand, given.options, rated.tables_bs721)
-    others = alternatives(judge, given.gearset, given.operation)
-    return dataclasses.replace(
-        rated,
-        levers=levers(judge, given.gearset, given.operation),
-        alternatives=tuple(_with_changes(rated, one, standards, case.folder) for one in others),
-    )
-
-
-def _with_changes(
-    rated: Rated, other: Alternative, standards: Sequence[str], folder: Path | None
-) -> Alternative:
-    """Return an alternative with what else it changes in the words of the verdict."""
-    given, (table, _, key) = rated.given, other.key.partition(".")
-    thing = find(Lubricant if key == "lubricant" else WheelMaterial, other.value)
-    tables: dict[str, Any] = {"gearset": given.gearset, "operation": given.operation}
-    tables[table] = tables[table].model_copy(update={key: thing})
-    changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
-    return other._replace(changes=changed_words(rated, changed))
-
-
-def tables_of(options: RatingOptions, folder: Path | None) -> Tables:
-    """Return the tables of BS 721 that are asked for."""
-    own = options.bs721_tables
-    return read_tables(None if own is None else (folder or Path()) / own)
-
-
-def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
-    """Return the standards in their order; raises InputError for one that is not known."""
-    for name in standards:
-        if name not in STANDARDS:
-            raise InputError(
-                f"standard is {name!r}; it must be one of {choices(STANDARDS)}"
-                f"{suggestion(str(name), STANDARDS)}"
-            )
-    if not standards:
-        raise InputError(f"no standard is asked for; give one of {choices(STANDARDS)}")
-    return tuple(name for name in STANDARDS if name in standards)
-
-
-def _require_consistent(given: Inputs, by_iso: bool) -> None:
+def require_consistent(given: Inputs, by_iso: bool) -> None:
+    """Raise InputError where the gearset's numbers do not belong together."""
     try:
         given.gearset.require_consistent()
     except InputError as error:

@@ -19,7 +19,7 @@ from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, known_standards, tables_of
+from asperity.rating.standards import STANDARDS, known_standards, tables_of
 from asperity.rating.variation import BLOCK, varied
 
 
@@ -173,6 +173,8 @@ def _calculate(
                 numbers = rated_bs721(here, tables)[0]
             else:
                 numbers = rated_agma6034(here)
+        # What leads to the numbers of a duty cycle would take more room than the numbers.
+        numbers = {key: one for key, one in numbers.items() if not key.startswith("part_")}
         if start is None:
             return numbers
         for key, value in numbers.items():

@@ -109,7 +109,7 @@ def varied(
     )
     numbers |= follows
     numbers |= {name: value for name, value in given.items() if name not in numbers}
-    if "output_torque" in given and operation.duty_cycle is not None:
+    if "output_torque" in given and operation.steps is not None:
         greatest = base.through_travel_torque
         low = np.asarray(given["output_torque"]) < greatest * (1.0 - _ROUNDING)
         mask.refuse(low, f"the duty cycle has a part with {greatest:g} N m, which is more")

@@ -10,6 +10,7 @@ from asperity.rating.demands import DEMANDS, Demand
 from asperity.rating.levers import Lever
 from asperity.rating.regime import Film
 from asperity.rating.result import Rating
+from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
 from asperity.results.quantity import Number, Sentence
@@ -78,6 +79,8 @@ class Verdict(NamedTuple):
         The oil between the teeth, by ISO/TR 14521.
     wear_assumed : str
         What is to be said of the torque that wear is judged by.
+    rows : tuple of Row
+        What others than the three standards say, of shafts and bearings for one.
     """
 
     safeties: tuple[Safety, ...]
@@ -87,6 +90,7 @@ class Verdict(NamedTuple):
     alternatives: tuple[Alternative, ...] = ()
     film: Film | None = None
     wear_assumed: str = ""
+    rows: tuple[Row, ...] = ()
 
     @classmethod
     def of(
@@ -96,6 +100,7 @@ class Verdict(NamedTuple):
         alternatives: tuple[Alternative, ...] = (),
         wear_assumed: str = "",
         unanswered: Mapping[str, str] | None = None,
+        rows: tuple[Row, ...] = (),
     ) -> "Verdict":
         """Return the verdict of ratings by standard; why others have no answer, likewise."""
         asked = [demand for demand in DEMANDS if demand.standard in found]
@@ -108,6 +113,7 @@ class Verdict(NamedTuple):
             alternatives,
             Film.of(found["iso14521"]) if "h_min_um" in found.get("iso14521", ()) else None,
             wear_assumed if any(demand.name == "wear" for demand in rated) else "",
+            rows,
         )
 
     def __repr__(self) -> str:
@@ -141,11 +147,15 @@ class Verdict(NamedTuple):
             ],
             "alternatives": [other._asdict() for other in self.alternatives],
             "film": None if self.film is None else self.film.to_json(),
+            **({"rows": [row.to_json() for row in self.rows]} if self.rows else {}),
         }
 
     def stands(self, whole: bool = False) -> Iterator[str]:
         """Yield by which standards it holds, which have no answer, and which rate outside."""
         yield from Standing.sentences(self.standing, whole)
+        failing = [f"{row.name} by {row.standard}" for row in self.rows if not row.holds]
+        if failing:
+            yield f"does not hold: {listed(failing)}"
 
     def sentences(self) -> Iterator[str]:
         """Yield whether it holds, and what fails first."""
@@ -199,6 +209,8 @@ class Verdict(NamedTuple):
             d = safety.demand
             name = f"{NAMES[d.standard]} {d.name}"
             yield f"{name:24} {bar(safety.margin)} {safety.said}"
+        for row in self.rows:
+            yield from wrapped(row.line)
         yield from wrapped(self.wear_assumed)
 
 
@@ -273,6 +285,7 @@ def screen(
     locking: SelfLocking,
     assumed: int,
     notes: Iterable[str],
+    duty: Iterable[str] = (),
 ) -> str:
     """Return what is shown first: the verdict, in lines of at most 79 characters.
 
@@ -287,7 +300,7 @@ def screen(
     remarks = *(note for note in notes if note not in said), *_outside(found)
     kept = {"film": film, "remarks": remarks}
     blocks = {"stands": verdict.stands(), "first": first, "best": best, "power": power,
-              "locking": (locking_line(locking),)}  # fmt: skip
+              "duty": duty, "locking": (locking_line(locking),)}  # fmt: skip
     lines = {name: [line for one in of for line in wrapped(one)] for name, of in blocks.items()}
     lines |= {"bars": ["", *verdict.bars(), ""], "film": [], "remarks": []}
     if sum(map(len, lines.values())) >= _MOST_LINES:
@@ -309,7 +322,7 @@ def screen(
         f"assumed {assumed} key{'s' * (assumed != 1)}, {memory} {rest} on sources from memory"
         f"{further}: --full"
     ]
-    order = "stands", "first", "best", "bars", "power", "film", "locking", "remarks", "end"
+    order = "stands", "first", "best", "bars", "power", "duty", "film", "locking", "remarks", "end"
     return "\n".join(line for name in order for line in lines[name])
 
 

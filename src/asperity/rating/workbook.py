@@ -299,21 +299,28 @@ class _TracedInputs(Inputs):
         if self.hours is not None:
             return ()
         found = []
-        steps = zip(self.plain.duty, self.plain.operation.duty_cycle or (), strict=True)
+        steps = zip(self.plain.duty, self.plain.operation.steps or (), strict=True)
         for number, (part, step) in enumerate(steps, 1):
             name = f"duty_cycle_{number}"
             speed = self.worm_speed
             if step.worm_speed is not None:
                 speed = self.cells.input(f"{name}_worm_speed", part.speed, "rpm")
-            hours = self.cells.input(f"{name}_hours", part.hours, "h")
+            if step.duration is not None:
+                hours = self.cells.input(f"{name}_hours", part.hours, "h")
+            else:
+                turns = self.cells.input(f"{name}_turns", float(step.turns or 0.0), "")
+                hours = turns / (60.0 * (speed / self.gear_ratio))
             torque = self.cells.input(f"{name}_output_torque", part.torque, "N m")
-            found.append(Part(hours, torque, speed))
+            starts: Any = self.operation.starts_per_hour
+            if step.starts_per_hour is not None:
+                starts = self.cells.input(f"{name}_starts_per_hour", part.starts, "")
+            found.append(Part(hours, torque, speed, starts, part.back))
         return tuple(found)
 
     @property
     def life(self) -> Any:
         operation = self.plain.operation
-        given = operation.duty_cycle is None and operation.wheel_revolutions is None
+        given = operation.steps is None and operation.wheel_revolutions is None
         return self._cell("life") if given else super().life
 
     @property

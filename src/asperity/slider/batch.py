@@ -34,7 +34,7 @@ from asperity.slider.scaled import (
 )
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import energies, pressed_energies, summarise
-from asperity.slider.timetable import Timetable, march_notes, march_standing
+from asperity.slider.timetable import Timetable, march_notes, march_standing, ringing_notes
 from asperity.waveform import displacement_at
 
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
@@ -286,7 +286,7 @@ def _answer(
     means = (np.diff(forces) / np.maximum(np.diff(ends), 1)).tolist()
     standing = march_standing(model, table, residual, broke=broke, means=means)
     error = None
-    notes = march_notes(model, table, residual, broke=broke)
+    notes = march_notes(model, table, residual, broke=broke) + ringing_notes(model)
     if standing.settled:
         at_end = integrator(model, table.step)
         at_end.kept["state"][0] = _state(column, body)

@@ -22,7 +22,13 @@ from asperity.slider.scaled import Parameters
 from asperity.slider.steady import fading_rate, two_states
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
-from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
+from asperity.slider.timetable import (
+    BLOCK,
+    Timetable,
+    march_notes,
+    march_standing,
+    ringing_notes,
+)
 from asperity.waveform import AT_REST
 
 _RECORDS = 4000
@@ -240,7 +246,11 @@ class March:
             steps=table.steps,
             cycles=table.cycles,
             history=self.history() if self._record else None,
-            notes=march_notes(self._timed, table, residual, broke=broke) + self._beside(halves),
+            notes=(
+                *march_notes(self._timed, table, residual, broke=broke),
+                *ringing_notes(model),
+                *self._beside(halves),
+            ),
             substeps=model.substeps,
             seconds=self.seconds,
         )  # fmt: skip

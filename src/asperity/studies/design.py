@@ -19,8 +19,9 @@ from asperity.formulas import masking
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.threads import CLOSED_FORMS, thread_room
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import STANDARDS, rate, tables_of
+from asperity.rating.rate import rate
 from asperity.rating.self_locking import locking_margins
+from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import variants
 from asperity.sources import Source
 from asperity.studies.climb import spread

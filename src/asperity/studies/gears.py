@@ -8,6 +8,7 @@ from asperity.casefile import Case, told
 from asperity.gearset import Gearset
 from asperity.rating.driven import driven
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.tables import operation_of
 
 
 @dataclasses.dataclass(frozen=True)
@@ -34,5 +35,5 @@ class Gears:
         options = case.get(RatingOptions)
         gearset = case.require(Gearset)
         with told(case):
-            operation = driven(gearset, case.require(Operation), options)
+            operation = driven(gearset, operation_of(case), options)
         return cls(gearset, operation, options, case.folder)

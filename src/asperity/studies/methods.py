@@ -22,6 +22,7 @@ from asperity.rating.iso14521.friction import base_friction
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
 from asperity.rating.result import Rating
+from asperity.rating.tables import operation_of
 from asperity.rating.variants import variants
 from asperity.runs import Run
 from asperity.slider.parameters import Slider
@@ -110,7 +111,7 @@ def compare_case(case: Case, methods: Sequence[Method] | None = None) -> Compari
     gearset, options = case.require(Gearset), case.get(RatingOptions)
     return compare(
         gearset,
-        driven(gearset, case.require(Operation), options),
+        driven(gearset, operation_of(case), options),
         options,
         methods=methods,
         vibration=case.get(Vibration),

@@ -10,10 +10,10 @@ from asperity.errors import AsperityError, InputError
 from asperity.gearset import Gearset
 from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import facts
-from asperity.rating.parameters import Operation
-from asperity.rating.rate import STANDARDS, Rated, rate_case
+from asperity.rating.rate import Rated, rate_case
+from asperity.rating.standards import STANDARDS
 from asperity.rating.standing import NAMES
-from asperity.rating.tables import TABLES
+from asperity.rating.tables import TABLES, operation_of
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.slider.result import table_inputs
@@ -74,7 +74,7 @@ class Gearsets(Subject):
     def prepare(self, case: Case) -> Case:
         """Return the case of a point, which has what a rating needs."""
         case.require(Gearset)
-        case.require(Operation)
+        operation_of(case)
         return case
 
     def kind(self, problem: Case) -> tuple[object, ...]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from asperity.runs.workers import Task
 from asperity.thesis.products import Drawn, Finding, Grid, How
+from asperity.thesis.said import said_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -30,7 +31,7 @@ FIGURE, TABLE, CLAIM = "figure", "table", "claim"
 class Maker:
     """How an exhibit is made, and what the page says beside it."""
 
-    words: Mapping[str, str]
+    words: Mapping[str, Any]
     make: Callable[..., Drawn | Grid | Finding]
 
 
@@ -70,11 +71,13 @@ def table(number: str, title: str, caption: str, *arguments: Any) -> Callable[[F
 def claim(number: str, section: str, text: str, thesis: str) -> Callable[[Function], Function]:
     """Mark what tests a claim, by a `Finding`: where the thesis makes it, and what it says there.
 
-    Its number never changes; its words end with the thesis's own number or word.
+    Its number never changes; its words end with the thesis's own number or word. What the thesis
+    says, line by line, stands in `asperity.thesis.said`.
     """
 
     def marked(compute: Function) -> Function:
         words = {"id": number, "section": section, "claim": text, "thesis": thesis}
+        words |= dataclasses.asdict(said_of(number))
         _MAKERS[f"{CLAIM} {number}"] = Maker(words, compute)
         return compute
 

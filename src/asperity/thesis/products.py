@@ -7,7 +7,7 @@ import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol, get_args
 
 from asperity import __version__
 from asperity.store import write_atomically, write_dataset, write_text
@@ -22,7 +22,16 @@ Cell = str | float | int
 Plain = dict[str, Any]
 """Words and numbers as they stand in JSON."""
 
-Verdict = Literal["reproduced", "fitted", "differs"]
+Verdict = Literal["reproduced", "differs", "fitted", "arithmetic", "not testable"]
+REPRODUCED, DIFFERS, FITTED, ARITHMETIC, NOT_TESTABLE = get_args(Verdict)
+VERDICTS: Mapping[str, tuple[str, str]] = {
+    REPRODUCED: ("✓", "computed from what the claim does not contain, and it could have failed"),
+    DIFFERS: ("≠", "a sentence of the thesis does not hold here; which one is quoted"),
+    FITTED: ("≈", "an input of ours was made from it, so that it tests nothing"),
+    ARITHMETIC: ("=", "it follows from printed numbers or equations alone"),
+    NOT_TESTABLE: ("?", "what it is about is lost; what we get stands beside it"),
+}
+"""Each kind of verdict: its mark, and what it means."""
 
 _DOTS_PER_INCH = 150
 
@@ -57,7 +66,7 @@ class Drawn:
         """Draw a dataset."""
         return cls(draw(dataset), dataset, _lines(how))
 
-    def write(self, stem: Path, words: Mapping[str, str]) -> tuple[Plain, list[Path]]:
+    def write(self, stem: Path, words: Mapping[str, Any]) -> tuple[Plain, list[Path]]:
         """Write picture and numbers; returns what is shown beside them, and the files."""
         picture, numbers = (stem.with_name(f"{stem.name}{suffix}") for suffix in (".png", ".nc"))
         labels = {"Software": f"asperity {__version__}", "Title": words["title"]}
@@ -103,7 +112,7 @@ class Grid:
         csv.writer(text, lineterminator="\n").writerows((self.columns, *self.rows))
         return text.getvalue()
 
-    def write(self, stem: Path, words: Mapping[str, str]) -> tuple[Plain, list[Path]]:
+    def write(self, stem: Path, words: Mapping[str, Any]) -> tuple[Plain, list[Path]]:
         """Write the table as CSV and JSON; returns what is shown, and the files."""
         table, beside = (stem.with_name(f"{stem.name}{suffix}") for suffix in (".csv", ".json"))
         write_text(table, self.to_csv())
@@ -118,8 +127,11 @@ class Finding:
     """What the computation of a claim gave, and the commands and functions that give it."""
 
     ours: str  # the numbers in a phrase
-    verdict: Verdict  # whether every part of the claim holds, and of itself
+    verdict: Verdict
+    held: tuple[str, ...]  # parts of the claim
+    failed: tuple[str, ...]  # parts that do not hold, in the thesis's words
     reason: str  # why it differs, or how closely it agrees
+    assumed: str  # of ours, that decides
     numbers: Mapping[str, float]  # each named with its unit
     how: Sequence[str]
 
@@ -132,26 +144,37 @@ class Finding:
         numbers: Mapping[str, float],
         how: Iterable[How],
         *,
-        fitted: bool = False,
+        verdict: Verdict = REPRODUCED,
+        assumed: str = "",
     ) -> "Finding":
-        """Judge by the parts of a claim; if one fails, the reason begins with what holds or not.
+        """Judge by the parts of a claim: one that fails makes it differ.
 
-        What holds because a model was fitted to it is "fitted".
-
-        Numbers are named in words or symbols, which underscores join.
+        Parameters
+        ----------
+        parts : mapping of str to bool
+            Parts of the claim, and whether each holds; one that may fail is said in the words of
+            the thesis, in quotation marks.
+        ours : str
+            The numbers in a phrase.
+        reason : str
+            Why it differs, or how closely it agrees; begins with the two sentences that matter.
+        numbers : mapping of str to float
+            Named in words or symbols, which underscores join.
+        how : iterable
+            Commands and functions that give the numbers.
+        verdict : str
+            What it is where no part fails. What is not testable stays so.
+        assumed : str
+            What of ours decides: inertia, damping, bounds, yardstick.
         """
-        failed = [part for part, holds in parts.items() if not holds]
-        held = [part for part, holds in parts.items() if holds]
-        if failed:
-            reason = f"Does not hold: {'; '.join(failed)}. {reason}"
-        if failed and held:
-            reason = f"Holds: {'; '.join(held)}. {reason}"
-        holds: Verdict = "fitted" if fitted else "reproduced"
-        verdict: Verdict = "differs" if failed else holds
+        failed = tuple(part for part, holds in parts.items() if not holds)
+        held = tuple(part for part, holds in parts.items() if holds)
+        differs = failed and verdict != NOT_TESTABLE
         named = {re.sub(r"[ ,-]+", "_", name): value for name, value in numbers.items()}
-        return cls(ours, verdict, reason, named, _lines(how))
+        found: Verdict = DIFFERS if differs else verdict
+        return cls(ours, found, held, failed, reason, assumed, named, _lines(how))
 
-    def write(self, stem: Path, words: Mapping[str, str]) -> tuple[Plain, list[Path]]:
+    def write(self, stem: Path, words: Mapping[str, Any]) -> tuple[Plain, list[Path]]:
         """Return what is shown; the ledger is written of all claims together."""
         return dataclasses.asdict(self), []
 

@@ -218,7 +218,7 @@ def _of_life(problem: DriveProblem, told: bool) -> tuple[str, ...]:
     """Return what wear and heat do not say by themselves."""
     if not told:
         return ("[rating] does not apply, so wear and heat are not told",)
-    if problem.operation.duty_cycle is None:
+    if problem.operation.steps is None:
         return ()
     return (
         "wear goes by the parts of operation.duty_cycle and heat by the hottest: each is taken to "

@@ -4,11 +4,11 @@ Loads go by the rated torque times the application factor, powers and temperatur
 torque itself.
 """
 
-import functools
 import math
 
 import numpy as np
 
+from asperity.arrays import Real
 from asperity.errors import InputError
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
@@ -20,6 +20,8 @@ from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import losses, strength
 from asperity.rating.result import Rating
 from asperity.sources import Range, Source
+
+_MOMENTARY = 30.0  # s in all: what lasts no longer is a peak (our own rule)
 
 
 def rate(given: Inputs) -> Rating:
@@ -51,11 +53,25 @@ def rated(given: Inputs) -> Values:
     v = _rated(given)
     parts = [_rated(part) for part in given.parted()]
     if parts:
-        for place, own in enumerate(parts, 1):
+        for place, own in enumerate(() if given.together else parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
-        for key, of in (("safety_torque", np.minimum), ("t_s_degC", np.maximum)):
-            v[key] = functools.reduce(of, [own[key] for own in parts])
+        v["safety_torque"] = _least(given, parts)
+        v["t_s_degC"] = given.greatest(own["t_s_degC"] for own in parts)
     return v
+
+
+def _least(given: Inputs, parts: list[Values]) -> Real:
+    """Return the least safety of parts, of a spectrum of those above the peaks' time if any is."""
+    safeties = [own["safety_torque"] for own in parts]
+    if given.operation.spectrum is None:
+        return given.least(safeties)
+    lasts = [part.hours * 3600.0 > _MOMENTARY for part in given.loads]
+    if given.together or any(isinstance(long, np.ndarray) for long in lasts):
+        lasting = [np.where(a, b, np.inf) for a, b in zip(lasts, safeties, strict=True)]
+        some, every = given.least(lasting), given.least(safeties)
+        return np.where(np.isinf(some), every, some)
+    kept = [safety for long, safety in zip(lasts, safeties, strict=True) if long]
+    return given.least(kept or safeties)
 
 
 def _rated(given: Inputs) -> Values:
@@ -88,7 +104,10 @@ def _rated(given: Inputs) -> Values:
         v["C_v"],
     )
     v["allowable_torque_Nm"] = capacity.wheel_torque(v["W_t_all_N"], given.wheel_mean_diameter)
-    torque = given.operation.application_factor * given.output_torque
+    factor = given.operation.service_factor
+    torque = (
+        given.operation.application_factor if factor is None else factor
+    ) * given.output_torque
     v["safety_torque"] = strength.safety(v["allowable_torque_Nm"], torque)
     v["W_G_N"] = 2000.0 * torque / given.wheel_mean_diameter
     v["W_W_N"] = forces.worm_tangential_load(v["W_G_N"], *teeth)
@@ -130,7 +149,7 @@ def _sources(given: Inputs) -> dict[str, Source]:
 
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
-    fastest = max(part.worm_speed for part in given.parted() or (given,))
+    fastest = max(given.speeds)
     at = {
         "sliding_velocity": values["sliding_velocity_m_s"] * (fastest / given.worm_speed),
         "worm_speed": fastest,

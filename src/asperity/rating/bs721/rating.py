@@ -108,11 +108,13 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
 
     Of one gearset that raises TableRangeError, as it does of a load that is all the same.
     """
-    for part in given.parted():
-        at = sliding_velocity(given.worm_pitch_diameter, part.worm_speed, given.lead_angle)
+    own_speeds = [part.speed for part in given.duty]
+    for speed in given.speeds if given.together else own_speeds:
+        at = sliding_velocity(given.worm_pitch_diameter, speed, given.lead_angle)
+        wheel = speed / given.gear_ratio
         own = {
-            "X_c": torque.wear_speed_factor(at, part.wheel_speed, tables=tables),
-            "X_b": torque.strength_speed_factor(part.wheel_speed, tables=tables),
+            "X_c": torque.wear_speed_factor(at, wheel, tables=tables),
+            "X_b": torque.strength_speed_factor(wheel, tables=tables),
         }
         if current_mask() is not None:
             v |= {key: np.where(np.isnan(one), one, v[key]) for key, one in own.items()}
@@ -120,16 +122,18 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
 
 def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
     """Say which parts of a duty cycle run at speeds that no table reaches."""
-    for place, part in enumerate(given.parted(), 1):
+    first = {part.speed: place for place, part in reversed([*enumerate(given.duty, 1)])}
+    parts = first.items() if given.together else [(p.speed, n) for n, p in enumerate(given.duty, 1)]
+    for worm_speed, place in parts:
         members: tuple[tuple[Literal["wheel", "worm"], Real], ...] = (
-            ("wheel", part.wheel_speed),
-            ("worm", part.worm_speed),
+            ("wheel", worm_speed / given.gear_ratio),
+            ("worm", worm_speed),
         )
         for member, speed in members:
             try:
                 torque.strength_speed_factor(speed, member=member, tables=tables)
                 torque.wear_speed_factor(
-                    sliding_velocity(given.worm_pitch_diameter, part.worm_speed, given.lead_angle),
+                    sliding_velocity(given.worm_pitch_diameter, worm_speed, given.lead_angle),
                     speed, member=member, tables=tables,
                 )  # fmt: skip
             except TableRangeError as error:
@@ -194,7 +198,7 @@ def _sources(given: Inputs, tables: Tables) -> dict[str, Source]:
 
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
-    fastest = max(part.worm_speed for part in given.parted() or (given,))
+    fastest = max(given.speeds)
     at = {
         "axial_module": given.axial_module,
         "wheel_diameter": given.wheel_reference_diameter,

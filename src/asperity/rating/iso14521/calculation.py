@@ -9,17 +9,17 @@ temperature, see `_over_the_parts`; deflection and root by the rated torque, whi
 exceeds, with the friction at the speed of the part that has the greatest and the wear of all.
 """
 
-import functools
+import dataclasses
 import math
-import operator
 from typing import Any
 
 import numpy as np
 
 from asperity.arrays import Real, smaller
-from asperity.gearset import oil
+from asperity.formulas import current_mask, masking
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import (
+    balance,
     contact,
     efficiency,
     film,
@@ -29,9 +29,9 @@ from asperity.rating.iso14521 import (
     losses,
     pitting,
     strength,
-    thermal,
-    wear,
 )
+from asperity.rating.iso14521.housed import housing_of
+from asperity.rating.iso14521.wearing import sump_of, temperatures, wear_of
 
 ROOT_LIFE_FACTOR = 1.0
 """Y_NL, the default of MITCalc; that by wheel and grade has no document."""
@@ -44,11 +44,31 @@ _OF_WEAR = (
 """What leads to the wear of a part of a duty cycle, by the keys of a rating."""
 
 _MPA = 1e-6
-_MM2 = 1e6
 
 
-def rated_efficiency(given: Inputs) -> Values:
-    """Return friction, efficiency and losses, by the keys of a rating."""
+_OF_TEETH = (
+    "sliding_velocity_m_s", "mu_0T", "Y_S", "h_star", "Y_G", "Y_W", "Y_R", "mu_zm", "eta_z1_2",
+    "eta_z2_1",
+)  # fmt: skip
+"""What of a load goes by geometry and speed alone."""
+
+
+def rated_efficiency(given: Inputs, teeth: Values | None = None) -> Values:
+    """Return friction, efficiency and losses, by the keys of a rating.
+
+    Parameters
+    ----------
+    given : Inputs
+        The gearset and its load.
+    teeth : Values, optional
+        What was found of it at the same speed; then only powers and losses are.
+    """
+    v = _teeth(given) if teeth is None else {key: teeth[key] for key in _OF_TEETH}
+    _powers(given, v)
+    return v
+
+
+def _teeth(given: Inputs) -> Values:
     wheel, operation = given.gearset.wheel_material, given.operation
     v: Values = {}
     v["sliding_velocity_m_s"] = friction.sliding_velocity(
@@ -73,7 +93,6 @@ def rated_efficiency(given: Inputs) -> Values:
     v["mu_zm"] = mean * given.friction_factor
     v["eta_z1_2"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu_zm"])
     v["eta_z2_1"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu_zm"])
-    _powers(given, v)
     return v
 
 
@@ -96,7 +115,12 @@ def _powers(given: Inputs, v: Values) -> None:
     mesh = given.output_torque, given.worm_speed, given.gear_ratio
     v["output_power_W"] = losses.output_power(*mesh)
     v["loss_meshing_W"] = losses.meshing_loss(*mesh, v["eta_z1_2"])
+    housing = given.operation.housing
     v["loss_idle_W"] = losses.idle_loss(given.centre_distance, given.worm_speed)
+    if housing is not None and housing.idle_loss is not None:
+        v["loss_idle_W"] = balance.measured_idle_loss(
+            housing.idle_loss, given.measured_at, given.worm_speed
+        )
     v["loss_bearing_W"] = losses.bearing_loss(
         v["output_power_W"],
         given.centre_distance,
@@ -107,6 +131,10 @@ def _powers(given: Inputs, v: Values) -> None:
     v["loss_seal_W"] = losses.seal_loss(
         given.worm_pitch_diameter, given.worm_speed, given.operation.seals
     )
+    if housing is not None and housing.seal_loss is not None:
+        v["loss_seal_W"] = balance.measured_seal_loss(
+            housing.seal_loss, given.measured_at, given.worm_speed
+        )
     others = v["loss_idle_W"] + v["loss_bearing_W"] + v["loss_seal_W"]
     v["loss_total_W"] = v["loss_meshing_W"] + others
     v["input_power_W"] = v["output_power_W"] + v["loss_total_W"]
@@ -156,15 +184,17 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
     _forces(given, v, rated)
     parts, friction_of_bending = parts_of(given, v), v["mu_zm"]
     if parts:
-        _over_the_parts(parts, v)
+        _over_the_parts(given, parts, v)
         friction_of_bending = given.most_of_hardest([own["mu_zm"] for own in parts])
     else:
-        _temperatures(given, v)
-        _wear(given, v)
+        temperatures(given, v)
+        wear_of(given, v)
     _pitting(given, v)
     _deflection(given, v, friction_of_bending)
     _root(given, v)
     hottest = v.get("theta_S_max_degC", v["theta_S_degC"])
+    if given.operation.housing is not None:
+        hottest = housing_of(given, v)
     v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], hottest)
     return v
 
@@ -179,34 +209,82 @@ def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
     v : Values
         ``p_m_star`` and ``E_red_MPa``, which are those of all parts.
     """
-    found = []
-    for part in given.parted():
-        own = rated_efficiency(part)
+    if not given.together:
+        return _parts_of(given, v)
+    outer = current_mask()
+    if outer is None:
+        return _parts_of(given, v)
+    with masking((len(given.duty),)) as own:
+        found = _parts_of(given, v)
+    for sentence in own.legend.values():
+        outer.refuse(True, sentence)
+    return found
+
+
+def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
+    parted = given.parted()
+    spectrum = given.operation.spectrum
+    if spectrum is not None and spectrum.oil_temperature == "mean" and len(given.duty) > 1:
+        hours = given.total(part.life for part in parted)
+        sumps = (part.life * sump_of(part) for part in parted)
+        mean = given.total(sumps) / hours
+        parted = tuple(dataclasses.replace(part, sump=mean) for part in parted)
+    found: list[Values] = []
+    # A film and a friction that were found at the same speed are those of the part too.
+    known = [(given.worm_speed, v)] if "mu_zm" in v else []
+    for part in parted:
+        same = (teeth for speed, teeth in known if _equal(speed, part.worm_speed))
+        own = rated_efficiency(part, next(same, None))
+        known.append((part.worm_speed, own))
+        if np.any(part.load_drives):
+            _let_down(part, own)
         own |= {key: v[key] for key in ("p_m_star", "E_red_MPa")}
         own["part_hours"] = part.life
-        _temperatures(part, own)
-        _wear(part, own)
+        temperatures(part, own)
+        wear_of(part, own)
         found.append(own)
     return tuple(found)
 
 
-def _over_the_parts(parts: tuple[Values, ...], v: Values) -> None:
+def _equal(one: Real, other: Real) -> bool:
+    """Whether two speeds are the same number, or the very same array or cell."""
+    return one is other or (isinstance(one, float) and isinstance(other, float) and one == other)
+
+
+def _let_down(part: Inputs, own: Values) -> None:
+    """Put the losses of a load that drives in the place of those of the worm."""
+    forward = own["loss_meshing_W"]
+    back = own["loss_meshing_back_W"]
+    if np.ndim(part.load_drives):
+        back = np.where(part.load_drives, back, forward)
+    own["loss_meshing_W"] = back
+    own["loss_total_W"] = own["loss_total_W"] - forward + back
+
+
+def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None:
     """Add up the wear of a duty cycle and find its hottest part.
 
     Depths worn off add up, each by torque, speed and temperature of its part; what leads to them is
     told of the part that wears most. Each part lasts long enough for the sump to settle.
     """
-    for place, own in enumerate(parts, 1):
-        v |= {f"part_{place}.{key}": value for key, value in own.items()}
-    most = _place_of_most([own["delta_Wn_mm"] for own in parts])
-    for key in _OF_WEAR:
-        v[key] = _chosen(most, [own[key] for own in parts])
-    v["delta_Wn_mm"] = functools.reduce(operator.add, [own["delta_Wn_mm"] for own in parts])
+    if given.together:
+        worst = int(np.nanargmax(np.append(parts[0]["delta_Wn_mm"], -1.0)))
+        place = min(worst, len(given.duty) - 1)
+        for key in _OF_WEAR:
+            v[key] = float(np.broadcast_to(parts[0][key], (len(given.duty),))[place])
+    else:
+        for place, own in enumerate(parts, 1):
+            v |= {f"part_{place}.{key}": value for key, value in own.items()}
+        most = _place_of_most([own["delta_Wn_mm"] for own in parts])
+        for key in _OF_WEAR:
+            v[key] = _chosen(most, [own[key] for own in parts])
+    v["delta_Wn_mm"] = given.total(own["delta_Wn_mm"] for own in parts)
     v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
-    v["theta_S_max_degC"] = functools.reduce(np.maximum, [own["theta_S_degC"] for own in parts])
-    hours = functools.reduce(operator.add, [own["part_hours"] for own in parts])
+    v["theta_S_max_degC"] = given.greatest(own["theta_S_degC"] for own in parts)
+    hours = given.total(own["part_hours"] for own in parts)
     heat = (own["part_hours"] * own["loss_total_W"] for own in parts)
-    v["loss_mean_W"] = functools.reduce(operator.add, heat) / hours
+    v["loss_mean_W"] = given.total(heat) / hours
+    v["loss_max_W"] = given.greatest(own["loss_total_W"] for own in parts)
 
 
 def _place_of_most(depths: list[Real]) -> Any:
@@ -223,86 +301,6 @@ def _forces(given: Inputs, v: Values, torque: Real) -> None:
     mesh = given.lead_angle, v["mu_zm"]
     v["F_tm1_N"] = forces.worm_tangential_force(v["F_tm2_N"], *mesh)
     v["F_rm_N"] = forces.separating_force(v["F_tm1_N"], given.pressure_angle, *mesh)
-
-
-def _temperatures(given: Inputs, v: Values) -> None:
-    operation, lubricant = given.operation, given.operation.lubricant
-    v["theta_S_degC"] = given.oil_temperature
-    if given.oil_temperature is None:
-        v["theta_S_degC"] = thermal.sump_temperature(
-            given.output_torque,
-            given.worm_speed,
-            given.gear_ratio,
-            given.centre_distance,
-            lubricant.viscosity_40 * _MM2,
-            given.ambient_temperature,
-            base_oil=lubricant.base_oil,
-            fan=operation.fan,
-        )
-    v["theta_S_lim_degC"] = given.sump_limit
-    v["alpha_L_W_m2K"] = thermal.heat_transfer_coefficient(
-        given.worm_speed, immersed=operation.immersed
-    )
-    v["A_R_m2"] = thermal.cooling_area(given.rim_width, given.wheel_mean_diameter)
-    v["theta_M_degC"] = thermal.bulk_temperature(
-        v["theta_S_degC"],
-        v["loss_meshing_W"],
-        v["alpha_L_W_m2K"],
-        v["A_R_m2"],
-    )
-    v["nu_M_mm2_s"] = oil.kinematic_viscosity(
-        v["theta_M_degC"],
-        lubricant.viscosity_40 * _MM2,
-        lubricant.viscosity_100 * _MM2,
-    )
-    v["rho_M_kg_m3"] = oil.density(
-        v["theta_M_degC"], given.density_15, lubricant.base.density_coefficient
-    )
-    v["eta_0M_Pas"] = v["nu_M_mm2_s"] * v["rho_M_kg_m3"] / _MM2
-
-
-def _wear(given: Inputs, v: Values) -> None:
-    wheel, lubricant = given.gearset.wheel_material, given.operation.lubricant
-    torque = given.operation.application_factor * given.through_travel_torque
-    v["sigma_Hm_wear_MPa"] = contact.contact_stress(
-        v["p_m_star"], torque, v["E_red_MPa"], given.centre_distance
-    )
-    v["h_min_um"] = film.film_thickness(
-        v["h_star"],
-        lubricant.base.pressure_viscosity,
-        v["eta_0M_Pas"],
-        given.worm_speed,
-        given.centre_distance,
-        v["E_red_MPa"],
-        torque,
-    )
-    family, base_oil = wheel.family, lubricant.base_oil
-    v["W_S"] = wear.lubricant_structure_factor(v["eta_0M_Pas"], family=family, base_oil=base_oil)
-    v["W_H"] = wear.pressure_factor(v["sigma_Hm_wear_MPa"], family=family)
-    v["K_W_um"] = wear.wear_parameter(v["h_min_um"], v["W_S"], v["W_H"])
-    v["J_0T"] = wear.reference_wear_intensity(
-        v["K_W_um"],
-        lubrication=given.operation.lubrication,
-        family=family,
-        base_oil=base_oil,
-    )
-    v["W_NS"] = wear.start_factor(given.operation.starts_per_hour)
-    v["W_ML"] = wheel.wear_factor.get(lubricant.base_oil, 1.0)
-    v["J_W"] = wear.wear_intensity(v["J_0T"], v["W_NS"], v["W_ML"])
-    v["s_star"] = contact.path_parameter(
-        given.gear_ratio, given.lead_angle, flank=given.gearset.flank
-    )
-    v["N_L"] = contact.load_cycles(given.life, given.worm_speed, given.gear_ratio)
-    v["s_Wm_mm"] = contact.sliding_path(
-        v["s_star"],
-        v["sigma_Hm_wear_MPa"],
-        given.centre_distance,
-        v["E_red_MPa"],
-        v["N_L"],
-    )
-    v["delta_Wn_mm"] = wear.flank_wear(v["J_W"], v["s_Wm_mm"])
-    v["delta_Wlim_mm"] = wear.wear_limit(given.axial_module, given.lead_angle)
-    v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
 
 
 def _pitting(given: Inputs, v: Values) -> None:
@@ -326,7 +324,7 @@ def _pitting(given: Inputs, v: Values) -> None:
 
 def _pitting_life(given: Inputs, v: Values) -> None:
     """Find the life factor; of a duty cycle by the damage of its parts, which is our own rule."""
-    duty = given.duty
+    duty = given.loads
     if not duty:
         v["Z_h"] = pitting.pitting_life_factor(given.life)
         return
@@ -342,8 +340,8 @@ def _pitting_life(given: Inputs, v: Values) -> None:
         for part in duty
     ]
     damage = (part.hours / relief**6 for part, relief in zip(duty, reliefs, strict=True))
-    v["L_He_h"] = functools.reduce(operator.add, damage)
-    v["relief"] = functools.reduce(np.minimum, reliefs)
+    v["L_He_h"] = given.total(damage)
+    v["relief"] = given.least(reliefs)
     v["Z_h"] = pitting.pitting_life_factor_of_parts(v["L_He_h"], v["relief"])
 
 

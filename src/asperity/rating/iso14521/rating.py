@@ -1,13 +1,16 @@
 """A rating by ISO/TR 14521: its numbers with their equations, sources, limits and notes."""
 
 import math
+from collections.abc import Iterator
 
 from asperity.formulas import masking
 from asperity.gearset import oil
 from asperity.gearset.library import GIVEN
 from asperity.rating.demands import failures
 from asperity.rating.entries import entries
+from asperity.rating.housing import Housing
 from asperity.rating.inputs import Inputs, Values
+from asperity.rating.iso14521 import balance
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.iso14521.limits import implausible, violations
 from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
@@ -44,11 +47,11 @@ _HOTTEST_GIVEN = 100.0
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     found: dict[str, None] = {}
-    for part in given.parted() or (given,):
+    for speed in given.speeds:
         sentences = violations(
             centre_distance=given.centre_distance,
             profile_shift=given.profile_shift,
-            worm_speed=part.worm_speed,
+            worm_speed=speed,
             ratio=given.gear_ratio,
             geometry_factor=values["Y_G"] if given.friction is None else None,
             sump_by_formula=given.oil_temperature is None,
@@ -89,10 +92,11 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             f"the wheel's bulk temperature is {values['theta_M_degC']:.0f} degC: the oil's "
             "viscosity is extrapolated beyond the 100 degC it is given at"
         )
+    notes += _of_heat(given, values)
     if given.duty:
         notes.append(
-            "the duty cycle: wear adds up over its parts, each with the sump at rest at its own "
-            "temperature, and film and wear factors are those of the part that wears most; pitting "
+            f"the duty cycle: wear adds up over its parts, {_SUMPS[_oil(given)]}, "
+            "and film and wear factors are those of the part that wears most; pitting "
             "goes by its parts' damage, with the exponent of Z_h (our own rule); deflection and "
             "root go by the rated torque, the friction there by the speed of the part with the "
             "greatest torque"
@@ -102,6 +106,11 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
                 "operation.through_travel_torque does not count beside operation.duty_cycle, whose "
                 "parts tell what is carried"
             )
+        if given.operation.spectrum is not None and given.operation.model_fields_set & _LIVES:
+            notes.append(
+                "operation.life and operation.wheel_revolutions do not count beside [spectrum], "
+                "whose steps are the whole life"
+            )
     elif given.oil_temperature is None and given.through_travel_torque < given.output_torque:
         notes.append(
             "the oil is as hot as under the rated torque all the time; wear goes by the "
@@ -109,6 +118,39 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             "cooler"
         )
     return tuple(notes)
+
+
+_MOST_BEYOND = 30.0  # W/(m2 K)
+
+
+def _of_heat(given: Inputs, values: Values) -> Iterator[str]:
+    """Say where the sump's temperature by the standard and the heat balance contradict."""
+    housing, spectrum = given.operation.housing, given.operation.spectrum
+    if housing is None:
+        return
+    if values.get("k_S_W_m2K", 0.0) > _MOST_BEYOND:
+        yield (
+            f"heat: the sump's formula of ISO/TR 14521, which knows no losses, would have the "
+            f"housing give off {values['k_S_W_m2K']:.0f} W/(m2 K); more than {_MOST_BEYOND:g} "
+            "takes blown air: wear and film go by that formula, temperature by the balance"
+        )
+    if housing.capacity is None and spectrum is not None and spectrum.how.kind != "S1":
+        yield (
+            f"heat: spectrum.duty is {spectrum.duty!r}, but housing.heat_capacity is missing, so "
+            "that the housing is taken to be as warm as it gets all the time"
+        )
+
+
+_SUMPS = {
+    "each": "each with the sump at rest at its own temperature",
+    "mean": "all with the oil at the mean temperature of its parts, weighted by their hours",
+}
+_LIVES = {"life", "wheel_revolutions"}
+
+
+def _oil(given: Inputs) -> str:
+    spectrum = given.operation.spectrum
+    return "each" if spectrum is None else spectrum.oil_temperature
 
 
 def _equations(given: Inputs) -> dict[str, str]:
@@ -163,9 +205,33 @@ def _equations(given: Inputs) -> dict[str, str]:
             "Z_h": "min((25000/L_He)^(1/6), 1.6 k_r)",
             "safety_temperature": "theta_Slim/theta_Smax",
         }
+    if operation.housing is not None:
+        by_case |= _of_housing(operation.housing, given)
     if options.friction is not None:
         by_case["mu_zm"] = f"k_mu {options.friction:g}"
     return by_case
+
+
+def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
+    """Return the equations of a housing's heat, by key."""
+    how = "S1" if given.operation.spectrum is None else given.operation.spectrum.how.kind
+    timed = housing.capacity is not None and how != "S1"
+    equations = {"safety_temperature": "theta_Slim/theta_h"}
+    if timed:
+        equations["theta_h_degC"] = "theta_0 + dtheta_t"
+        formula = balance.rise_in_cycles if how == "S3" else balance.rise_after
+        equations["rise_top_K"] = formula.equation
+    if housing.area is not None:
+        equations["A_h_m2"] = "input"
+    if not given.duty:
+        equations["loss_heating_W"] = "P_V"
+    elif _oil(given) == "mean":
+        equations["loss_heating_W"] = "P_Vm"
+    if housing.idle_loss is not None:
+        equations["loss_idle_W"] = balance.measured_idle_loss.equation
+    if housing.seal_loss is not None:
+        equations["loss_seal_W"] = balance.measured_seal_loss.equation
+    return equations
 
 
 def _sources(given: Inputs) -> dict[str, Source]:
@@ -178,6 +244,10 @@ def _sources(given: Inputs) -> dict[str, Source]:
         "mu_zm": given.friction,
         "theta_S_degC": given.oil_temperature,
     }
+    housing = operation.housing
+    if housing is not None:
+        own = {"A_h_m2": "area", "loss_idle_W": "idle_loss", "loss_seal_W": "seal_loss"}
+        in_place |= {key: getattr(housing, name) for key, name in own.items()}
     return {
         "mu_0T": friction_constants(*law).source,
         "Y_W": wheel.source("material_factor"),

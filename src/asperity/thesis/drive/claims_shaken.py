@@ -1,16 +1,57 @@
 """Claims 7.2, 7.3, 7.7, 7.10, 7.15 and 7.17: the gearset marched under vibration."""
 
+import math
+
 import numpy as np
 
+from asperity.drive.point import MeshPoint
 from asperity.slider.closed_forms import transverse_ratio
+from asperity.thesis.drive.claims import FRICTION, assumed, geometry
 from asperity.thesis.drive.figures import floor, system_efficiencies
 from asperity.thesis.drive.marches import Shaken
-from asperity.thesis.drive.sets import LOAD, RATIOS, SHAKEN, UNSHAKEN
-from asperity.thesis.drive.simulations import ACTUATOR, BASE, Simulation, meshes, of_set
+from asperity.thesis.drive.sets import (
+    AMPLITUDE,
+    FREQUENCY,
+    LOAD,
+    RATIO,
+    RATIOS,
+    SHAKEN,
+    SPEED,
+    UNSHAKEN,
+    conditions,
+)
+from asperity.thesis.drive.simulations import (
+    ACTUATOR,
+    BASE,
+    TRIED,
+    Simulation,
+    meshes,
+    of_set,
+    on_mesh,
+)
 from asperity.thesis.exhibits import claim
-from asperity.thesis.products import Finding
+from asperity.thesis.products import NOT_TESTABLE, Finding
+from asperity.thesis.rating.rated import GEARSET_2, GEARSET_3
 
 _MESHES = ("coarse", "intermediate")
+_NEAR = 0.03
+"""Of a torque that is reconstructed."""
+
+
+_TURNS = 24.0
+"""Of the worm in set 3, 1/s."""
+_FIRST = 50
+"""Cycles."""
+_APART = 0.1
+_CLEAR = 0.03
+"""A difference of two ratios that a figure would show clearly."""
+_TRIED = TRIED
+
+
+def _parted(runs: "list[Shaken]") -> str:
+    """Say how long contact is lost at most."""
+    most = max(one.open for one in runs)
+    return f"part for up to {most:.0%} of the time" if most > 0.0 else "never part"
 
 
 def _state(one: Shaken) -> str:
@@ -21,18 +62,30 @@ def _state(one: Shaken) -> str:
 def _static() -> Finding:
     teeth = meshes()[0]
     found = teeth.loaded()
+    pair = geometry()
+    rated = GEARSET_3.number("iso14521", "eta_z1_2")
+    reference = 0.5 * pair.diameter_factor * pair.axial_module
+    plain = MeshPoint.of(pair, 1e-3 * reference).worm_torque(LOAD, FRICTION)
+    by_standard = LOAD / (RATIO * rated)
     return Finding.judged(
         {
-            "33.8 N m within 1 %": abs(found.torque / UNSHAKEN - 1.0) < 0.01,
-            "72 % within a point": abs(found.efficiency - 0.72) < 0.01,
+            f"33.8 N m within {_NEAR:.0%}": abs(found.torque / UNSHAKEN - 1.0) < _NEAR,
+            "“Simulated efficiency differs against theoretical by only 1%”": abs(
+                found.efficiency - rated
+            )
+            < 0.015,
         },
-        f"{found.torque:.2f} N m, {found.efficiency:.1%}",
-        "Elastic teeth on exact flanks, friction of 0.1344; without friction "
-        f"{found.frictionless:.2f} N m. They touch outside the worm's reference circle, at "
-        f"{1e3 * found.radius:.2f} mm for 9.05 mm, since the wheel is cut by a larger hob: "
-        "friction has the longer lever and the sliding is faster, "
-        f"{1e3 * found.sliding_speed:.0f} mm/s for 1511. At the reference circle it would be 34.05 "
-        "N m, by the standard, whose friction angle leaves the pressure angle out, 33.4 N m.",
+        f"{found.torque:.2f} N m, {found.efficiency:.1%} for {rated:.1%} by the standard",
+        "The torque is met as nearly as a reconstruction can be asked to; the efficiency of our "
+        f"elastic teeth is {100.0 * (rated - found.efficiency):.1f} points below the standard's, "
+        "since they touch outside the worm's reference circle, at "
+        f"{1e3 * found.radius:.2f} mm for {reference:.2f} mm. That hangs on "
+        "the hob: friction has the longer lever there and the sliding is faster, "
+        f"{1e3 * found.sliding_speed:.0f} mm/s for {1e3 * SPEED:.0f}. At one point of the "
+        f"reference "
+        f"circle it would be {plain:.2f} N m, by the standard, whose friction angle leaves the "
+        f"pressure angle out, {by_standard:.1f} N m; without friction {found.frictionless:.2f} N "
+        f"m.",
         {
             "torque_Nm": found.torque,
             "efficiency": found.efficiency,
@@ -40,8 +93,12 @@ def _static() -> Finding:
             "torque_reversed_Nm": found.turned_round,
             "deflection_urad": 1e6 * found.deflection,
             "radius_mm": 1e3 * found.radius,
+            "efficiency_by_ISO_TR_14521": rated,
+            "torque_at_reference_circle_Nm": plain,
         },
-        [teeth],
+        [teeth, GEARSET_3],
+        assumed=f"Friction of {FRICTION:g} on exact flanks; the hob, which is borrowed; the "
+        "yardsticks.",
     )
 
 
@@ -53,29 +110,37 @@ def _densities() -> Finding:
     deflections = np.array([one.deflection for one in found])
     errors = np.array([one.error for one in found])
     pressures = np.array([one.pressure for one in found])
+    runs = [on_mesh(name) for name in _MESHES]
+    ratios = np.array([[run.shaken().ratio for run in group] for group in runs])
+    apart = float(np.ptp(ratios, axis=0).max())
     return Finding.judged(
         {
-            "the coarse mesh is off by 1 % of the torque": abs(torques[0] / torques[1] - 1.0)
-            >= 0.01,
+            "coarse and intermediate differ in the ratio under vibration": apart >= _CLEAR,
         },
-        " / ".join(f"{torque:.3f}" for torque in torques)
-        + f" N m with {' / '.join(str(one.nodes) for one in found)} nodes a flank",
-        "The exact flank is the same on every mesh, so that torque and deflection ("
-        + ", ".join(f"{1e6 * d:.0f}" for d in deflections)
-        + " urad with the shaft's twist) come out alike on the coarse and the intermediate one, "
-        "and the transmission error nearly ("
-        + ", ".join(f"{1e6 * e:.0f}" for e in errors)
-        + " urad). What does not is the pressure at nodes, "
-        + ", ".join(f"{1e-9 * p:.1f}" for p in pressures)
-        + " GPa: contact is narrower than the elements. The thesis compares ratios under "
-        "vibration, on faceted flanks; those go by how far the teeth deflect (figure 7.12), which "
-        "is as little of the mesh. The fine one takes ten minutes to condense and is left out.",
+        "ratio under vibration on the coarse and the intermediate mesh apart by "
+        f"{apart:.3f} at most, at k_w of {', '.join(f'{k:g}' for k in _TRIED)}",
+        "The element sizes of Table 7.4 and the faceted flanks that were meshed are lost. On exact "
+        "flanks, which are the same on every mesh, nothing of the torque under vibration hangs on "
+        "the density: those ratios go by how far the teeth deflect, and that is "
+        + " and ".join(f"{1e6 * d:.0f}" for d in deflections)
+        + " urad with the shaft's twist on the coarse and the intermediate mesh; static torques "
+        + " and ".join(f"{torque:.3f}" for torque in torques)
+        + " N m, transmission errors "
+        + " and ".join(f"{1e6 * e:.0f}" for e in errors)
+        + f" urad with {' and '.join(str(one.nodes) for one in found)} nodes a flank. What does is "
+        "the pressure at nodes, "
+        + " and ".join(f"{1e-9 * p:.1f}" for p in pressures)
+        + " GPa: contact is narrower than the elements. The fine mesh is dear and not tried here; "
+        "docs, Loaded teeth, has it.",
         {f"torque_{name}_Nm": t for name, t in zip(_MESHES, torques.tolist(), strict=True)}
         | {
             f"deflection_{name}_urad": 1e6 * d
             for name, d in zip(_MESHES, deflections.tolist(), strict=True)
-        },
-        teeth,
+        }
+        | {"ratio_apart": apart},
+        [*teeth, *(run for group in runs for run in group)],
+        verdict=NOT_TESTABLE,
+        assumed=assumed(),
     )
 
 
@@ -87,18 +152,26 @@ def _ratio() -> Finding:
     so_far = np.cumsum(found.cycle_torque) / cycles / found.static
     wheel = np.cumsum(found.cycle_wheel) / cycles / LOAD
     thesis = SHAKEN / UNSHAKEN
-    early = slice(2, 50)
+    early = slice(2, _FIRST)
+    single = found.cycle_torque / found.static
     passes = bool(so_far[early].min() <= thesis <= so_far[early].max())
     return Finding.judged(
         {
-            "a mean over the first cycles can be 0.22": passes,
-            "at the end, the wheel in balance": abs(found.ratio - thesis) < 0.03,
+            "a mean of the first cycles can be that": passes,
+            "“T_Bv = 7.4 Nm in Figure 7.10”, the wheel in balance": abs(found.ratio - thesis)
+            < 0.03,
         },
         f"{found.ratio:.2f} ({_state(found)}, wheel balanced to {abs(found.balance):.1%}); the "
         f"first three cycles {found.window:.2f}, the wheel's torque {1 + found.window_balance:.1f} "
         "times its load",
-        "The mean so far goes from "
-        f"{so_far[early].max():.2f} to {so_far[early].min():.2f} within the first fifty cycles, "
+        "By (143) the thesis takes the mean of one cycle, of which there is no one number: means "
+        "of "
+        f"single cycles lie between {single[:_FIRST].min():.2f} and {single[:_FIRST].max():.2f} of "
+        f"T_Bs among the first {_FIRST}, and between {single[-_FIRST:].min():.2f} and "
+        f"{single[-_FIRST:].max():.2f} among the last that are kept, since the worm swings on its "
+        "shaft over many cycles of the vibration. "
+        f"{thesis:.2f} lies among them, and is no state in balance: the mean so far goes from "
+        f"{so_far[early].max():.2f} to {so_far[early].min():.2f} within the first {_FIRST} cycles, "
         f"where the wheel has between {wheel[early].min():.2f} and {wheel[early].max():.2f} times "
         "the torque of its load. In balance with one flank bearing no ratio is below "
         f"{floor():.2f}. Contact is lost for {found.open:.0%} of the time, and forces reach "
@@ -112,8 +185,11 @@ def _ratio() -> Finding:
             "least_mean_so_far": float(so_far[early].min()),
             "open_share": found.open,
             "greatest_force_kN": 1e-3 * found.force,
+            "least_of_one_cycle": float(single.min()),
+            "most_of_one_cycle": float(single.max()),
         },
         [last],
+        assumed=assumed(),
     )
 
 
@@ -123,23 +199,29 @@ def _efficiency() -> Finding:
     found = [run.shaken() for run in runs]
     efficiency = system_efficiencies(found)
     shaken = [one.actuator for one in found]
-    low, high = (LOAD * 10.053 / share - SHAKEN * 150.796 for share in (0.13, 0.09))
+    turn = 2.0 * math.pi * _TURNS
+    # As the least torque, at high k_w, leaves most of it to the sonotrode and the greatest least.
+    low = LOAD * turn / RATIO / 0.13 - UNSHAKEN * turn
+    high = LOAD * turn / RATIO / 0.09 - SHAKEN * turn
     return Finding.judged(
         {
-            "9 to 13 % all over": bool(np.all((efficiency > 0.085) & (efficiency < 0.135))),
+            "“an efficiency η_sys under vibration of just 9 to 13%”": bool(
+                np.all((efficiency > 0.085) & (efficiency < 0.135))
+            ),
             "below that without vibration wherever friction falls": bool(
                 np.all(efficiency[2:] < efficiency[0])
             ),
         },
         f"{efficiency.min():.1%} to {efficiency.max():.1%}",
-        "Mechanical power of the actuator from the ledger of each run, taken at its resonance with "
-        "a quality of 500 and an amplifier of 0.9: "
+        "That the system's efficiency falls by much holds; how far is another number, from the "
+        "mechanical power that the actuator gives in the ledger of each run: "
         + ", ".join(f"{1e-3 * p:.3g} kW at {k:g}" for k, p in zip(RATIOS, shaken, strict=False))
-        + f". The thesis takes a hundred times the sonotrode's power in every run; its {9} to "
-        f"{13} % are {1e-3 * low:.0f} to {1e-3 * high:.0f} kW. Its amplitude is the cause: 0.16 mm "
-        "hammers the teeth. Figure 7.15.",
+        + ". The thesis takes a hundred times what its sonotrode took; with its torques those "
+        f"efficiencies are {1e-3 * low:.0f} to {1e-3 * high:.0f} kW. Its amplitude is the cause: "
+        f"{1e3 * AMPLITUDE:g} mm hammers the teeth.",
         {f"efficiency_at_k_w_{k:g}": float(e) for k, e in zip(RATIOS, efficiency, strict=False)},
         runs,
+        assumed=f"The actuator at its resonance: {', '.join(ACTUATOR)}. {assumed()}",
     )
 
 
@@ -149,16 +231,18 @@ def _slow() -> Finding:
     first, second = ([run.shaken() for run in runs[number]] for number in (1, 2))
     apart = [abs(a.ratio - b.ratio) for a, b in zip(first, second, strict=True)]
     worst = int(np.argmax(apart))
+    amplitudes = [1e6 * conditions(number)[0].amplitude for number in (1, 2)]
     return Finding.judged(
-        {"within 0.03 at every k_w": max(apart) < 0.03},
+        {"“Both sets of simulations produced the same normalised plots”": max(apart) < _CLEAR},
         f"apart by up to {max(apart):.2f}, at k_w = {RATIOS[worst]:g}: {first[worst].ratio:.2f} "
         f"({_state(first[worst])}, balanced to {abs(first[worst].balance):.1%}) and "
         f"{second[worst].ratio:.2f} ({_state(second[worst])}, to "
         f"{abs(second[worst].balance):.1%})",
-        f"59 mm/s at 750 Hz are {12.5:g} um, and the teeth stay in contact, lost for at most "
-        f"{max(one.open for one in first):.0%} of the time; {18.5:g} um lift them, for up to "
-        f"{max(one.open for one in second):.0%}. "
-        f"{sum(one.settled for one in (*first, *second))} of 22 runs are settled.",
+        f"At {FREQUENCY:g} Hz the two peak velocities are {amplitudes[0]:.1f} and "
+        f"{amplitudes[1]:.1f} um: with the smaller the teeth "
+        f"{_parted(first)}, with the larger they {_parted(second)}. "
+        f"{sum(one.settled for one in (*first, *second))} of {len(first) + len(second)} runs are "
+        "settled.",
         {
             "largest_difference": float(max(apart)),
             "ratio_set_1_at_20": first[-1].ratio,
@@ -166,6 +250,7 @@ def _slow() -> Finding:
             "settled_runs": float(sum(one.settled for one in (*first, *second))),
         },
         [*runs[1], *runs[2]],
+        assumed=f"The yardstick, {_CLEAR:g}. {assumed()}",
     )
 
 
@@ -180,22 +265,23 @@ def _discs() -> Finding:
     across = np.asarray(transverse_ratio(k))
     apart = np.abs(ratio - across)
     near = k <= 3.0
-    far = k[(apart > 0.1)]
+    far = k[(apart > _APART)]
     return Finding.judged(
         {
-            "within 0.1 up to k_w = 3": bool(np.all(apart[near] < 0.1)),
-            "not beyond": bool(np.all(apart[~near] >= 0.1)),
+            "near rigid friction up to k_w = 3": bool(np.all(apart[near] < _APART)),
         },
-        f"within 0.1 up to k_w = {k[: int(np.argmax(apart > 0.1))].max():g}, apart by "
-        f"{apart[near].max():.2f} at most up to 3 and {apart[~near].max():.2f} beyond",
-        "The curve of the disc tests is lost; in its place stands rigid friction under vibration "
-        "across the sliding. That both fall alike at first says little: axial vibration of this "
-        "worm is mostly along the normal, and its flanks leave each other from k_w = 1 on "
-        f"(apart by more than 0.1 from k_w = {far.min():g}). {sum(one.settled for one in found)} "
+        f"near rigid friction up to k_w = {k[: int(np.argmax(apart > _APART))].max():g}, apart by "
+        f"{apart[near].max():.2f} at most up to k_w = 3 and {apart[~near].max():.2f} beyond",
+        "Both curves of the figure are lost, that of the gear and that of the disc tests. In their "
+        "place stand our march and rigid friction under vibration across the sliding, apart by "
+        f"more than {_APART:g} from k_w = {far.min():g} on: axial vibration of this worm is mostly "
+        f"along the normal, and its flanks leave each other. {sum(one.settled for one in found)} "
         f"of {len(found)} runs are settled; the wheel is balanced to "
         f"{max(abs(one.balance) for one in found):.1%}.",
         {f"apart_at_k_w_{one:g}": float(d) for one, d in zip(k, apart, strict=True)},
         [*runs, "asperity.slider.closed_forms.transverse_ratio"],
+        verdict=NOT_TESTABLE,
+        assumed=assumed(),
     )
 
 
@@ -210,6 +296,9 @@ LOCKING = (
 """Gearset 2 shaken as a screw; the deflection of its teeth is assumed, a third of gearset 3's."""
 
 
+_CREEPING = 5.0  # um
+
+
 @claim("7.17", "8.1", "Self-locking is kept where vibration is on only on demand.", "yes")
 def _locking() -> Finding:
     from asperity.thesis.drive.marches import holding
@@ -220,7 +309,11 @@ def _locking() -> Finding:
     )
     creeping = Simulation(
         "gearset-2",
-        (*LOCKING, "drive.protocol=back-drive", "vibration.displacement_amplitude=5 um"),
+        (
+            *LOCKING,
+            "drive.protocol=back-drive",
+            f"vibration.displacement_amplitude={_CREEPING:g} um",
+        ),
     )
     other = Simulation(
         BASE,
@@ -232,18 +325,26 @@ def _locking() -> Finding:
     _, held = holding(on_demand.case, on_demand.settings)
     creep, _ = holding(creeping.case, creeping.settings)
     _, never = holding(other.case, other.settings)
+    lead, angle = math.degrees(geometry().lead_angle), math.degrees(math.atan(FRICTION))
+    backs = [GEARSET_2.number(standard, "eta_back") for standard in ("bs721", "agma6034")]
     return Finding.judged(
         {
-            "gearset 2 holds once vibration and motor are off": held is True,
-            "gearset 3 does": never is True,
+            "a gearset that locks itself holds once vibration and motor are off": held is True,
         },
-        f"gearset 2 {'holds' if held else 'does not hold'} after; under vibration, 5 um, its wheel "
-        f"creeps back at {abs(creep or 0.0):.2g} rad/s; gearset 3 "
-        f"{'holds' if never else 'does not hold'}",
-        "It is kept where there is any: gearset 3, with a lead angle of 25 deg against a friction "
-        "angle of 8 deg, never locks itself. With the motor off and the vibration on, a gearset "
+        f"gearset 2 {'holds' if held else 'does not hold'} after; under vibration, "
+        f"{_CREEPING:g} um, its wheel creeps back at {abs(creep or 0.0):.2g} rad/s",
+        "The capability that 2.1.5 describes is that of gearsets that lock themselves, and of "
+        "gearset 2 it is kept. "
+        f"By ISO/TR 14521 it locks in motion; by BS 721 and AGMA 6034, whose friction is lower, "
+        f"the "
+        f"wheel would drive the worm at {backs[0]:.0%} and {backs[1]:.0%}. Gearset 3, with a lead "
+        f"angle of {lead:.0f} deg against a friction angle of {angle:.0f} deg, has none to keep, "
+        f"and {'holds' if never else 'does not hold'} after. With the motor off and the "
+        f"vibration on, a gearset "
         "that locks itself gives way, in steps that add up: the motor or a brake must hold it "
         "until the vibration has ended.",
         {"creep_under_vibration_rad_s": abs(creep or 0.0), "held_after": float(bool(held))},
         [on_demand, creeping, other],
+        assumed="Shaken as a screw; inertias, damping, backlash and deflection of the teeth: "
+        + ", ".join(LOCKING),
     )

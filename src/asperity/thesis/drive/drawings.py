@@ -36,6 +36,25 @@ def _not_settled(axes: "Axes", k: Any, values: Any, settled: Any, label: str | N
 def ratios(dataset: "xr.Dataset") -> "Figure":
     """Draw both readings of the ratio over k_w above, how the wheel is balanced below."""
     figure, (upper, lower) = panels(2, height=7.2)
+    _ratios(upper, lower, dataset)
+    return figure
+
+
+def laws(dataset: "xr.Dataset") -> "Figure":
+    """Draw both readings, the balance, and the friction that three laws give."""
+    figure, (upper, lower, last) = panels(3, height=9.6)
+    _ratios(upper, lower, dataset)
+    for index, name in enumerate(dataset["law"].values):
+        own = dataset["friction"].sel(law=name)
+        line(last, index, dataset["k"], own, linewidth=0.8)
+        marks(last, index, dataset["k"], own, str(name), filled=index == 0)
+    _over_k(last, r"mean friction over $\mu N$")
+    limit(last, 0.0, 1.0)
+    legend(last, loc="lower left")
+    return figure
+
+
+def _ratios(upper: "Axes", lower: "Axes", dataset: "xr.Dataset") -> None:
     k = dataset["k"]
     for index, name in enumerate(dataset["series"].values):
         own = dataset.sel(series=name)
@@ -58,9 +77,17 @@ def ratios(dataset: "xr.Dataset") -> "Figure":
     legend_above(upper, 2)
     _over_k(lower, "wheel's torque over its load, less 1")
     lower.set_yscale("symlog", linthresh=0.1)
+    lower.axhspan(-0.1, 0.1, color=_GREY, alpha=0.5, zorder=0, label="even scale within")
     lower.margins(y=0.1)
     limit(lower, 0.0)
-    return figure
+    legend(lower, loc="upper right")
+    if "thesis" in dataset:
+        _of_thesis(upper, float(dataset["thesis"]))
+        legend_above(upper, 2)
+
+
+def _of_thesis(axes: "Axes", value: float) -> None:
+    axes.plot(20.0, value, "*", color=VERMILION, markersize=13, label="thesis", zorder=5)
 
 
 def torque_over_time(dataset: "xr.Dataset") -> "Figure":
@@ -81,6 +108,10 @@ def torque_over_time(dataset: "xr.Dataset") -> "Figure":
     upper.set_xlim(time[0], time[-1])
     legend_above(upper, 4)
     cycles = dataset["cycles"]
+    lower.plot(
+        cycles, dataset["cycle"], ".", color="#8C8C8C", markersize=3,
+        label=r"single cycles of the worm, over $T_{Bs}$",
+    )  # fmt: skip
     line(lower, 0, cycles, dataset["worm"], r"worm, over $T_{Bs}$")
     line(lower, 1, cycles, dataset["wheel"], r"wheel, over $T_R$")
     lower.axhline(
@@ -93,7 +124,7 @@ def torque_over_time(dataset: "xr.Dataset") -> "Figure":
         label=f"at the end ({at_end}, balanced to {abs(float(dataset['balance'])):.1%})",
     )  # fmt: skip
     limit(lower, 1.0)
-    lower.set(xscale="log", xlabel="cycles from the start", ylabel="mean so far")
+    lower.set(xscale="log", xlabel="cycles from the start", ylabel="mean, so far or of a cycle")
     legend(lower, loc="upper right")
     return figure
 
@@ -111,19 +142,17 @@ def advantage(dataset: "xr.Dataset") -> "Figure":
     _over_k(left, r"$T_{Bv}/T_{Bs}$, $\eta_{sys}$")
     other = left.twinx()
     other.grid(False)
+    line(
+        left, 2, [], [], "$M_a$ (right)", color=GREEN, marker="D", markerfacecolor="none",
+    )  # fmt: skip
     line(other, 2, k, dataset["advantage"], color=GREEN, marker="D", markerfacecolor="none")
     _not_settled(other, k, dataset["advantage"], dataset["settled"])
+    _not_settled(left, [0.0], [0.0], [0.0], "not settled")
+    _of_thesis(left, float(dataset["thesis_ratio"]))
+    other.plot(20.0, float(dataset["thesis_advantage"]), "*", color=VERMILION, markersize=13)
     other.set_ylabel(r"mechanical advantage $M_a$", color=GREEN)
     other.set_ylim(0.0, None)
     legend_above(left, 2)
-    settled = dataset["settled"].values > 0.5
-    off = np.abs(dataset["balance"].values)
-    words = [
-        f"{name} {off[where].max():.2%}"
-        for name, where in (("settled", settled), ("crossed", ~settled))
-        if where.any()
-    ]
-    left.set_xlabel(f"{_K}\nwheel balanced to: {', '.join(words)}")
     left.set_title("(a)", loc="left")
     for name, colour in (("across", BLUE), ("along", VERMILION)):
         right.plot(dataset["k_v"], dataset[name], color=colour, label=f"rigid friction, {name}")

@@ -44,11 +44,16 @@ def model(dataset: "xr.Dataset") -> "Figure":
         axes.plot(*end, "o", color=BLACK, markersize=5)
         axes.annotate(name, end, (4, 8), textcoords="offset points", weight="bold")
     axes.annotate(
-        "4394 N m/rad", ends.mean(axis=0), (0, 20), textcoords="offset points", ha="center"
+        "4394 N m/rad", ends.mean(axis=0), (-6, 26), textcoords="offset points", ha="center"
     )
     tip = ends[1] + _projected(_WHOLE, 26.0 * dataset["axis"].values)
     axes.annotate("", tip, ends[1], arrowprops={"arrowstyle": "->", "color": BLACK})
     axes.annotate("X", tip, (4, -2), textcoords="offset points")
+    for name, direction in zip("YZ", dataset["across"].values, strict=True):
+        end = ends[1] + _projected(_WHOLE, 26.0 * direction)
+        axes.annotate("", end, ends[1], arrowprops={"arrowstyle": "->", "color": BLACK})
+        axes.annotate(name, end, (4, -2), textcoords="offset points")
+        axes.update_datalim([end])
     axes.update_datalim([tip])
     axes.autoscale_view()
     return figure
@@ -73,6 +78,20 @@ def increment(dataset: "xr.Dataset") -> "Figure":
         axes.annotate(
             f"{name} = {size:.2f}", 0.5 * (one + other), shift, textcoords="offset points"
         )
+    for (one, other), name, shift in zip(
+        ((body[0], body[1]), (body[1], body[2])), ("Δx", "Δy"), ((0, 5), (6, 0)), strict=True
+    ):
+        axes.annotate(name, 0.5 * (one + other), shift, textcoords="offset points")
+    for (root_at, _), angle, name, n in zip(
+        stretched[1:], dataset["angle"].values, ("α", "β"), (1, 2), strict=True
+    ):
+        turn = np.linspace(0.0, angle, 30)
+        arc = root_at[:, None] + 0.16 * np.array([np.cos(turn), np.sin(turn)])
+        axes.plot(*arc, color=COLOURS[n], linewidth=1.2)
+        axes.plot(
+            [root_at[0], root_at[0] + 0.22], [root_at[1]] * 2, color=COLOURS[n], linewidth=0.7
+        )
+        axes.annotate(name, arc[:, 20], (4, 0), textcoords="offset points", color=COLOURS[n])
     _equal(axes, "along x, over $s_{max}$", "along y, over $s_{max}$")
     return figure
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from asperity.thesis.drive.appendix_e import Hammered, Subroutine, hammered
-from asperity.thesis.drive.claims import FRICTION
+from asperity.thesis.drive.claims import FRICTION, assumed
 from asperity.thesis.drive.sets import AMPLITUDE, RATIOS
 from asperity.thesis.drive.simulations import COULOMB, of_set
 from asperity.thesis.exhibits import claim
@@ -19,7 +19,7 @@ The rest, 0.848, is along the normal.
 """
 
 INCREMENTS = 1000
-_HOW = "asperity.thesis.drive.appendix_e.hammered(law, k_w, (0.424, 0.317), 0.16e-3, 1000)"
+HOW = "asperity.thesis.drive.appendix_e.hammered(law, k_w, (0.424, 0.317), 0.16e-3, 1000)"
 _AGREE = 0.01
 
 
@@ -49,22 +49,28 @@ def _coulomb() -> Finding:
     higher = [more for _, more in marched]
     return Finding.judged(
         {
-            "of the subroutine of Appendix E": bool(np.all(coulomb > subroutine + _AGREE)),
-            "of a sound asperity law": bool(np.all(coulomb > dahl + _AGREE)),
-            "of that law marched, wherever both are settled": min(higher) > _AGREE,
+            "Coulomb friction is higher than that of the subroutine of Appendix E": bool(
+                np.all(coulomb > subroutine + _AGREE)
+            ),
+            "“Coulomb friction overestimates the normalised worm input torque”, by a sound "
+            "asperity "
+            "law": bool(np.all(coulomb > dahl + _AGREE)),
+            "“Coulomb friction overestimates the normalised worm input torque”, by that law "
+            "marched, wherever both are settled": min(higher) > _AGREE,
         },
         f"friction at k_w = 5: Coulomb {at_5.coulomb:.3f}, a sound asperity {at_5.dahl:.3f}, "
         f"Appendix E {at_5.subroutine:.3f} of mu N",
-        "Mean friction along the sliding over mu times the mean normal force, the worm moved as in "
-        "set 3 against a wheel that coasts, 1000 increments a cycle. A sound asperity, whose limit "
-        f"follows the normal force, is within {apart:.3f} of Coulomb's law: 70 nm are nothing "
-        "beside 0.16 mm. Marched in balance (figure 7.14), Coulomb's ratio less that of the sound "
+        "What differs from Coulomb's law is the subroutine of Appendix E, not the asperity: a "
+        "sound "
+        f"one, whose limit follows the normal force, is within {apart:.3f} of Coulomb, since its "
+        f"{1e9 * LAW.max_deflection:g} nm are nothing beside {1e3 * AMPLITUDE:g} mm. What the "
+        f"subroutine gives depends on the increment as well, {INCREMENTS} a cycle here. Mean "
+        "friction along the sliding over mu times the mean normal force, the worm moved as in set "
+        "3 against a wheel that coasts. Marched in balance (figure 7.14), Coulomb's ratio less "
+        "that of the sound "
         "asperity is "
         + ", ".join(f"{more:+.3f} at {k:g}" for k, more in marched)
-        + " where both are settled. In Appendix E an increment of more than 70 nm is plastic, and "
-        "then the asperity's root stays where it was: friction goes by the way slid since contact "
-        "began, not by the sliding, and drives the worm on for a part of each cycle. What comes "
-        "out depends on the increment as well, and works are gained.",
+        + " where both are settled.",
         {
             "apart_from_coulomb": apart,
             "subroutine_at_k_w_5": at_5.subroutine,
@@ -73,5 +79,6 @@ def _coulomb() -> Finding:
             "subroutine_at_k_w_20": found[-1].subroutine,
             "coulomb_at_k_w_20": found[-1].coulomb,
         },
-        [_HOW, *(run for group in runs for run in group)],
+        [HOW, *(run for group in runs for run in group)],
+        assumed=f"The exponent of the law, {LAW.exponent:g}, which is not stated. {assumed()}",
     )

@@ -14,8 +14,9 @@ from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
-from asperity.drive.solve import prepare
+from asperity.drive.solve import answer, prepare
 from asperity.drive.static.solve import solve_static
+from asperity.drive.studies.on_demand import OnDemand
 from asperity.runs import Run
 
 _KEPT = 200
@@ -105,6 +106,50 @@ class Loaded:
     sliding_speed: float
     pressure: float
     nodes: int
+
+
+@dataclasses.dataclass(frozen=True)
+class Stroke:
+    """What vibration on demand does to an actuator's stroke.
+
+    Attributes
+    ----------
+    energy_plain, energy_shaken : float
+        A stroke, J.
+    safety_plain, safety_shaken : float
+        Against wear.
+    motor_plain, motor_shaken, actuator : float
+        Masses, kg.
+    share : float
+        Of the time, shaken.
+    """
+
+    energy_plain: float
+    energy_shaken: float
+    safety_plain: float
+    safety_shaken: float
+    motor_plain: float
+    motor_shaken: float
+    actuator: float
+    share: float
+
+
+def stroke(case: str, settings: Sequence[str]) -> Stroke:
+    """Solve a shipped actuator's stroke, as ``asperity drive`` does."""
+    problem = prepare(read_case(case, case_tables(), settings))
+    found = answer(problem, Run())
+    if not isinstance(found, OnDemand) or found.safety_wear is None:
+        raise ValueError("no stroke with vibration on demand")
+    return Stroke(
+        energy_plain=found.energy_plain,
+        energy_shaken=found.energy_shaken,
+        safety_plain=found.safety_wear_plain or np.nan,
+        safety_shaken=found.safety_wear,
+        motor_plain=found.motor_plain_mass,
+        motor_shaken=found.motor_shaken_mass,
+        actuator=found.actuator_mass,
+        share=found.share_shaken,
+    )
 
 
 def load(case: str, settings: Sequence[str]) -> Loaded:

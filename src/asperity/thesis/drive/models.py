@@ -90,7 +90,7 @@ def _model() -> Computed:
     pair = _wheel().pair
     worm = mounted_worm(pair)
     both = joined([Shape.of_mesh(_ring()), Shape.of_body(worm, 1, every=(2, 1))])
-    across, _, axis = pair.mounting.axes
+    across, upright, axis = pair.mounting.axes
     half = 0.5 * pair.geometry.worm_face_width
     middle = pair.mounting.origin
     a, b = middle + half * axis, middle + (half + 34.0) * axis
@@ -99,6 +99,12 @@ def _model() -> Computed:
         spring=(("along", "xyz"), _spring(a, b, across), "mm", "the shaft as a spring"),
         ends=(("end", "xyz"), np.array([a, b]), "mm", "A on the worm and B, which turns steadily"),
         axis=(("xyz",), axis, "1", "direction of the worm's axis, X of the thesis"),
+        across=(
+            ("side", "xyz"),
+            np.array([across, upright]),
+            "1",
+            "directions across it, Y and Z",
+        ),
     )
     return dataset, [
         f"{GEAR.command()} --out out/flank",

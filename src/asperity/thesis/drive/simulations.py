@@ -14,7 +14,7 @@ from asperity.thesis.exhibits import Part
 from asperity.thesis.kept import once
 
 if TYPE_CHECKING:
-    from asperity.thesis.drive.marches import Loaded, Shaken
+    from asperity.thesis.drive.marches import Loaded, Shaken, Stroke
 
 _ROOM = "asperity.thesis.drive"
 _SOLVED_BY = f"{_ROOM}.marches"
@@ -45,6 +45,26 @@ class Simulation(Shipped):
         return Task(f"march {self.name}", self.shaken, _ROOM, _MARCHING)
 
 
+class OnDemandStroke(Shipped):
+    """An actuator that is shaken on demand."""
+
+    verb = "drive"
+
+    def stroke(self) -> "Stroke":
+        """What its stroke comes to, solved once for all runs."""
+        from asperity.thesis.drive.marches import Stroke, stroke
+
+        return once(self, Stroke, _SOLVED_BY, functools.partial(stroke, self.case, self.settings))
+
+    @property
+    def task(self) -> Task:
+        """To solve it, for those that ask later."""
+        return Task(f"stroke {self.name}", self.stroke, _ROOM, _LOADING)
+
+
+STROKE = OnDemandStroke("drive-actuator")
+
+
 class LoadedTeeth(Shipped):
     """A gearset's elastic teeth under load, without vibration."""
 
@@ -72,6 +92,19 @@ def meshes(full: bool = True) -> list[LoadedTeeth]:
     return [
         LoadedTeeth(BASE, ("drive.phases=12", f"drive.density={name}"))
         for name in ("coarse", "intermediate")
+    ]
+
+
+TRIED = (1.0, 5.0, 20.0)
+"""Velocity ratios at which meshes are compared under vibration."""
+
+
+def on_mesh(density: str) -> list[Simulation]:
+    """Return simulations of set 3 with teeth meshed so."""
+    return [
+        simulation(condition, "drive.phases=12", f"drive.density={density}")
+        for condition in conditions(3)
+        if condition.ratio in TRIED
     ]
 
 
@@ -122,6 +155,16 @@ def _coarse(full: bool) -> list[LoadedTeeth]:
     return meshes(full)[:1]
 
 
+def _stroke(full: bool) -> list[OnDemandStroke]:
+    del full
+    return [STROKE]
+
+
+def _on_meshes(full: bool) -> list[Part]:
+    # The marches of a mesh come after its teeth, whose deflection they use.
+    return [*meshes(full), *(run for name in ("coarse", "intermediate") for run in on_mesh(name))]
+
+
 PARTS: Mapping[str, Parts] = {
     "figure 7.10": _last,
     "figure 7.12": _kept((3, ()), (3, (CUT_OUT,))),
@@ -130,12 +173,14 @@ PARTS: Mapping[str, Parts] = {
     "figure 7.15": _kept((3, ACTUATOR)),
     "claim 7.2": _coarse,
     "claim 7.3": _kept((3, ())),
-    "claim 7.5": meshes,
+    "claim 7.5": _on_meshes,
     "claim 7.6": _kept((3, ()), (3, (COULOMB,))),
     "claim 7.7": _kept((3, ACTUATOR)),
     "claim 7.10": _kept((1, ()), (2, ())),
     "claim 7.13": _kept((3, ())),
     "claim 7.15": _kept((3, ())),
     "claim 7.17": _coarse,
+    "claim 7.23": _kept((1, ()), (2, ()), (3, ())),
+    "claim 8.2": _stroke,
 }
 """What each exhibit needs of them."""

@@ -105,6 +105,11 @@ def formation(dataset: "xr.Dataset") -> "Figure":
             panel.grid(visible=False)
     axes[0].set_ylabel(_WORM_RADIUS)
     axes[3].set_ylabel(_RADIUS)
+    first = [
+        mpl.patches.Patch(color=colour, alpha=0.75, label=f"{time + 1}")
+        for time, colour in enumerate(colours)
+    ]
+    legend(axes[4], handles=first, title="instant", loc="center", fontsize="small")
     return figure
 
 

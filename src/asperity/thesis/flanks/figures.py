@@ -72,7 +72,7 @@ LOADS = {
     drawings.pressures, DESIGNS,
 )  # fmt: skip
 @figure(
-    "2.12", "Contact near the wheel's addendum at low and at high torque",
+    "2.12", "Lines of contact of a metal gearset at low and at high torque, for points on polymer",
     "The steering gear's worm of steel and wheel of polymer are not at hand; this is gearset 3 "
     "with a centre distance of 2.9 in and the worm of figure 2.13, relieved by 30 um towards its "
     "tip. Lines of contact at 24 angles of the worm that carry, with one stiffness per length of "
@@ -122,7 +122,8 @@ def _outline(found: Meshing) -> Any:
 @figure(
     "2.10", "Formation of contact on worm and wheel",
     "Mao's and Litvin's gears are not at hand; this is gearset 3 with a centre distance of 2.9 "
-    "in. Where one tooth is within 6 um of the worm, at five instants while it is at all: above "
+    "in. Where one tooth is within 6 um of the worm, at five instants while it is at all, from "
+    "dark to light as the worm turns: above "
     "on the worm's thread, below on the wheel's flank; lines: nearest places. (a) Identical hob: "
     "contact lines. (b) The same with the worm's axis 0.1 deg askew and 0.05 mm too far away: "
     "contact at the edge. (c) A hob of 1.12 times the diameter, tilted by 2 deg: ellipses about "

@@ -16,6 +16,7 @@ from asperity.shipped import shipped_cases
 from asperity.store import write_text
 from asperity.thesis.exhibits import CLAIM, Exhibit
 from asperity.thesis.products import Plain
+from asperity.thesis.said import said_of
 
 _MADE = "made.json"
 _LEDGER = "claims.json"
@@ -58,7 +59,9 @@ def key_of(exhibit: Exhibit, *, full: bool = False) -> str:
     shipped = shipped_cases()
     cases = [shipped[case].read_bytes() for case in exhibit.cases]
     in_full = full and exhibit.has_full
-    return key(code_key(exhibit.module), exhibit.name + " in full" * in_full, *cases)
+    words = said_of(exhibit.number) if exhibit.kind == CLAIM else ""
+    name = exhibit.name + " in full" * in_full
+    return key(code_key(exhibit.module), name, repr(words), *cases)
 
 
 def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> Made:
@@ -67,7 +70,9 @@ def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> Mad
     words = exhibit.maker.words
     found, paths = exhibit.make(full=full).write(folder / exhibit.name.replace(" ", "-"), words)
     files = {path.name: _sha256(path) for path in paths}
-    return Made(exhibit.name, key, {**words, **found}, files, time.perf_counter() - began)
+    # As it will be read again.
+    plain = json.loads(_text({**words, **found}))
+    return Made(exhibit.name, key, plain, files, time.perf_counter() - began)
 
 
 class Collection:

@@ -6,7 +6,9 @@ from typing import Any
 from asperity.thesis import contents
 from asperity.thesis.contents import chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE
+from asperity.thesis.products import DIFFERS, Plain
 from asperity.thesis.reproduce.files import Collection, Shown
+from asperity.thesis.said import READ_BY_A_MACHINE
 
 
 def ledger(folder: Path) -> dict[str, Any]:
@@ -43,7 +45,13 @@ def ledger(folder: Path) -> dict[str, Any]:
             how = list(found.plain["how"]) if found else []
             figures.append(told | {**words, "picture": picture, "how": how})
     chapters = [{"number": c.number, "title": c.title, "text": c.text} for c in contents.CHAPTERS]
-    return {"chapters": chapters, "claims": claims, "figures": figures, "folder": str(folder)}
+    return {
+        "read": READ_BY_A_MACHINE,
+        "chapters": chapters,
+        "claims": claims,
+        "figures": figures,
+        "folder": str(folder),
+    }
 
 
 def _claimed(found: Shown | None, words: Any) -> dict[str, Any]:
@@ -54,6 +62,17 @@ def _claimed(found: Shown | None, words: Any) -> dict[str, Any]:
         "theirs": words["thesis"],
         "verdict": plain.get("verdict", ""),
         "ours": plain.get("ours", ""),
-        "why": plain.get("reason", ""),
+        "why": _why(plain),
+        "said": [f"“{text}” (line {line})" for line, text in words["said"]],
         "how": list(plain.get("how", ())),
     }
+
+
+def _why(plain: Plain) -> str:
+    """What does not hold, in the thesis's words, then why."""
+    if not plain:
+        return ""
+    failed = "; ".join(plain["failed"])
+    differs = failed and plain["verdict"] == DIFFERS
+    told = [f"Does not hold: {failed}." if differs else "", plain["reason"], plain["assumed"]]
+    return " ".join(one for one in told if one)

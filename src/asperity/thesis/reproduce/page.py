@@ -4,6 +4,7 @@ import dataclasses
 import functools
 import importlib.metadata
 import platform
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,14 +14,19 @@ from asperity.results.typeset import typeset
 from asperity.thesis import contents
 from asperity.thesis.contents import Chapter, chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE
-from asperity.thesis.products import Cell
+from asperity.thesis.products import DIFFERS, VERDICTS, Cell
 from asperity.thesis.reproduce.files import Shown
+from asperity.thesis.said import READ_BY_A_MACHINE, findings, lost, slips
 
 if TYPE_CHECKING:
     from jinja2 import Template
 
 _PACKAGES = ("numpy", "scipy", "numba", "xarray", "matplotlib")
 _TEMPLATE = Path(__file__).with_name("page.html.j2")
+_SCRIPT = Path(__file__).with_name("page.js")
+_SENTENCES = 2
+# A stop, and then what begins a sentence.
+_STOP = re.compile(r"(?<=[A-Za-z0-9%)”][.:?!]) (?=[A-Z“(])")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -40,14 +46,10 @@ class Part:
     @property
     def differ(self) -> int:
         """How many of its claims do not hold."""
-        return self._count("differs")
+        return self.count(DIFFERS)
 
-    @property
-    def fitted(self) -> int:
-        """How many of them hold because a model was fitted to them."""
-        return self._count("fitted")
-
-    def _count(self, verdict: str) -> int:
+    def count(self, verdict: str) -> int:
+        """How many of its claims have a verdict."""
         return sum(claim.plain["verdict"] == verdict for claim in self.shown[CLAIM])
 
 
@@ -72,12 +74,23 @@ def render(
         )
         for chapter in contents.CHAPTERS
     ]  # fmt: skip
-    claimed = sum(len(part.shown[CLAIM]) for part in parts)
+    claims = [claim for part in parts for claim in part.shown[CLAIM]]
     rendered: str = _template().render(
         parts=[part for part in parts if not part.empty],
-        claimed=claimed,
-        different=sum(part.differ for part in parts),
-        fitted=sum(part.fitted for part in parts),
+        claimed=len(claims),
+        counts={verdict: sum(part.count(verdict) for part in parts) for verdict in VERDICTS},
+        kinds=VERDICTS,
+        there=set(there),
+        findings=findings(),
+        resting_on={
+            name: [claim.number for claim in claims if name in claim.plain["rests_on"]]
+            for name in findings()
+        },
+        lost=lost(),
+        slips=slips(),
+        letters=sorted({slip.line for slip in slips() if not slip.why}),
+        read_by_a_machine=READ_BY_A_MACHINE,
+        script=_SCRIPT.read_text("utf-8"),
         to_come=len(to_come),
         failed=len(failed),
         versions={"asperity": version} | _versions(),
@@ -89,7 +102,9 @@ def render(
 @functools.cache
 def _template() -> "Template":
     made = environment().overlay()
-    made.filters = made.filters | {"cell": cell}
+    made.filters = made.filters | {
+        "cell": cell, "lead": lead, "rest": rest, "lower_first": _lower_first,
+    }  # fmt: skip
     return made.from_string(_TEMPLATE.read_text("utf-8"))
 
 
@@ -101,6 +116,36 @@ def _versions() -> dict[str, str]:
 
 def _chapter(name: str) -> str:
     return chapter_of(name.rpartition(" ")[2])
+
+
+def lead(reason: str) -> str:
+    """Return the first two sentences of a reason.
+
+    Examples
+    --------
+    >>> lead("It is 1.5 N. By (61) it holds. The rest is told below.")
+    'It is 1.5 N. By (61) it holds.'
+    """
+    return " ".join(_sentences(reason)[:_SENTENCES])
+
+
+def rest(reason: str) -> str:
+    """Return what follows its first two sentences."""
+    return " ".join(_sentences(reason)[_SENTENCES:])
+
+
+def _sentences(reason: str) -> list[str]:
+    found: list[str] = []
+    for piece in _STOP.split(reason):
+        if found and found[-1].endswith(":"):
+            found[-1] += f" {piece}"
+        else:
+            found.append(piece)
+    return found
+
+
+def _lower_first(text: str) -> str:
+    return text[:1].lower() + text[1:]
 
 
 def cell(value: Cell) -> Any:

@@ -2,8 +2,14 @@
 
 import numpy as np
 
+GRAVITY, PLATFORM, PRINTED_DEAD_MASS = 9.81, 5.36, 9.1
+"""m/s2 of (72), kg (6.4.1), and kg as the text has the dead mass (6.4.8)."""
+
 POUND, POUND_FORCE = 0.45359237, 4.4482216152605
 """kg and N."""
+
+DRY_SUPPLY = 17.1
+"""Of the steel disc's motor in Table 6.3, V (6.3.4)."""
 
 LOADS_LB = np.array([0.0, 2.0, 4.0, 8.0, 11.0])
 PRINTED_LOADS = np.array([0.0, 0.9, 1.8, 3.6, 5.0])
@@ -30,8 +36,14 @@ SUPPLIES = (1.0, 3.0, 5.5)
 SLIDE_ROLL = (0.44, 0.88, 0.94)
 """Printed slide-roll ratios at those supplies, V (6.4.7)."""
 
+FREQUENCIES = (250.0, 500.0, 750.0, 1000.0, 2000.0, 3000.0)
+"""Of the vibration, Hz (6.4.2)."""
+
 AMPLITUDES = {"transverse": 0.059, "longitudinal": 0.087}
 """v_a at 750 Hz, m/s (6.5.2, 6.6.2)."""
+
+LARGEST = (0.86, 0.78)
+"""Reductions of the torque, transverse and longitudinal (6.8)."""
 
 STROKE = 32e-6
 """m (6.4.4)."""

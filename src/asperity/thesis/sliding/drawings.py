@@ -3,6 +3,8 @@
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from asperity.results.figures import BLACK, BLUE, COLOURS, SKY, legend, panels
 from asperity.thesis.drawing import (
     DOTTED,
@@ -16,9 +18,16 @@ from asperity.thesis.drawing import (
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _ZOOM = 1e-3
+_SERIES = {
+    "exponential": "pre-existing model (exponential scheme)",
+    "two-phase": "coupled model (two-phase scheme)",
+}
+"""Schemes as the thesis names what they stand for."""
+_ARROWS = 9
 
 
 def own_names(variable: str, body: str) -> tuple[str, str]:
@@ -76,8 +85,9 @@ def cycle(dataset: "xr.Dataset") -> "Figure":
 
 
 def transverse_cycle(dataset: "xr.Dataset") -> "Figure":
-    """Draw velocities, friction along and across, and the path of the friction vector."""
-    figure, (upper, lower) = panels(2, height=6.4)
+    """Draw the velocities and forces as vectors, and friction along and across over time."""
+    figure, (upper, left, lower, right) = panels(2, 2, width=9.6, height=6.4)
+    _vectors(left, right, dataset)
     time = 1e3 * dataset["time"].values
     upper.plot(time, 1e3 * dataset["base_velocity"], color=BLUE, label="base, across")
     drive = 1e3 * float(dataset["drive_velocity"])
@@ -89,8 +99,53 @@ def transverse_cycle(dataset: "xr.Dataset") -> "Figure":
     limit(lower, full, -full)
     for axes, label in ((upper, "velocity (mm/s)"), (lower, "friction (N)")):
         axes.set(xlabel="time (ms)", ylabel=label, xmargin=0.0)
-        legend_above(axes, 3)
+        legend_above(axes, 2)
     return figure
+
+
+def _vectors(upper: "Axes", lower: "Axes", dataset: "xr.Dataset") -> None:
+    """Draw slip velocities, and the friction that opposes them, at even times of half a cycle."""
+    base, friction = dataset["base_velocity"].values, dataset["friction"].values
+    drive = float(dataset["drive_velocity"])
+    half = int(np.argmin(base))
+    at = np.linspace(int(np.argmax(base)), half, _ARROWS).astype(int) if half else [0]
+    for n in at:
+        upper.annotate(
+            "", (1e3 * drive, -1e3 * base[n]), (0.0, 0.0),
+            arrowprops={"arrowstyle": "->", "color": BLUE, "shrinkA": 0, "shrinkB": 0},
+        )  # fmt: skip
+        lower.annotate(
+            "", (-friction[n, 0], -friction[n, 1]), (0.0, 0.0),
+            arrowprops={"arrowstyle": "->", "color": BLUE, "shrinkA": 0, "shrinkB": 0},
+        )  # fmt: skip
+    upper.annotate(
+        "", (1e3 * drive, 0.0), (0.0, 0.0),
+        arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 2.0, "shrinkB": 0},
+    )  # fmt: skip
+    upper.annotate("$v_d$", (0.5e3 * drive, 0.0), (0, 6), textcoords="offset points", ha="center")
+    mean = float(dataset["mean_friction"])
+    lower.annotate(
+        "", (-mean, 0.0), (0.0, 0.0),
+        arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 2.0, "shrinkB": 0},
+    )  # fmt: skip
+    lower.annotate(
+        "mean $F_x$", (-0.5 * mean, 0.0), (0.62, 0.93), textcoords="axes fraction", va="center",
+        arrowprops={"arrowstyle": "-", "linewidth": 0.6},
+    )  # fmt: skip
+    full = float(dataset["full_force"])
+    peak = 1e3 * float(np.abs(base).max())
+    upper.set(
+        xlim=(-0.35 * peak, 1.1 * peak), ylim=(-1.1 * peak, 1.1 * peak),
+        xlabel="slip along the drive (mm/s)", ylabel="across (mm/s)",
+    )  # fmt: skip
+    lower.set(
+        xlim=(-1.1 * full, 0.35 * full), ylim=(-1.1 * full, 1.1 * full),
+        xlabel="friction along the drive (N)", ylabel="across (N)",
+    )  # fmt: skip
+    upper.set_title("slip velocity $v_r$ in half a cycle", loc="left")
+    lower.set_title("friction on the body", loc="left")
+    for axes in (upper, lower):
+        axes.set_aspect("equal")
 
 
 def stacked(dataset: "xr.Dataset") -> "Figure":
@@ -120,7 +175,7 @@ def over_ratio(dataset: "xr.Dataset") -> "Figure":
     line(axes, 0, dataset["k"], dataset["rigid"], closed, color=BLACK, dashes=DOTTED)
     for name, marker, size in (("exponential", "o", 8), ("two_phase", "+", 9)):
         marks(
-            axes, 0, dataset["k_marched"], dataset[name], f"marched, {name.replace('_', '-')}",
+            axes, 0, dataset["k_marched"], dataset[name], _SERIES[name.replace("_", "-")],
             marker=marker, markersize=size, color=BLACK, markeredgewidth=1.0,
         )  # fmt: skip
     axes.set(ylim=(0.0, 1.05), **OVER_RATIO)
@@ -133,7 +188,7 @@ def drive_over_time(dataset: "xr.Dataset") -> "Figure":
     figure, (upper, lower) = panels(2, height=6.2)
     for index, (name, time, force) in enumerate(_histories(dataset, "drive_force")):
         tail = time >= time[-1] - _ZOOM
-        line(upper, index, time, force, name)
+        line(upper, index, time, force, _SERIES.get(name, name))
         line(lower, index, (time[tail] - time[-1] + _ZOOM) * 1e3, force[tail], name)
     full = float(dataset["full_force"])
     limit(upper, full)
@@ -160,10 +215,10 @@ def friction_over_cycles(dataset: "xr.Dataset") -> "Figure":
     figure, all_axes = panels(len(parts), height=1.4 + 2.4 * len(parts))
     for axes, part in zip(all_axes, parts, strict=True):
         for index, (name, time, friction) in enumerate(_histories(dataset, "friction")):
-            line(axes, index, time * 1e3, friction.sel(axis=part), name)
+            line(axes, index, time * 1e3, friction.sel(axis=part), _SERIES.get(name, name))
         axes.set(xlabel="time (ms)", ylabel="friction (N)", xmargin=0.0)
         axes.set_title(f"Friction {names[part]}", loc="left")
-    legend(all_axes[0], loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=2)
+    legend(all_axes[0], loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=1)
     return figure
 
 

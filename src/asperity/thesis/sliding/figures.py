@@ -18,7 +18,11 @@ if TYPE_CHECKING:
 
 _DENSE = "0.1:20:0.1"
 _SCHEMES = ("exponential", "two-phase")
-_LINES = "Exponential scheme (full line) and two-phase scheme (dashed)"
+_LINES = (
+    "The pre-existing model as the exponential scheme (full line), the coupled one as the "
+    "two-phase "
+    "scheme (dashed)"
+)
 _CLOSED = "asperity.slider.closed_forms"
 CLOSED_FORMS: dict[str, tuple[Callable[[Any], Any], str]] = {
     "table-4.3": (longitudinal_ratio, f"{_CLOSED}.longitudinal_ratio(k)"),
@@ -123,8 +127,10 @@ def _cycle(bodies: dict[str, Body]) -> Computed:
 
 @figure(
     "2.16", "Rigid friction in a cycle of transverse vibration",
-    "Friction keeps its size and opposes the slip, which swings about the drive: what is left "
-    "along the drive is smaller. The thesis gives no numbers; those of simulation L2 are used, "
+    "Right: the slip, drive and vibration together, at even times of half a cycle, and the "
+    "friction "
+    "against it: it keeps its size and swings, so that what is left along the drive is smaller. "
+    "Left: the same over time. The thesis gives no numbers; those of simulation L2 are used, "
     "with the base moving across the drive.",
     drawings.transverse_cycle,
 )  # fmt: skip

@@ -147,7 +147,9 @@ class Guard:
         self._send(_HERE)
         self._look(self._limit)
         if self._tripped:
-            raise InstrumentError(f"everything was switched off: {self._tripped}", kind=self._kind)
+            raise InstrumentError(
+                f"everything was told to be off: {self._tripped}", kind=self._kind
+            )
 
     def _send(self, head: Head) -> None:
         if self._waiting is None:

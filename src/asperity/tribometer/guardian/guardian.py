@@ -337,7 +337,7 @@ class Guardian:
 
     def _off_already(self) -> InstrumentError:
         return InstrumentError(
-            f"everything was switched off: {self._tripped or 'asked for'}", kind=self._kind
+            f"everything was told to be off: {self._tripped or 'asked for'}", kind=self._kind
         )
 
     def _called(self, key: str) -> str:

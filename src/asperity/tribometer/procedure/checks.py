@@ -36,7 +36,7 @@ def check_zeros(rest: Levels) -> None:
             name = f"{what}_{disc}"
             if abs(rest[name]) > most:
                 raise InstrumentError(
-                    f"{name} is {rest[name]:.3g} {unit} while the motors are off, more than "
+                    f"{name} is {rest[name]:.3g} {unit} before the motors are started, more than "
                     f"{most:g} {unit}: zero it",
                     kind="zero",
                 )

@@ -31,6 +31,7 @@ from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure import checks
+from asperity.tribometer.procedure.approach import Approach
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.procedure.logger import Logger, configuration_of
 from asperity.tribometer.procedure.packer import Packer
@@ -95,6 +96,7 @@ class Machine:
         self._packer = Packer(run.notify)
         units = units_of([one.signal for one in bench.scope.inputs])
         self._preview = Preview(folder, units, simulated=bench.simulated)
+        self._approach = Approach(bench, self._new_logger, self._preview.told)
 
     def go(self) -> AsperityError | None:
         """Do what is left.
@@ -207,6 +209,8 @@ class Machine:
             "cell": self._cell,
             "save": self._save,
         }
+        if action.asks:
+            self._approach.off()
         return acts[action.act](action)
 
     def _ask(self, action: Action) -> dict[str, Any]:
@@ -254,11 +258,8 @@ class Machine:
                 for name, supply in self._bench.motors.items()
             }
             checks.check_changes(rest, running)
-            checks.check_map(
-                running,
-                given,
-                {"steel": self._pair.steel.radius, "bronze": self._pair.bronze.radius},
-            )
+            radii = {"steel": self._pair.steel.radius, "bronze": self._pair.bronze.radius}
+            checks.check_map(running, given, radii)
             meter = self._bench.tachometer
             measured = {
                 name: logger.during(meter, functools.partial(meter.speed, name)) for name in _DISCS
@@ -283,6 +284,7 @@ class Machine:
                 self._still(logger)
                 self._journal.write("check", action=action.key, reason=str(error))
                 logger.close()
+                self._approach.off()
                 with self._signals.raising():
                     self._bench.person.do(f"{error}. Put it right.")
                 continue
@@ -349,6 +351,7 @@ class Machine:
 
     def _energise(self, logger: Logger, one: PlannedFile) -> None:
         volts = {"steel": one.steel_supply, "bronze": self._plan.bronze_supply}
+        self._approach.ran()
         for name, supply in self._bench.motors.items():
             logger.during(supply, functools.partial(supply.set, volts[name]))
         for name, supply in self._bench.motors.items():

@@ -278,7 +278,7 @@ def _notes(problem: RunProblem, journal: Lines, latch: AsperityError | None) -> 
         notes.extend(standing(problem.case))
     if latch is not None:
         notes.append(
-            f"latched: {latch}; vibration and motors are off until a person acknowledges it: "
+            f"latched: {latch}; nothing is switched on before a person acknowledges it: "
             '--resume --acknowledge "who, and what was done"'
         )
     parts: dict[str, Any] = {}

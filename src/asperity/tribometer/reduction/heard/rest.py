@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -11,8 +12,9 @@ from asperity.tribometer.reduction.heard.material import Material
 
 LEAST = {"torque": 0.02, "speed": 0.5, "current": 0.1}
 """By which a signal changes at least as its motor is switched, N m, rad/s and A."""
-_OFF = 0.1  # of a signal's level, below which its motor is off
+_OFF = 0.25  # of a signal's level, below which its motor is off, whatever zero is still taken off
 _SMOOTH = 5  # blocks
+_AGREES = 0.4  # of the time in which current and torque are nothing, a speed is too
 _LEAST_OFF = 0.5  # s
 _LEAST_REST = 1.0  # s
 _AFTER = 1.0  # s left out behind a stop
@@ -52,14 +54,12 @@ def resting(of: Material) -> Rest:
     answering: list[str] = []
     masks: dict[str, BoolArray] = {}
     for disc, signals in _TELLING.items():
-        found = []
-        for signal in signals:
-            off = _off(of, signal)
-            if off is not None:
-                found.append(off)
-                answering.append(signal)
+        found = {signal: off for signal in signals if (off := _off(of, signal)) is not None}
+        for signal in _far_off(found):
+            del found[signal]
         if found:
-            masks[disc] = np.logical_and.reduce(found)
+            answering += found
+            masks[disc] = np.logical_and.reduce(list(found.values()))
     switched = tuple(masks)
     if "bronze" not in masks and _stands(of):
         masks["bronze"] = np.ones(of.blocks.count, dtype=bool)
@@ -70,12 +70,9 @@ def resting(of: Material) -> Rest:
     ahead = _SOON if soon else _LATE
     begin, end = of.blocks.at_least(_AFTER), of.blocks.at_least(ahead)
     least = of.blocks.at_least(_LEAST_REST)
-    edges = np.flatnonzero(np.diff(np.concatenate(([0], still.astype(np.int8), [0]))))
     found_stretches = []
-    for first, last in zip(edges[::2], edges[1::2], strict=True):
-        one = Stretch(
-            int(first) + (begin if first else 0), int(last) - (end if last < still.size else 0)
-        )
+    for first, last in _runs(still):
+        one = Stretch(first + (begin if first else 0), last - (end if last < still.size else 0))
         if one.count >= least:
             found_stretches.append(one)
     return Rest(tuple(found_stretches), tuple(answering), switched)
@@ -97,6 +94,25 @@ def _off(of: Material, signal: str) -> BoolArray | None:
     off: BoolArray = (smooth < _OFF * level) & ~lost
     seen = np.count_nonzero(off & ~of.vibrating)
     return off if seen >= of.blocks.at_least(_LEAST_OFF) else None
+
+
+def _far_off(found: Mapping[str, BoolArray]) -> list[str]:
+    """Return speeds that only pass by nothing as they start and stop, their zeros far off."""
+    others = [off for signal, off in found.items() if not signal.startswith("speed")]
+    if not others:
+        return []
+    still = np.logical_and.reduce(others)
+    least = _AGREES * np.count_nonzero(still)
+    return [
+        signal for signal, off in found.items()
+        if signal.startswith("speed") and np.count_nonzero(off & still) < least
+    ]  # fmt: skip
+
+
+def _runs(marked: BoolArray) -> list[tuple[int, int]]:
+    """Return where each run of marked blocks begins and ends."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], marked.astype(np.int8), [0])))).tolist()
+    return list(zip(edges[::2], edges[1::2], strict=True))
 
 
 def _stands(of: Material) -> bool:

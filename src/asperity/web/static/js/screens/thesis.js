@@ -11,9 +11,14 @@ const VERDICTS = {
   reproduced: ["✓", "reproduced", "good"],
   fitted: ["≈", "fitted", "warn"],
   differs: ["✗", "differs", "bad"],
+  arithmetic: ["=", "arithmetic", ""],
+  "not testable": ["?", "not testable", ""],
   "": ["–", "not made here", ""],
 };
-const CHOICES = { all: "all", reproduced: "reproduced", fitted: "fitted", differs: "differs", "": "not made here" };
+const CHOICES = {
+  all: "all", reproduced: "reproduced", differs: "differs", fitted: "fitted", arithmetic: "arithmetic",
+  "not testable": "not testable", "": "not made here",
+};
 
 export function view() {
   const { found: ledger, error } = useAsked("thesis", (leave) => get("/api/thesis", leave));
@@ -46,6 +51,7 @@ export function view() {
               ${" "}${said} ${key === "all" ? ledger.claims.length : count(ledger.claims, key)}</label>`)}
           </fieldset>
         </div>
+        <p class="says">${ledger.read}</p>
         <p class="says" role="status">${claims.length} of ${ledger.claims.length} claims,
           ${" "}${figures.length} of ${ledger.figures.length} figures. ${unmade(ledger)}</p>
       </section>
@@ -65,7 +71,8 @@ function unmade({ claims, figures, folder }) {
 
 const COLUMNS = [
   ["claim", ({ id }) => id, "row"],
-  ["what it says", ({ text, section }) => html`${text} <span class="says">Section ${section}.</span>`],
+  ["what it says", ({ text, section, said }) => html`${text} <span class="says">Section ${section}.</span>
+    ${said.map((words) => html`<p class="says" key=${words}>${words}</p>`)}`],
   ["thesis", ({ theirs }) => theirs],
   ["here", ({ id, ours, why, how, line, kept }) => html`${ours || "–"}
     <details><summary aria-label=${`claim ${id}: ${kept ? "why" : "how"}`}>${kept ? "why" : "how"}</summary>

@@ -1,0 +1,85 @@
+"""What the verdict says of a load spectrum and of a housing."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from asperity.rating.duty import DutyPart
+from asperity.rating.endurance import Endurance
+from asperity.rating.inputs import Inputs
+from asperity.rating.result import Rating
+from asperity.rating.starting import Starting, starting_line
+from asperity.results.quantity import Number, Sentence
+
+_MOST_PARTS = 3
+
+
+def loads_line(given: Inputs) -> str:
+    """Return how many loads there are, for how long, and in which duty."""
+    spectrum = given.operation.spectrum
+    assert spectrum is not None
+    hours = float(given.total(part.hours for part in given.loads))
+    count = len(given.duty)
+    how = spectrum.how
+    duty = "" if how.kind == "S1" else f", {' '.join(spectrum.duty.split())}"
+    if how.kind == "S3":
+        duty += f" of {spectrum.cycle / 60.0:.4g} min"
+    named = f", {spectrum.duty_class}" if spectrum.duty_class else ""
+    return f"{count} load{'s' * (count > 1)} in {hours:.4g} h{named}{duty}"
+
+
+def duty_lines(
+    given: Inputs,
+    found: dict[str, Rating],
+    parts: Sequence[DutyPart],
+    lasts: Sequence[Endurance],
+    starts: Sequence[Starting],
+) -> Iterator[str]:
+    """Yield the lines of a spectrum and a housing; none without them."""
+    operation, iso = given.operation, found.get("iso14521")
+    if operation.spectrum is not None:
+        if parts:
+            yield _shares(parts)
+        if lasts:
+            hours = float(given.total(part.hours for part in given.loads))
+            yield lasts[0].sentence(hours, "endurance.0")
+        if "agma6034" in found:
+            factor = operation.service_factor
+            times = "" if factor is None else f", times a service factor of {factor:g}"
+            yield f"AGMA 6034 has no load spectra: the load nearest to its limit{times}"
+    if iso is not None and operation.housing is not None:
+        yield _oil(given, iso)
+    if starts:
+        yield starting_line(starts)
+
+
+def _shares(parts: Sequence[DutyPart]) -> Sentence:
+    """Return which loads do most of the wear."""
+    order = sorted(enumerate(parts), key=lambda pair: -(pair[1].share or 0.0))
+    said = [
+        Sentence(
+            f"{part.torque:.4g} N m ",
+            Number.of(part.share, ".0f", f"duty_cycle.{place}.wear_share", 100.0),
+            " %",
+        )
+        for place, part in order[:_MOST_PARTS]
+        if part.share is not None
+    ]
+    return Sentence("of all wear by ISO/TR 14521: ", Sentence.joined(said))
+
+
+def _oil(given: Inputs, iso: Rating) -> Sentence:
+    """Return the temperature of the oil by the balance and by the standard."""
+    name = "theta_S_max_degC" if "theta_S_max_degC" in iso else "theta_S_degC"
+    values: Any = iso
+    said: list[str] = [
+        "oil ",
+        Number.of(float(values["theta_h_degC"]), ".0f", "iso14521.theta_h_degC"),
+        " degC by heat balance, ",
+        Number.of(float(values[name]), ".0f", f"iso14521.{name}"),
+    ]
+    said.append(" as given" if given.oil_temperature is not None else " by ISO's formula (S1)")
+    housing = given.operation.housing
+    measured = housing is not None and housing.idle_loss is not None
+    idle = Number.of(float(values["loss_idle_W"]), ".3g", "iso14521.loss_idle_W")
+    said += ["; idling ", idle, f" W {'measured' if measured else 'by formula'}"]
+    return Sentence(*said)

@@ -1,0 +1,84 @@
+"""The `[housing]` table: how the gearbox gets rid of its heat, and what was measured of it."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Annotated, ClassVar
+
+from asperity.casefile import Table
+from asperity.rating.load_steps import Speed
+from asperity.units import Quantity
+
+HEAT = {"iron": 460.0, "aluminium": 900.0, "bronze": 380.0, "oil": 1900.0}
+"""Specific heat capacities, J/(kg K), from memory; iron stands for steel too."""
+
+Area = Annotated[float, Quantity("m**2", what="an area", example="0.4 m**2", gt=0, le=1e4)]
+Transfer = Annotated[
+    float,
+    Quantity("W/(m**2 K)", what="a heat transfer", example="15 W/(m**2 K)", gt=0, le=1e4),
+]
+Loss = Annotated[float, Quantity("W", what="a power", example="30 W", ge=0)]
+Mass = Annotated[float, Quantity("kg", what="a mass", example="12 kg", ge=0, le=1e6)]
+
+
+class Housing(Table):
+    """A gearbox's housing.
+
+    Parameters
+    ----------
+    area : float or str, optional
+        Surface that gives off heat, m2; 20 (a/1000)^1.7 with a in mm if left out, with half of its
+        ribs.
+    heat_transfer : float or str
+        W/(m2 K): 11 to 13 in still air, 15 to 18 where it moves well, 20 to 30 blown upon; 15 if
+        left out.
+    at_rest : float or str, optional
+        That while the worm stands, where a fan sits on its shaft.
+    base : float
+        What a bolted metal base adds to it, as a share: 0.25 to 0.30; 0 if left out.
+    idle_loss, seal_loss : float or str, optional
+        Measured loss without load and of the seals, W, in place of the formulas of ISO/TR 14521.
+        Other speeds by (n/n_m)^(4/3) and n/n_m.
+    measured_at : float or str, optional
+        Speed of the worm at which they were measured, rad/s; that of the operation if left out.
+    heat_capacity : float or str, optional
+        J/K. Give this or the masses; without either no temperature below the steady one is known.
+    iron, aluminium, bronze, oil : float or str, optional
+        Masses, kg.
+    """
+
+    table: ClassVar[str] = "housing"
+
+    area: Area | None = None
+    heat_transfer: Transfer = 15.0
+    at_rest: Transfer | None = None
+    base: Annotated[float, Quantity("", what="a share", example="0.25", ge=0, le=1)] = 0.0
+    idle_loss: Loss | None = None
+    seal_loss: Loss | None = None
+    measured_at: Speed | None = None
+    heat_capacity: (
+        Annotated[float, Quantity("J/K", what="a heat capacity", example="9500 J/K", gt=0)] | None
+    ) = None
+    iron: Mass | None = None
+    aluminium: Mass | None = None
+    bronze: Mass | None = None
+    oil: Mass | None = None
+
+    @property
+    def capacity(self) -> float | None:
+        """Heat capacity, J/K; None where nothing is known of it."""
+        if self.heat_capacity is not None:
+            return self.heat_capacity
+        masses = {name: getattr(self, name) for name in HEAT}
+        whole = sum(HEAT[name] * mass for name, mass in masses.items() if mass is not None)
+        return whole or None
+
+    @property
+    def assumed(self) -> Mapping[str, str]:
+        """Which keys were left out, and what was assumed for them."""
+        left_out = {
+            "area": "20 (a/1000)^1.7 m2, with half of the ribs",
+            "heat_transfer": "15 W/(m2 K), of air that moves well",
+        }
+        return MappingProxyType(
+            {key: said for key, said in left_out.items() if key not in self.model_fields_set}
+        )

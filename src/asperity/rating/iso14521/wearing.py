@@ -1,0 +1,99 @@
+"""What one load does by ISO/TR 14521: temperatures, lubricant film and wear."""
+
+from asperity.arrays import Real
+from asperity.gearset import oil
+from asperity.rating.inputs import Inputs, Values
+from asperity.rating.iso14521 import contact, film, strength, thermal, wear
+
+_MM2 = 1e6
+
+
+def sump_of(given: Inputs) -> Real:
+    """Return the temperature of the oil sump, degC: as it is given, or by the standard."""
+    if given.sump is not None:
+        return given.sump
+    settled = given.oil_temperature
+    if settled is not None:
+        return settled
+    lubricant = given.operation.lubricant
+    return thermal.sump_temperature(
+        given.output_torque,
+        given.worm_speed,
+        given.gear_ratio,
+        given.centre_distance,
+        lubricant.viscosity_40 * _MM2,
+        given.ambient_temperature,
+        base_oil=lubricant.base_oil,
+        fan=given.operation.fan,
+    )
+
+
+def temperatures(given: Inputs, v: Values) -> None:
+    """Find the temperatures of sump and teeth, and the oil between them."""
+    operation, lubricant = given.operation, given.operation.lubricant
+    v["theta_S_degC"] = sump_of(given)
+    v["theta_S_lim_degC"] = given.sump_limit
+    v["alpha_L_W_m2K"] = thermal.heat_transfer_coefficient(
+        given.worm_speed, immersed=operation.immersed
+    )
+    v["A_R_m2"] = thermal.cooling_area(given.rim_width, given.wheel_mean_diameter)
+    v["theta_M_degC"] = thermal.bulk_temperature(
+        v["theta_S_degC"],
+        v["loss_meshing_W"],
+        v["alpha_L_W_m2K"],
+        v["A_R_m2"],
+    )
+    v["nu_M_mm2_s"] = oil.kinematic_viscosity(
+        v["theta_M_degC"],
+        lubricant.viscosity_40 * _MM2,
+        lubricant.viscosity_100 * _MM2,
+    )
+    v["rho_M_kg_m3"] = oil.density(
+        v["theta_M_degC"], given.density_15, lubricant.base.density_coefficient
+    )
+    v["eta_0M_Pas"] = v["nu_M_mm2_s"] * v["rho_M_kg_m3"] / _MM2
+
+
+def wear_of(given: Inputs, v: Values) -> None:
+    """Find the film, the wear of the wheel's flanks and the safety against it."""
+    wheel, lubricant = given.gearset.wheel_material, given.operation.lubricant
+    torque = given.operation.application_factor * given.through_travel_torque
+    v["sigma_Hm_wear_MPa"] = contact.contact_stress(
+        v["p_m_star"], torque, v["E_red_MPa"], given.centre_distance
+    )
+    v["h_min_um"] = film.film_thickness(
+        v["h_star"],
+        lubricant.base.pressure_viscosity,
+        v["eta_0M_Pas"],
+        given.worm_speed,
+        given.centre_distance,
+        v["E_red_MPa"],
+        torque,
+    )
+    family, base_oil = wheel.family, lubricant.base_oil
+    v["W_S"] = wear.lubricant_structure_factor(v["eta_0M_Pas"], family=family, base_oil=base_oil)
+    v["W_H"] = wear.pressure_factor(v["sigma_Hm_wear_MPa"], family=family)
+    v["K_W_um"] = wear.wear_parameter(v["h_min_um"], v["W_S"], v["W_H"])
+    v["J_0T"] = wear.reference_wear_intensity(
+        v["K_W_um"],
+        lubrication=given.operation.lubrication,
+        family=family,
+        base_oil=base_oil,
+    )
+    v["W_NS"] = wear.start_factor(given.starts_per_hour)
+    v["W_ML"] = wheel.wear_factor.get(lubricant.base_oil, 1.0)
+    v["J_W"] = wear.wear_intensity(v["J_0T"], v["W_NS"], v["W_ML"])
+    v["s_star"] = contact.path_parameter(
+        given.gear_ratio, given.lead_angle, flank=given.gearset.flank
+    )
+    v["N_L"] = contact.load_cycles(given.life, given.worm_speed, given.gear_ratio)
+    v["s_Wm_mm"] = contact.sliding_path(
+        v["s_star"],
+        v["sigma_Hm_wear_MPa"],
+        given.centre_distance,
+        v["E_red_MPa"],
+        v["N_L"],
+    )
+    v["delta_Wn_mm"] = wear.flank_wear(v["J_W"], v["s_Wm_mm"])
+    v["delta_Wlim_mm"] = wear.wear_limit(given.axial_module, given.lead_angle)
+    v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])

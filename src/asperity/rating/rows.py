@@ -1,0 +1,52 @@
+"""A row of the verdict that comes from outside the three standards: a shaft, a bearing."""
+
+import math
+from typing import Any, NamedTuple
+
+
+class Row(NamedTuple):
+    """What there is of what is asked.
+
+    Attributes
+    ----------
+    name, standard : str
+        Of what, and by which standard.
+    value, asked : float
+        A safety, or a life in h.
+    unit : str
+        ``"h"`` of a life; empty of a safety.
+    by : str
+        What decides on it.
+    """
+
+    name: str
+    standard: str
+    value: float
+    asked: float
+    unit: str = ""
+    by: str = ""
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is enough."""
+        return self.value >= self.asked
+
+    @property
+    def line(self) -> str:
+        """It in a line of the screen."""
+        unit = f" {self.unit}" if self.unit else ""
+        said = f"{self.value:.3g}{unit} of {self.asked:.4g}{'' if self.holds else '  FAILS'}"
+        by = f"; {self.by}" if self.by else ""
+        return f"{f'{self.standard} {self.name}':24} {said}{by}"
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it by key."""
+        key = "life_h" if self.unit else "safety"
+        return {
+            "name": self.name,
+            "standard": self.standard,
+            key: self.value if math.isfinite(self.value) else None,
+            f"asked{'_h' if self.unit else ''}": self.asked,
+            "holds": self.holds,
+            "by": self.by,
+        }

@@ -1,0 +1,107 @@
+"""What the thesis says, in its own words with their lines, and what several claims rest on.
+
+The words are those of a text that a machine read from the printed thesis; it lost figures, most
+tables and some signs. Where our mending of a word matters, it is listed as a slip.
+"""
+
+import dataclasses
+import functools
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+_SAID = Path(__file__).with_name("said.toml")
+
+READ_BY_A_MACHINE = (
+    "The text of the thesis that stands behind this page was read by a machine from the printed "
+    "one. "
+    "“Printed” means: as that text has it. Figures are gone but for their captions, most tables "
+    "have "
+    "lost their numbers, and signs may be lost, turned or doubled: what is more likely a slip of "
+    "the "
+    "reading than of the thesis is listed and charged to nobody. Lines are those of that text."
+)
+
+
+@dataclasses.dataclass(frozen=True)
+class Said:
+    """What the ledger holds of a claim beside what is computed.
+
+    Attributes
+    ----------
+    said : tuple of (int, str)
+        Lines of the text, and the thesis's words there.
+    fails_by : str
+        What the claim could have failed by.
+    rests_on : tuple of str
+        Names of findings that are told once.
+    see : tuple of str
+        Figures and tables that show it, and claims that say more: ``figure 4.17``, ``claim 7.4``.
+    """
+
+    said: tuple[tuple[int, str], ...] = ()
+    fails_by: str = ""
+    rests_on: tuple[str, ...] = ()
+    see: tuple[str, ...] = ()
+
+
+@dataclasses.dataclass(frozen=True)
+class Shared:
+    """A finding that several claims rest on: a title, and what it is."""
+
+    title: str
+    text: str
+
+
+@dataclasses.dataclass(frozen=True)
+class Slip:
+    """What the machine that read the text most likely got wrong; without a reason, a letter."""
+
+    line: int
+    has: str
+    should: str
+    why: str = ""
+
+
+@dataclasses.dataclass(frozen=True)
+class Lost:
+    """What the text has lost, and what stands in its place."""
+
+    what: str
+    instead: str
+
+
+@functools.cache
+def _read() -> Mapping[str, Any]:
+    return tomllib.loads(_SAID.read_text("utf-8"))
+
+
+def said_of(number: str) -> Said:
+    """Return what is held of a claim; nothing for one that is not listed."""
+    listed = _read()["claim"].get(number, {})
+    words = tuple((int(line), str(text)) for line, text in listed.get("said", ()))
+    return Said(
+        words,
+        listed.get("fails_by", ""),
+        tuple(listed.get("rests_on", ())),
+        tuple(listed.get("see", ())),
+    )
+
+
+@functools.cache
+def findings() -> Mapping[str, Shared]:
+    """Return the findings that several claims rest on, by their names."""
+    return {name: Shared(**one) for name, one in _read()["finding"].items()}
+
+
+@functools.cache
+def slips() -> tuple[Slip, ...]:
+    """Return the slips of the reading."""
+    return tuple(Slip(**one) for one in _read()["slip"])
+
+
+@functools.cache
+def lost() -> tuple[Lost, ...]:
+    """Return what is lost, chapter by chapter."""
+    return tuple(Lost(**one) for one in _read()["lost"])

@@ -1,0 +1,127 @@
+"""Figures 4.11, 4.14 and 4.15: an increment of the schemes for a shaken base, as vectors.
+
+In the thesis's symbols: the asperity reaches from its root M, on the base, to N', on the body; the
+y of a deflection is that of the root less that of the body (46), (47).
+"""
+
+import dataclasses
+import math
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.thesis.exhibits import Computed, figure
+from asperity.thesis.products import labelled
+from asperity.thesis.sliding import drawings_schemes as drawings
+
+_TRANSFER, _EXPONENT = 0.71, 1.0
+_HOW = "asperity.thesis.sliding.schemes.increment"
+
+
+@dataclasses.dataclass(frozen=True)
+class Increment:
+    """Where body and root are in an increment, lengths over s_max.
+
+    Attributes
+    ----------
+    body : ndarray, shape (2, 2)
+        N' and N'_1.
+    root : ndarray, shape (4, 2)
+        M, M'1, M'2 and M_1.
+    deflection : ndarray, shape (3,)
+        s, s' and s_1.
+    angles : ndarray, shape (2,)
+        alpha and beta, rad.
+    """
+
+    body: FloatArray
+    root: FloatArray
+    deflection: FloatArray
+    angles: FloatArray
+
+
+def _along(size: float, reach: float, exponent: float) -> float:
+    """The deflection of (44) where an end has moved so that it would be ``reach``."""
+    change = reach - size
+    return size + change * math.pow(1.0 - size * math.copysign(1.0, change), exponent)
+
+
+def increment(
+    root: FloatArray, body: FloatArray, moved: FloatArray, base_y: float,
+    *, transfer: float = _TRANSFER, exponent: float = _EXPONENT,
+) -> Increment:  # fmt: skip
+    """Return the places of an increment by (44) to (59), (34) and (35).
+
+    Parameters
+    ----------
+    root, body, moved : ndarray, shape (2,)
+        M and N' before, and N'_1, over s_max: in ``moved`` stands the base's own motion along x, as
+        (42) has it.
+    base_y : float
+        Increment of the base across, Delta y_b, over s_max.
+    transfer, exponent : float
+        eta_y, of which the root takes its part of ``base_y``, and Dahl's exponent.
+    """
+    s = float(np.hypot(*(body - root)))
+    off = np.array([moved[0] - root[0], root[1] - moved[1]])
+    reach = float(np.hypot(*off))
+    middle = _along(s, reach, exponent)
+    alpha = math.atan2(off[1], off[0])
+    first = moved + middle * np.array([-math.cos(alpha), math.sin(alpha)])
+    second = first + np.array([0.0, transfer * base_y])
+    off = np.array([moved[0] - second[0], second[1] - moved[1]])
+    last = _along(middle, float(np.hypot(*off)), exponent)
+    beta = math.atan2(off[1], off[0])
+    end = moved + last * np.array([-math.cos(beta), math.sin(beta)])
+    return Increment(
+        np.array([body, moved]),
+        np.array([root, first, second, end]),
+        np.array([s, middle, last]),
+        np.array([alpha, beta]),
+    )
+
+
+@figure(
+    "4.11", "An increment of the older transverse model in two phases",
+    "The body goes from N' to N'_1 and the root follows along the asperity from M to M'1; the base "
+    "then moves across by EF, of which the root takes the share eta_y to M'2, and follows along "
+    "the "
+    "asperity to M_1. Lengths are over s_max; the increment is of a size that can be seen.",
+    drawings.increment, 0.0,
+)  # fmt: skip
+@figure(
+    "4.15", "An increment of the coupled model in two phases",
+    "As figure 4.11, but the base moves along x too: by (42) that is counted to the body's own "
+    "motion, dashed, of which it is taken. eta_y = 0.71, exponent 1.",
+    drawings.increment, 0.25,
+)  # fmt: skip
+def _increment(base_x: float) -> Computed:
+    root, body = np.array([0.0, 0.42]), np.array([0.5, 0.0])
+    own, base_y = np.array([0.55, -0.12]), 0.5
+    moved = body + own - np.array([base_x, 0.0])
+    found = increment(root, body, moved, base_y)
+    dataset = labelled(
+        axis=(("axis",), np.array(["x", "y"], dtype=object), "1", "axis"),
+        body=(("place", "axis"), found.body, "1", "N', N'_1 over s_max"),
+        own=(("axis",), own, "1", "the body's own motion over s_max"),
+        root=(("stop", "axis"), found.root, "1", "M, M'1, M'2, M_1 over s_max"),
+        deflection=(("phase",), found.deflection, "1", "s, s', s_1 over s_max"),
+        angle=(("turn",), found.angles, "rad", "alpha, beta"),
+        base=(("axis",), np.array([base_x, base_y]), "1", "increments of the base over s_max"),
+    )
+    return dataset, [_HOW]
+
+
+@figure(
+    "4.14", "Displacement of a base that vibrates at an angle, and its components",
+    "u along the axis of vibration at the angle theta, x_b = u cos(theta) along the drive and "
+    "y_b = u sin(theta) across it; dotted: to where it swings.",
+    drawings.base,
+)  # fmt: skip
+def _base() -> Computed:
+    theta, share = math.radians(35.0), 0.8
+    dataset = labelled(
+        theta=((), theta, "rad", "direction of vibration"),
+        share=((), share, "1", "displacement over its amplitude"),
+    )
+    return dataset, ["x_b = u cos(theta), y_b = u sin(theta)"]

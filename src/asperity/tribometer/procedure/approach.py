@@ -1,0 +1,76 @@
+"""Before a person is sent to the rig everything is switched off, and read back to be."""
+
+from collections.abc import Callable, Mapping
+
+from asperity.tribometer.instruments.bench import Bench
+from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.procedure.logger import Logger
+
+_TRIES, _AGAIN = 10, 0.1  # s; currents fall, and discs run out
+_LISTENED = 1.0  # s
+
+
+class Approach:
+    """Sees that hands are safe at a rig that has run.
+
+    Parameters
+    ----------
+    bench : Bench
+        Its instruments.
+    listener : callable
+        Gives a logger of nothing, which watches the drive signal.
+    told : callable
+        Takes what outputs were told, by their names.
+    """
+
+    def __init__(
+        self,
+        bench: Bench,
+        listener: Callable[[None, None], Logger],
+        told: Callable[[Mapping[str, str]], None],
+    ) -> None:
+        self._bench, self._listener, self._told = bench, listener, told
+        self._ran = False
+
+    def ran(self) -> None:
+        """Take that something is switched on."""
+        self._ran = True
+
+    def off(self) -> None:
+        """See that everything is off, the amplifier's supply too.
+
+        Raises
+        ------
+        InstrumentError
+            Something was not read back to be off, or the drive signal moves.
+        """
+        if not self._ran:
+            return
+        bench = self._bench
+        if bench.amplifier is not None:
+            bench.amplifier.off()
+            self._told({bench.amplifier.name: "off"})
+        for left in range(_TRIES, -1, -1):
+            found = [one for one in bench.read_back() if not one.proven]
+            named = [str(one) for one in found if not one.unheard]
+            if not named:
+                break
+            if left == 0:
+                raise InstrumentError(
+                    f"nobody is sent to the rig, {'; '.join(named)}", kind="still on"
+                )
+            bench.clock.sleep(_AGAIN)
+            bench.vibration.keep_alive()
+        if found:
+            # Nothing but its signal tells of such a drive.
+            self._listen()
+        self._ran = False
+
+    def _listen(self) -> None:
+        logger = self._listener(None, None)
+        try:
+            logger.watch(_LISTENED)
+        except BaseException:
+            logger.abandon()
+            raise
+        logger.close()
