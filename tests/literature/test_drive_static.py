@@ -28,12 +28,11 @@ from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.reduction import teeth_reduced
 from asperity.drive.static.result import PATTERNS
+from asperity.drive.static.seen import Pattern, contact_means
 from asperity.drive.static.solve import (
     StaticModel,
     _back_patterns,
-    _Seen,
     condensed,
-    contact_means,
     solve_static,
 )
 from asperity.drive.static.sweep import (
@@ -256,10 +255,10 @@ def test_gearset_2_locks_itself():
 
 def patterns_of(*settings):
     model = model_of(*ONE_TOOTH, *settings, phases=2)
-    forward = _Seen(model)
-    model.courses([Asked(PATTERNS[-1] * LOAD, look=forward.pattern)])
+    forward = Pattern(model.resolved)
+    model.courses([Asked(PATTERNS[-1] * LOAD, look=forward.look)])
     back = _back_patterns(model, 0, 2)
-    return forward.nodal, back
+    return forward.largest, back
 
 
 @pytest.mark.slow

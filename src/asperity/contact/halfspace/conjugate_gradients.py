@@ -1,4 +1,4 @@
-r"""Normal contact without friction: the forces of patches by Polonsky and Keer's conjugate gradients.
+r"""Normal contact without friction: forces of patches by Polonsky and Keer's conjugate gradients.
 
 Patches with forces :math:`f \ge 0` sink by :math:`K f`, :math:`K` symmetric; the bodies come
 together by :math:`\theta`, each patch by :math:`h\,\theta`. What is sought is

@@ -6,9 +6,9 @@ Mechanics, 3.25)
 .. math:: u = \frac{1}{\pi E^*} \sum_{\pm\pm} \pm\pm\, F(x \pm a/2,\, y \pm b/2), \qquad
     F(x, y) = x\,\mathrm{arsinh}(y/|x|) + y\,\mathrm{arsinh}(x/|y|) ,
 
-with :math:`1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2` that of two bodies together. On a regular grid
-the sum over all rectangles is a convolution: one transform there and back, the grid doubled so that
-nothing comes round its edges.
+with :math:`1/E^* = (1-\nu_1^2)/E_1 + (1-\nu_2^2)/E_2` that of two bodies together. On a regular
+grid the sum over all rectangles is a convolution: one transform there and back, the grid doubled so
+that nothing comes round its edges.
 """
 
 import numpy as np

@@ -14,6 +14,7 @@ change by less than `CLOSE`, or stand at the pressure at which the softer body f
 from __future__ import annotations
 
 import dataclasses
+import itertools
 
 import numpy as np
 
@@ -77,7 +78,7 @@ class ToothPressure:
         return np.array([self._of(self.force, k).sum() for k in range(len(ZONES))])
 
     def _of(self, values: FloatArray, zone: int) -> FloatArray:
-        return values[self.strip.zone == zone]
+        return np.asarray(values[self.strip.zone == zone])
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -143,15 +144,15 @@ class ResolvedContact:
         done = [False] * len(strips)
         for shape in _LEVELS if finer else ():
             before = teeth.pressures(strips, found, done)
-            finer = [
+            next_strips = [
                 strip if ready else teeth.finer(strip, tooth, shape)
                 for strip, tooth, ready in zip(strips, before, done, strict=True)
             ]
             start = [
-                None if tooth is None else new.taken(strip, tooth.pressure)
-                for new, strip, tooth in zip(finer, strips, before, strict=True)
+                None if tooth is None or new is None else new.taken(tooth.strip, tooth.pressure)
+                for new, tooth in zip(next_strips, before, strict=True)
             ]
-            strips, found = teeth.solve_within(finer, start)
+            strips, found = teeth.solve_within(next_strips, start)
             iterations += found.iterations
             after = teeth.pressures(strips, found, done)
             done = [
@@ -205,7 +206,9 @@ class _Teeth:
         order = contact.side * np.array(numbers)
         normals = sector.surface.nodal_normals
         worm = contact.worm.numbers.worm
-        whole, rubbing, moment = [], [], 0.0
+        whole: list[FloatArray] = []
+        rubbing: list[FloatArray] = []
+        moment = 0.0
         for k in range(contact.slots):
             count = 4 * int(contact.candidates.counts[k, 0])
             out = contact.answer.normal[k, :count]
@@ -292,8 +295,8 @@ class _Teeth:
                 if frame is None:
                     continue
                 grown = True
-                strips[k] = Strip.of(self.contact.flank, frame, self.approaches[k])
-                start[k] = strips[k].taken(strip, tooth.pressure)
+                wider = Strip.of(self.contact.flank, frame, self.approaches[k])
+                strips[k], start[k] = wider, wider.taken(strip, tooth.pressure)
             if not grown:
                 return strips, found
         raise ConvergenceError("the pressures of the teeth find no bounds on the flank")
@@ -306,7 +309,7 @@ class _Teeth:
             raise ConvergenceError("no tooth is near the worm")
         spaces = [HalfSpace(s.frame.shape, s.frame.spacing, owner.modulus) for _, s in some]
         ends = np.cumsum([0] + [len(s.area) for _, s in some])
-        parts = [slice(a, b) for a, b in zip(ends, ends[1:], strict=False)]
+        parts = [slice(a, b) for a, b in itertools.pairwise(ends)]
         smooth = self._smooth([k for k, _ in some])
         nodes = smooth.shape[0] // len(some)
 

@@ -39,7 +39,9 @@ def _rigid(problem: DriveProblem) -> Iterator[str]:
         if not there
     ]
     if left_out:
-        yield f"rigid: {', '.join(left_out)}; together they can give several times what the teeth do"
+        yield (
+            f"rigid: {', '.join(left_out)}; together they can give several times what the teeth do"
+        )
     if problem.drive.threads == "rigid":
         yield (
             "the worm's threads are rigid (drive.threads) in torque, deflection and error; in the "

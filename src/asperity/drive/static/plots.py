@@ -81,7 +81,7 @@ def pattern(dataset: "xr.Dataset") -> "Figure":
         panel.set_aspect("equal")
         panel.grid(visible=False)
         panel.set_title(
-            f"{words}: {loads[row]:.4g} N m, at most {mega.max():.4g} MPa at a node", fontsize=10.0
+            f"{words}: {loads[row]:.4g} N m, at most {mega.max():.4g} MPa", fontsize=10.0
         )
         if not column:
             panel.set_ylabel("radius (mm)")

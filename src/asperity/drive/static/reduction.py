@@ -10,7 +10,8 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.equilibrium import Balance
-from asperity.drive.static.solve import StaticModel, contact_means
+from asperity.drive.static.seen import contact_means
+from asperity.drive.static.solve import StaticModel
 from asperity.drive.static.sweep import Asked
 from asperity.drive.teeth.contact import TeethContact
 from asperity.drive.teeth.mode import lowest_mode

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.contact.candidates.wrench import place_of
-from asperity.drive.resolved.contact import Resolved, ToothPressure
+from asperity.drive.resolved.contact import Resolved, ResolvedContact, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.pressure import nodal_pressure
 from asperity.drive.teeth.contact import TeethContact
-
-if TYPE_CHECKING:
-    from asperity.drive.static.solve import StaticModel
 
 
 def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float, float]:
@@ -39,28 +35,26 @@ def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float
     return whole, float(weights @ radii) / whole, float(weights @ ways) / whole
 
 
-def resolved(model: StaticModel, balance: Balance, *, finer: bool = True) -> Resolved:
+def resolved(owner: ResolvedContact, balance: Balance, *, finer: bool = True) -> Resolved:
     """Return the resolved pressures of a balance; its contact must still hold its fields."""
     beta = balance.worm_angle + float(balance.yielded[0])
-    return model.resolved.resolve(
-        balance.contact, beta, balance.wheel_angle, balance.shift, finer=finer
-    )
+    return owner.resolve(balance.contact, beta, balance.wheel_angle, balance.shift, finer=finer)
 
 
 class Pattern:
     """The largest resolved pressures of a pitch over the flank, on the grid of the exact flank."""
 
-    def __init__(self, model: StaticModel) -> None:
-        self.model = model
-        self.largest = np.zeros(model.resolved.flank.nodes)
+    def __init__(self, owner: ResolvedContact) -> None:
+        self.owner = owner
+        self.largest = np.zeros(owner.flank.nodes)
 
     def look(self, _number: int, balance: Balance) -> None:
         """Keep what a balance presses, resolved by its first strips alone."""
-        self.keep(resolved(self.model, balance, finer=False))
+        self.keep(resolved(self.owner, balance, finer=False))
 
     def keep(self, found: Resolved) -> None:
         """Keep what was resolved."""
-        flank = self.model.resolved.flank
+        flank = self.owner.flank
         for tooth in found.teeth:
             on = tooth.force > 0.0
             nearest = flank.nearest(tooth.strip.share[on], tooth.strip.points[on, 2])
@@ -70,9 +64,9 @@ class Pattern:
 class Seen:
     """What is taken from each phase under the load."""
 
-    def __init__(self, model: StaticModel) -> None:
-        self.model = model
-        self.pattern = Pattern(model)
+    def __init__(self, owner: ResolvedContact) -> None:
+        self.owner = owner
+        self.pattern = Pattern(owner)
         self.weight = self.radius = self.speed = 0.0
         self.nodal = 0.0  #: Largest pressure at a node of the mesh, Pa
         self.turns: list[FloatArray] = []
@@ -82,7 +76,7 @@ class Seen:
         self.depths: list[float] = []  #: Pressed in plastically, m
         self.resolved = True
         self.worst: ToothPressure | None = None  #: Of the largest pressure on a flank
-        self.nodal_forces = np.zeros((0, 3 * model.sector.body.nodes))
+        self.nodal_forces = np.zeros((0, 3 * owner.flank.sector.body.nodes))
 
     def look(self, _number: int, balance: Balance) -> None:
         """Take what a balance has."""
@@ -95,7 +89,7 @@ class Seen:
         self.weight += force
         self.radius += force * radius
         self.speed += force * speed
-        found = resolved(self.model, balance)
+        found = resolved(self.owner, balance)
         self.pattern.keep(found)
         peaks = np.array([tooth.peaks() for tooth in found.teeth])
         self.peaks.append(peaks.max(axis=0))

@@ -201,8 +201,8 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     """
     model = StaticModel(problem, run)
     load, sector_, contact = problem.load, model.sector, model.contact
-    seen = Seen(model)
-    less_loaded = [Pattern(model) for _ in PATTERNS[:-1]]
+    seen = Seen(model.resolved)
+    less_loaded = [Pattern(model.resolved) for _ in PATTERNS[:-1]]
     count = len(model.phases)
     total = (3 if run.detailed else 2) * count
     every = _EVERY if count >= _MANY else 1
@@ -280,7 +280,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
 def _back_patterns(model: StaticModel, done: int, total: int) -> FloatArray | None:
     """Largest pressures on the other flanks as the drive runs backwards; None where none bear."""
     contact = TeethContact(model.sector, model.friction, side=-1)
-    seen = [Pattern(model) for _ in PATTERNS]
+    seen = [Pattern(model.resolved) for _ in PATTERNS]
     asked = [
         Asked(share * model.problem.load, REVERSED, look=part.look)
         for share, part in zip(PATTERNS, seen, strict=True)

@@ -24,8 +24,9 @@ const BOUNDS = {
 const UNDER = ["phase", "tooth_force", "load", "pattern", "node_radius", "node_face", "faces"];
 const WORTH = ["saved_per_actuator_W_W", "actuator_electrical_W", "actuator_apparent_VA", "force_max_N", "open_share",
   "second_flank_share", "resonance_worm_Hz", "resonance_wheel_Hz"];
-const LOADED = ["efficiency", "input_torque_Nm", "transmission_error_rad", "load_share_max", "pressure_nodal_MPa",
-  "pressure_hertz_MPa"];
+const LOADED = ["efficiency", "input_torque_Nm", "transmission_error_rad", "load_share_max", "pressure_flank_MPa",
+  "pressure_worm_tip_MPa", "force_worm_tip_N", "pressure_wheel_tip_MPa", "force_wheel_tip_N", "pressure_mean_MPa",
+  "flow_pressure_MPa"];
 const HELD = ["holding_share", "threshold_m", "threshold_closed_form_m", "creep_rad_s"];
 const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 
@@ -87,7 +88,7 @@ function Pattern({ data, found }) {
       <select id="load" value=${String(at)} onChange=${(event) => setParam("load", event.target.value)}>
         ${loads.map((load, n) => html`<option value=${String(n)}>${digits(load, 4)} N m</option>`)}</select></p>
     <div class="grid">
-      <${FlankMap} title="Where it bears over a pitch, and how hard" label="largest pressure at a node" unit="MPa"
+      <${FlankMap} title="Where it bears over a pitch, and how hard" label="largest pressure" unit="MPa"
         x=${value("node_face", 1e3)} y=${value("node_radius", 1e3)} cells=${rows(data.faces)} values=${values}
         range=${[0, span(values)[1]]} />
       <${Plot} title="Share of each tooth" series=${series} x=${{
