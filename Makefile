@@ -9,7 +9,7 @@ INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-versi
 # On all cores, what pip does on one: half of the time it takes. Some packages hold files that are
 # no Python to this version; pip is silent about them too.
 BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 .venv/lib || true
-PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder
+PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder --durations 25 --durations-min 5
 # Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.
 SHARE ?= 1
 # Compiled modules are kept: the tests start hundreds of processes.

@@ -3,11 +3,14 @@
 ``asperity schema`` prints the same text for editors.
 """
 
+from typing import get_args
+
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
 from sphinx.util.nodes import nested_parse_with_titles
 
+from asperity.casefile import Table
 from asperity.casefile.schema import keys_of
 from asperity.commands import case_tables
 
@@ -27,7 +30,7 @@ class CaseTable(Directive):
             "",
             *_row("Key", "Example", "Left out", "Meaning"),
         ]
-        for key in keys_of(case_tables()[self.arguments[0]]):
+        for key in keys_of(_table(self.arguments[0])):
             default = {"required": "required", "": ""}.get(key.default, _code(key.default))
             words = key.schema.get("enum") or []
             allowed = f" One of {key.allowed}." if words else ""
@@ -37,6 +40,16 @@ class CaseTable(Directive):
         holder = nodes.container()
         nested_parse_with_titles(self.state, StringList(lines, "case-table"), holder)
         return holder.children
+
+
+def _table(path):
+    """Return a table by its name, or the one that a key of it lists: ``worm_shaft.section``."""
+    name, _, key = path.partition(".")
+    model = case_tables()[name]
+    if not key:
+        return model
+    listed = get_args(model.model_fields[key].annotation)
+    return next(each for each in listed if isinstance(each, type) and issubclass(each, Table))
 
 
 def _row(*cells):

@@ -55,17 +55,21 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
-# A slow test stands in a file that says so, by itself or by a grid of cases.
+# A slow test stands in a file or a folder that says so, or has a grid of cases.
 _NAMES_SLOW = re.compile(r"\b(slow|grid)\b")
+
+
+def _may_be_slow(path: Path) -> bool:
+    files = (path, path.with_name("conftest.py"))
+    return any(_NAMES_SLOW.search(file.read_text("utf-8")) for file in files if file.exists())
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
     # Half of the files have none: collecting them takes each worker as long as a dear test.
-    if config.option.markexpr != "slow" or not collection_path.name.startswith("test_"):
-        return None
-    if collection_path.suffix != ".py" or _NAMES_SLOW.search(collection_path.read_text("utf-8")):
-        return None
-    return True
+    is_test = collection_path.match("test_*.py")
+    if config.option.markexpr == "slow" and is_test and not _may_be_slow(collection_path):
+        return True
+    return None
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
@@ -73,8 +77,8 @@ def pytest_collection_modifyitems(
     config: pytest.Config, items: list[pytest.Item]
 ) -> Generator[None]:
     for path in {item.path for item in items if item.get_closest_marker("slow")}:
-        if not _NAMES_SLOW.search(path.read_text("utf-8")):
-            raise pytest.UsageError(f"{path}: has slow tests, and does not name what makes them so")
+        if not _may_be_slow(path):
+            raise pytest.UsageError(f"{path}: has slow tests, and no word of what makes them slow")
     yield
     # When ordinary tests are deselected: `apparatus.grid` leaves parts of campaigns to them.
     # Parts of a campaign differ in the parameter it is over, or in any if it names none. Of each

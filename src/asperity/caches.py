@@ -34,6 +34,7 @@ KINDS = {
     "modes": ("lowest natural frequencies of teeth", _ANSWER),
     "sweep": ("points of sweeps", rf"{_ROWS}(-wal|-shm|\.damaged)?"),
     "thesis": ("solved cases that exhibits share", _ANSWER),
+    "pages": ("tokens of pages, by which bookmarks and open tabs are known", r"[0-9a-f]{32}"),
 }
 """By name: what each kind of thing is, and what its files or folders are named."""
 

@@ -151,7 +151,8 @@ def written(tables):
 
 
 @pytest.mark.parametrize(
-    "part", [0, *(pytest.param(n, marks=pytest.mark.slow) for n in range(1, 44))]
+    "part",
+    [0, *(pytest.param(n, marks=(pytest.mark.slow, pytest.mark.campaign)) for n in range(1, 44))],
 )
 def test_no_line_of_a_screen_is_longer_than_a_terminal_and_silence_never_holds(
     asperity, here, part

@@ -26,6 +26,11 @@ CHANGES = (
     # (command lines, what in their answers, why it is no longer what was recorded)
     ("slide oblique *", "json.thrust_N", "a vibration that drives the body tells its thrust"),
     ("cases", "json.cases", "three cases of vibration out of the plane have come"),
+    ("check *", "json.refused.shafts", "a command of shafts has come"),
+    *(
+        ("schema", f"json.properties.{table}*", "tables of shafts and bearings have come")
+        for table in ("worm_shaft", "wheel_shaft", "bearings")
+    ),
     *(
         ("flank *", f"flank.nc:{name}.units", "what labels a dimension is a number without unit")
         for name in ("axis", "direction", "part")

@@ -165,6 +165,16 @@ def test_the_waveforms_of_a_body_close_over_the_cycle(page):
     assert mean == pytest.approx(answer["answer"]["drive_force_N"], rel=0.01)
     slid = sum(series["sliding_velocity"]) / len(series["phase"])
     assert slid == pytest.approx(0.5e-3, rel=0.02)
+    assert not any(series["base_velocity_across"])
+    slanted = PERIODIC | {"vibration.direction": "60 deg"}
+    series = page.do("slide", "table-4.3", slanted).json["series"]
+    across, along = series["base_velocity_across"], series["base_velocity"]
+    assert across == pytest.approx([math.sqrt(3.0) * each for each in along], rel=1e-3, abs=1e-9)
+    # What slides goes across as the base does not.
+    body = [
+        each + base for each, base in zip(series["sliding_velocity_across"], across, strict=True)
+    ]
+    assert max(map(abs, body)) < 0.2 * max(map(abs, across))
 
 
 def test_the_curve_over_direction_is_the_closed_form_where_drive_and_friction_are_rigid(page):
@@ -174,6 +184,27 @@ def test_the_curve_over_direction_is_the_closed_form_where_drive_and_friction_ar
     assert not any(curve["unstable"])
     one = page.do("slide", "table-4.1-L1", PERIODIC | {"vibration.direction": "45 deg"}).json
     assert one["answer"]["ratio"] == pytest.approx(curve["ratio"][3], rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("over", "key", "at"), [("elevation", "elevation", 2), ("phase", "normal_phase", 5)]
+)
+def test_the_curve_of_a_pin_goes_out_of_the_plane(page, over, key, at):
+    slanted = {"vibration.elevation": "40 deg"}
+    curve = page.do("curve", "pin-on-disc", slanted, over=over, points=7).json["series"]
+    ends = {"elevation": (0.0, 180.0), "phase": (-180.0, 180.0)}[over]
+    assert (curve["x"][0], curve["x"][-1], curve["unit"]) == (*ends, "deg")
+    # Half a turn ahead is half a turn behind; along the plane either way is the same.
+    assert curve["ratio"][0] == pytest.approx(curve["ratio"][-1], rel=1e-4)
+    chosen = PERIODIC | slanted | {f"vibration.{key}": f"{curve['x'][at]} deg"}
+    one = page.do("slide", "pin-on-disc", chosen).json["answer"]
+    assert one["ratio"] == pytest.approx(curve["ratio"][at], rel=1e-4)
+
+
+def test_a_body_without_motion_normal_to_the_plane_has_no_curve_over_it(page):
+    refused = page.do("curve", "table-4.3", over="elevation", points=7)
+    assert refused.status == 400
+    assert "no table [normal]" in refused.error
 
 
 def test_proposals_are_those_of_the_command_line(page, asperity):

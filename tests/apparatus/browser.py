@@ -84,7 +84,7 @@ class Seen:
     def close(self):
         """Close it; whatever was complained of fails the test."""
         self.context.close()
-        assert not self.complaints
+        assert not self.complaints, self.complaints
         assert not self.elsewhere
 
 

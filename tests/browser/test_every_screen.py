@@ -17,7 +17,7 @@ def ready(page):
     """Wait until a screen is there with what it answers at once."""
     expect(page.get_by_role("heading", level=1)).to_be_visible()
     expect(
-        page.get_by_text(re.compile("One moment|being compiled|forms are coming"))
+        page.get_by_text(re.compile("One moment|computes is starting|forms are coming"))
     ).to_have_count(0)
     settled(page)
 
@@ -124,3 +124,28 @@ def test_a_markup_in_a_name_is_text(seen, server):
     ready(page)
     expect(page.get_by_text("<img src=x onerror=alert(1)>")).to_be_visible()
     assert page.locator("img[src=x]").count() == 0
+
+
+def test_every_screen_that_solves_opens_with_an_answer_that_ships(seen):
+    numbers = {"flanks": "contact_ratio", "drive": "torque_ratio", "block": "slider_ratio"}
+    for screen, key in numbers.items():
+        page = seen.open(screen)
+        expect(page.locator(f"[data-key$={key}]").first).to_be_visible()
+        expect(page.get_by_text("an answer that ships").first).to_be_visible()
+    page = seen.open("sweep")
+    expect(page.locator("svg.drawn, canvas").first).to_be_visible()
+    page = seen.open("drive", case="valve-actuator", **{"set.vibration.frequency": "15 kHz"})
+    expect(page.get_by_text("to the case as it is written").first).to_be_visible()
+
+
+def test_the_first_page_asks_three_questions_and_knows_what_was_open_last(seen):
+    page = seen.open("")
+    expect(page.get_by_role("heading", level=2)).to_have_text(
+        ["Does my gear hold?", "Which way do I shake it?", "What did my rig measure?"]
+    )
+    page.get_by_role("link", name="Does my gear hold?").click()
+    expect(page.get_by_role("heading", name="Does it hold?")).to_be_visible()
+    # Kept once it has stayed for a while.
+    page.wait_for_timeout(2000)
+    page.get_by_role("link", name="Start", exact=True).click()
+    expect(page.get_by_label("open last").get_by_role("link", name="Gearset")).to_be_visible()

@@ -3,6 +3,7 @@
 import io
 import shutil
 from contextlib import closing
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -231,7 +232,7 @@ def test_in_space_it_takes_few_calls_a_frame_and_turns(browser, server):
         )
         seen.page.add_init_script(COUNT_CALLS)
         page = seen.open("flanks", case="gearset-3")
-        page.get_by_role("button", name="cut the wheel").click()
+        # An answer that ships is there at once.
         page.get_by_text("the lines nearest to the worm").wait_for(timeout=LONGEST)
         # Nothing turns by itself where somebody wants none of it.
         expect(page.get_by_role("button", name="play")).to_be_visible()
@@ -298,3 +299,14 @@ def test_a_centre_distance_that_its_module_does_not_reach_is_offered_with_one_th
     wanted = answered(copied(gear), server.folder)["geometry"]
     assert wanted["centre_distance_mm"] == 90
     assert wanted["profile_shift"] == pytest.approx(0.018022, abs=1e-3)
+
+
+def test_a_report_of_a_gearset_is_a_click_away(seen):
+    page = seen.open("gear", case="worm-15-to-1")
+    expect(page.get_by_role("heading", name="Does it hold?")).to_be_visible()
+    with page.expect_download(timeout=120_000) as download:
+        page.get_by_role("button", name="report", exact=True).click()
+    assert download.value.suggested_filename == "report.html"
+    text = Path(download.value.path()).read_text("utf-8")
+    assert "gearset 3" in text
+    expect(page.get_by_role("button", name="rate.xlsx")).to_be_visible()

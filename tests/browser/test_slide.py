@@ -232,3 +232,52 @@ def test_a_direction_that_is_none_is_drawn_nowhere(slide):
     typed(slide, "direction, typed", "x")
     expect(slide.locator(".fault")).to_be_visible()
     expect(slide.locator("circle.here")).to_have_count(0)
+
+
+def test_the_handle_on_the_plate_turns_the_direction_and_pulls_the_strength(slide):
+    settled(slide)
+    grip = slide.locator(".stage .grip")
+    box, plate = grip.bounding_box(), slide.locator(".stage svg").bounding_box()
+    slide.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    slide.mouse.down()
+    scale = plate["width"] / 720
+    slide.mouse.move(plate["x"] + (330 - 60) * scale, plate["y"] + (150 - 60) * scale, steps=8)
+    slide.mouse.up()
+    settled(slide)
+    expect(slide.get_by_label("direction, typed")).to_have_value("45 deg")
+    assert shown(slide, "velocity_ratio") < 6.0
+    expect(slide.locator(".stage")).to_contain_text("45°")
+
+
+def test_the_picture_moves_stops_and_is_moved_by_hand(slide):
+    dot = slide.locator(".stage .dot")
+
+    def place():
+        return dot.get_attribute("cx"), slide.locator(".runs").first.get_attribute("cx")
+
+    before = place()
+    slide.wait_for_timeout(400)
+    moved = place()
+    assert moved[0] != before[0]
+    assert moved[1] != before[1]
+    slide.get_by_role("button", name="stop the motion").click()
+    still = place()
+    slide.wait_for_timeout(300)
+    assert place() == still
+    slide.get_by_label("moment of the cycle").fill("96")
+    assert place() != still
+
+
+def test_who_wants_no_motion_gets_none(seen_as):
+    page = seen_as(reduced_motion="reduce").open("slide")
+    expect(page.get_by_role("button", name="let it move")).to_be_visible()
+
+
+def test_the_best_elevation_of_a_pin_is_taken_by_a_click(seen):
+    page = seen.open("slide", case="pin-on-disc")
+    expect(page.get_by_text("Force left over elevation")).to_be_visible()
+    before = shown(page, "ratio")
+    page.get_by_role("button", name="take it").click()
+    settled(page)
+    assert shown(page, "ratio") < 0.2 * before
+    expect(page.get_by_text("No other elevation leaves less.")).to_be_visible()

@@ -6,13 +6,14 @@ from asperity.commands import case_tables
 from asperity.drive.tables import TABLES as DRIVE
 from asperity.flanks.tables import TABLES as FLANKS
 from asperity.rating.tables import TABLES as RATING
+from asperity.shafts.tables import TABLES as SHAFTS
 from asperity.slider.tables import TABLES as SLIDER
 from asperity.tribometer.tables import TABLES as TRIBOMETER
 
 
 def test_a_case_file_may_have_every_table_of_every_room():
     tables = case_tables()
-    rooms = {**SLIDER, **RATING, **BLOCK, **FLANKS, **DRIVE, **TRIBOMETER}
+    rooms = {**SLIDER, **RATING, **SHAFTS, **BLOCK, **FLANKS, **DRIVE, **TRIBOMETER}
     assert dict(tables) == {**rooms, "project": Project}
     assert len(tables) == len(list(tables))
     assert all(name in tables and table.table == name for name, table in tables.items())

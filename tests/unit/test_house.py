@@ -30,8 +30,9 @@ def test_a_folder_has_at_most_ten_entries(room):
 
 
 def test_the_page_keeps_its_budget_of_python():
-    # 1500 for what it does; a tenth more guards it against links, half requests and full disks.
-    assert sum(map(len, lines((SOURCES / "web").glob("*.py")).values())) <= 1650
+    # 1500 for what it does; a fifth more guards it against links, half requests and full disks, and
+    # keeps what outlives a server.
+    assert sum(map(len, lines((SOURCES / "web").glob("*.py")).values())) <= 1800
 
 
 def test_no_script_of_the_page_is_longer_than_300_lines_or_wider_than_120():

@@ -161,7 +161,9 @@ def cases(
 @app.command()
 @reported
 def new(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="gear, slide, block, drive or rig.")],
+    kind: Annotated[
+        str, typer.Argument(metavar="KIND", help="gear, slide, block, drive, rig or bearing.")
+    ],
     file: Annotated[
         str, typer.Argument(metavar="FILE", help="The file to write; KIND.toml if left out.")
     ] = "",
@@ -311,6 +313,20 @@ def lubricants(as_json: JsonOption = False) -> None:
     from asperity.gearset.lubricants import BaseOil, Lubricant
 
     print_library((Lubricant, BaseOil), as_json=as_json)
+
+
+@app.command()
+@reported
+def bearings(as_json: JsonOption = False) -> None:
+    """List rolling bearings and steels of shafts that data files hold, with source and trust.
+
+    Bearings are your own: asperity new bearing begins a file.
+    """
+    from asperity.cli.lists import print_library
+    from asperity.shafts.bearing import RollingBearing
+    from asperity.shafts.steel import ShaftSteel
+
+    print_library((RollingBearing, ShaftSteel), as_json=as_json)
 
 
 @app.command()

@@ -9,6 +9,8 @@ from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, plain
 from asperity.rating.parameters import Operation
+from asperity.start.bearing import KIND as BEARING
+from asperity.start.bearing import bearing_text
 from asperity.start.gear import MACRO, begun, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
@@ -31,8 +33,12 @@ def new(
     What is asked is by key of the operation, None where it is not; a file without an ending gets
     one.
     """
-    kind, path = kind_of(name), file or Path(name)
+    path = file or Path(name)
     path = path if path.suffix else path.with_name(f"{path.name}.toml")
+    if name == BEARING:
+        _new_bearing(path, asked, settings, ratio, as_json=as_json)
+        return
+    kind = kind_of(name)
     if any(each is not None for each in asked.values()) and Operation.table not in kind.tables:
         raise InputError(f"--output-torque and --worm-speed are of a gear; {name} has neither")
     if path.exists():
@@ -65,6 +71,30 @@ def new(
         operation = case.get(Operation)
         if operation and operation.wear_assumed:
             show.print_text(f"\n{operation.wear_assumed}")
+
+
+def _new_bearing(
+    path: Path,
+    asked: Mapping[str, str | None],
+    settings: Sequence[str],
+    ratio: str,
+    *,
+    as_json: bool,
+) -> None:
+    """Write a data file of bearings, which has nothing that can be asked."""
+    if settings or ratio or any(each is not None for each in asked.values()):
+        raise InputError(
+            "--set, --ratio, --output-torque and --worm-speed are of a case; a data file of "
+            "bearings has none: leave them out"
+        )
+    if path.exists():
+        raise InputError(f"{plain(str(path))} is there already; name another file")
+    write_text(path, bearing_text())
+    if as_json:
+        show.print_json({"file": str(path), "tables": [BEARING]})
+    else:
+        file = plain(str(path))
+        show.print_text(f"{file} is written; go on with\n\n  asperity --materials {file} bearings")
 
 
 def size(
@@ -105,7 +135,8 @@ def _written(found: Proposals, values: Values, out: Path) -> str:
     for place, proposal in enumerate(found.found, 1):
         kept = {k: v for k, v in values["gearset"].items() if k not in _OTHER_FORMS}
         mine = {**values, "gearset": {**kept, **proposal.keys}}
-        text = case_text(f"Proposal {place}", mine, case_tables(), kind.tables)
+        tables = (*kind.tables, *(name for name in mine if name not in kind.tables))
+        text = case_text(f"Proposal {place}", mine, case_tables(), tables)
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)
     return f"written to {folder}: {', '.join(names)}"
 

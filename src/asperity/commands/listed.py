@@ -100,6 +100,14 @@ COMMANDS = (
         ),
     ),
     Command(
+        "shafts",
+        "Shafts and bearings of a worm gearset: reactions, deflection, strength, lives.",
+        "By DIN 743, ISO 281 and ISO 76. With --out also report.html, shafts.json, shafts.nc and "
+        "shafts.png.",
+        module="asperity.shafts.study",
+        needs=("gearset", "operation"),
+    ),
+    Command(
         "sensitivity",
         "Raise each input of a worm gearset alone, to 40 %, and follow its efficiency.",
         "With --out also sensitivity.nc, sensitivity.png and sensitivity.json.",

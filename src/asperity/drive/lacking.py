@@ -3,6 +3,7 @@
 from asperity.casefile import Case
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.shafts import bends
+from asperity.drive.worm_shaft import shaft_of
 from asperity.errors import InputError
 from asperity.flanks.parameters import Mount
 from asperity.friction import Friction
@@ -69,7 +70,7 @@ def require_all(
             f"{case.source}: there is no [gearset] in it; a drive is one of a worm gearset, and "
             f"this case is of {other}"
         )
-    drive, shaft = case.get(Drive, Drive()), case.get(Shaft, Shaft())
+    drive, shaft = case.get(Drive, Drive()), shaft_of(case)
     if protocol is not None:
         drive = drive.model_copy(update={"protocol": protocol})
     missing = []

@@ -60,6 +60,9 @@ class Drive(Table):
         Of the teeth's mesh.
     threads : {'rigid', 'elastic'}
         Whether the worm's threads give where they are pressed, as a half-space of their steel.
+    plastic : bool
+        Whether pressures of loaded teeth end at the hardness of the wheel, as its edges flow; false
+        for elastic ones.
     phases : int
         Positions of the worm over a pitch, 1 to 360.
     friction : {'constant', 'iso14521'}
@@ -103,6 +106,7 @@ class Drive(Table):
     teeth: Annotated[int, Field(strict=True, ge=1, le=9)] = 5
     density: Literal["coarse", "intermediate", "fine"] = "coarse"
     threads: Literal["rigid", "elastic"] = "rigid"
+    plastic: bool = True
     phases: Annotated[int, Field(strict=True, ge=1, le=360)] = 24
     friction: Literal["constant", "iso14521"] = "constant"
     stroke: Annotated[

@@ -11,6 +11,7 @@ from asperity.drive.friction import check_friction, mesh_friction
 from asperity.drive.lacking import FREE_WORM, moved, require_all
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.point import MeshPoint
+from asperity.drive.worm_shaft import shaft_of
 from asperity.errors import InputError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
@@ -111,7 +112,7 @@ class DriveProblem:
                 operation=operation,
                 friction=mesh_friction(case, gearset, operation, drive),
                 drive=drive,
-                shaft=case.get(Shaft, Shaft()),
+                shaft=shaft_of(case),
                 solve=case.get(Solve, Solve()),
                 vibration=vibration,
                 shape=shape,

@@ -2,9 +2,9 @@
 
 A data file is TOML. ``[source.ID]`` says where values come from (``name``, ``confidence``,
 ``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[worm.NAME]``,
-``[steel.NAME]``, ``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]`` or
-``[motor.NAME]``, with the keys of its class. Its key ``from`` names the source of each value by
-key, with ``"*"`` for all others::
+``[steel.NAME]``, ``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]``, ``[motor.NAME]``,
+``[bearing.NAME]`` or ``[shaft_steel.NAME]``, with the keys of its class. Its
+key ``from`` names the source of each value by key, with ``"*"`` for all others::
 
     [source.maker]
     name = "data sheet of the foundry, 2024"
@@ -43,6 +43,8 @@ SECTIONS: Mapping[str, str] = {
     "lubricant": "lubricant",
     "bearings": "arrangement of bearings",
     "motor": "motor",
+    "bearing": "rolling bearing",
+    "shaft_steel": "steel of shafts",
 }
 """The tables of a data file, and what they hold."""
 

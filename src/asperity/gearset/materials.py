@@ -11,6 +11,7 @@ from asperity.units import Quantity
 Modulus = Annotated[float, Quantity("Pa", what="a modulus", example="122.6 GPa", gt=0)]
 Strength = Annotated[float, Quantity("Pa", what="a stress", example="660 MPa", gt=0)]
 Poisson = Annotated[float, Quantity("", what="a ratio", example="0.35", ge=0, lt=0.5)]
+Hardness = Annotated[float, Quantity("", what="a Brinell hardness", example="150", gt=0, le=1000)]
 Factor = Annotated[float, Quantity("", what="a factor", example="1.1", gt=0)]
 Family = Literal["tin bronze", "aluminium bronze", "grey iron", "nodular iron"]
 BaseOilName = Literal["mineral", "polyalphaolefin", "polyglycol"]
@@ -22,6 +23,10 @@ WheelClass = Literal[
 ]
 WormClass = Literal["cast iron", "0.4C steel", "0.55C steel", "case-hardened C steel"]
 Casting = Literal["sand", "chill", "centrifugal"]
+
+
+# Of a hardness of 1: a kilogram-force on a square millimetre, Pa.
+_BRINELL = 9.80665e6
 
 
 class Material(Sourced):
@@ -58,6 +63,8 @@ class WheelMaterial(Material):
         :math:`\tau_{FlimT}`, Pa.
     wear_factor : mapping of str to float
         :math:`W_{ML}` by base oil; 1 for those left out.
+    brinell_hardness : float, optional
+        HBW; decides at which pressure an edge flows. Left out: it stays elastic.
     bs721 : str, optional
         Row of BS 721's tables of stress factors; left out where none fits.
     agma6034 : {'sand', 'chill', 'centrifugal'}, optional
@@ -72,8 +79,14 @@ class WheelMaterial(Material):
     pitting_strength: Strength
     shear_strength: Strength
     wear_factor: Mapping[BaseOilName, Factor] = {}
+    brinell_hardness: Hardness | None = None
     bs721: WheelClass | None = None
     agma6034: Casting | None = None
+
+    @property
+    def flow_pressure(self) -> float | None:
+        """Pressure at which a contact flows: the Brinell hardness as a pressure, Pa."""
+        return None if self.brinell_hardness is None else _BRINELL * self.brinell_hardness
 
     def avoids(self, base_oil: str) -> bool:
         """Whether practice avoids the pair of it and a base oil, for its wear."""

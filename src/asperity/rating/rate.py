@@ -40,6 +40,10 @@ if TYPE_CHECKING:
     from asperity.results.report import Heading, Section
 
 
+_MOST_SHEETS = 100
+"""Loads of a spectrum above which there is no workbook, which has cells for each of them."""
+
+
 class Rated(Result):
     """A worm gearset rated by one or more standards.
 
@@ -265,6 +269,8 @@ class Rated(Result):
         names = super().write(folder, pictures="")
         table = self.to_frame().map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
+        if len(self.given.duty) > _MOST_SHEETS:
+            return [*names, "rate.csv"]
         write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
         return [*names, "rate.csv", "rate.xlsx"]
 

@@ -11,6 +11,7 @@ from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
+from asperity.rating.starting import starting_table
 from asperity.rating.verdict import bar, locking_line, power_lines
 from asperity.results.quantity import Number, Sentence, text_of
 from asperity.results.report import Picture, Section
@@ -46,7 +47,9 @@ def sections(rated: Reported) -> Iterator[Section]:
                        caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip
         yield Section("Power", pictures=(flow,), tables=(_power(rated.iso14521),))
         if rated.duty_cycle:
-            yield Section("Duty cycle", tables=(duty_table(rated.duty_cycle),))
+            yield _duty(rated)
+        elif rated.given.operation.housing is not None:
+            yield Section("Heat", tuple(rated.of_duty))
         said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
         by = "Forces on shafts and bearings, by ISO/TR 14521"
         yield Section(by, (said, *_of_agma(rated)), tables=(_forces(rated),))
@@ -64,6 +67,25 @@ def sections(rated: Reported) -> Iterator[Section]:
     for name, rating in rated.found.items():
         yield Section(f"Calculation by {rating.standard}", tables=(_numbers(name, rating, cited),))
     yield Section("Sources", tables=(_sources(cited),))
+
+
+def _duty(rated: Reported) -> Section:
+    """Return what each load has in wear and heat, and how warm the housing gets."""
+    iso, given = rated.iso14521, rated.given
+    tables = [duty_table(rated.duty_cycle)]
+    if given.operation.spectrum is None and given.operation.housing is None:
+        return Section("Duty cycle", tables=tuple(tables))
+    from asperity.rating.duty_plots import plot_duty
+    from asperity.rating.warming import warming
+
+    tables += [starting_table(rated.starting)] if rated.starting else []
+    figure = plot_duty(rated.duty_cycle, float(iso["theta_S_lim_degC"]), warming(given, iso))
+    caption = (
+        "Losses over the running time of the loads, and the oil's temperature: by the heat balance "
+        "under the greatest loss where the housing's heat capacity is known, else by ISO/TR 14521."
+    )
+    picture = Picture("", figure=figure, caption=caption)
+    return Section("Loads and heat", rated.of_duty, pictures=(picture,), tables=tuple(tables))
 
 
 def _of_agma(rated: Reported) -> Iterator[str]:

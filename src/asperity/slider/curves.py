@@ -1,4 +1,4 @@
-"""The ratio of a body over the direction or the strength of its vibration, beside a closed form."""
+"""The ratio of a body over how its vibration points, or how strong it is, beside a closed form."""
 
 import dataclasses
 import math
@@ -15,9 +15,15 @@ from asperity.slider.closed_forms.ratios import directed_ratio, triangle_directe
 from asperity.slider.continuation import follow
 from asperity.slider.model import Model
 
-OVER = ("direction", "k")
+OVER = ("direction", "k", "elevation", "phase")
 """What a curve goes over."""
 
+# By what a curve goes over: the key of the vibration, and from where to where, rad.
+_ANGLES = {
+    "direction": ("direction", 0.0, math.pi / 2.0),
+    "elevation": ("elevation", 0.0, math.pi),
+    "phase": ("normal_phase", -math.pi, math.pi),
+}
 _LEAST, _MOST = 0.1, 10.0
 _MOST_POINTS = 400
 _FORMS: Mapping[str, Formula[Any]] = {"sine": directed_ratio, "triangle": triangle_directed_ratio}
@@ -29,7 +35,8 @@ class Curve(NamedTuple):
     Attributes
     ----------
     x : ndarray, shape (n,)
-        Direction, deg, or peak velocity of the vibration over that of the drive.
+        Direction, elevation or phase of the normal part, deg, or peak velocity of the vibration over
+        that of the drive.
     unit : str
         Of `x`.
     ratio : ndarray, shape (n,)
@@ -58,12 +65,28 @@ class Curve(NamedTuple):
 
 
 def curve(model: Model, over: str = OVER[0], points: int = 37) -> Curve:
-    """Follow a body's periodic state from along to across the drive, or from weak to strong.
+    """Follow a body's periodic state over what may be chosen of its vibration.
+
+    Parameters
+    ----------
+    model : Model
+        A body that is shaken.
+    over : {'direction', 'k', 'elevation', 'phase'}
+        From along to across the drive; from weak to strong; from along the plane through its normal
+        to the plane again; by how much the normal part leads the part in the plane.
+    points : int
+        How many states, 2 to 400.
+
+    Returns
+    -------
+    Curve
+        The ratio over it.
 
     Raises
     ------
     InputError
-        Nothing is shaken, or over something else or by too many points.
+        Nothing is shaken, the body knows no motion normal to the plane, or over something else or
+        by too many points.
     """
     if over not in OVER:
         raise InputError(f"over is {shown(over)}; it must be one of {', '.join(OVER)}")
@@ -71,8 +94,11 @@ def curve(model: Model, over: str = OVER[0], points: int = 37) -> Curve:
         raise InputError(f"points is {shown(points)}; it must be from 2 to {_MOST_POINTS}")
     if model.vibration is None or model.shape is None:
         raise InputError("nothing is shaken; give the case a table [vibration]")
-    if over == "direction":
-        values, key = np.linspace(0.0, math.pi / 2.0, points), "direction"
+    if over in _ANGLES:
+        key, low, high = _ANGLES[over]
+        if over != "direction" and model.normal is None:
+            raise InputError(f"over is {over!r}; the case has no table [normal], which that needs")
+        values = np.linspace(low, high, points)
     else:
         now = model.peak_velocity / model.slider.drive_velocity
         values, key = np.geomspace(_LEAST, max(_MOST, 2.0 * now), points), "velocity_ratio"
@@ -86,8 +112,8 @@ def curve(model: Model, over: str = OVER[0], points: int = 37) -> Curve:
     found = list(follow(models))
     closed = [_closed(each) for each in models]
     return Curve(
-        np.degrees(values) if over == "direction" else values,
-        "deg" if over == "direction" else "",
+        np.degrees(values) if over in _ANGLES else values,
+        "deg" if over in _ANGLES else "",
         np.array([math.nan if isinstance(f, ConvergenceError) else f.ratio for f in found]),
         None if None in closed else np.array(closed),
         np.array([

@@ -26,8 +26,9 @@ def cycle_of(model: Model, history: History, points: int) -> dict[str, FloatArra
     Returns
     -------
     dict of str to ndarray
-        ``phase`` in cycles, velocities along the drive, friction along and across, drive force and
-        normal force.
+        ``phase`` in cycles, velocities of the base along the drive, across it and up (of the body
+        itself where it is shaken), sliding velocities along and across, friction along and across,
+        drive force and normal force.
     """
     if len(history.time) < 2:
         return {}
@@ -36,16 +37,20 @@ def cycle_of(model: Model, history: History, points: int) -> dict[str, FloatArra
     frequency = model.frequency or 1.0 / (time[-1] - time[0])
     # A periodic state is counted from the beginning of a cycle.
     start = 0.0 if model.solve.method == "periodic" else model.start
-    base = _base_velocity(model, np.mod(model.frequency * (time - start), 1.0))
-    own = history.velocity[rows, 0]
+    along, across, up = _base_velocity(model, np.mod(model.frequency * (time - start), 1.0))
+    own, aside = history.velocity[rows, 0], history.velocity[rows, 1]
+    sense = 1.0 if model.on_body else -1.0
     load = np.full(len(rows), model.slider.normal_force)
     if isinstance(history, PressedHistory):
         load = history.normal_force[rows]
     return {
         "phase": frequency * (time - time[0]),
-        "base_velocity": base,
+        "base_velocity": along,
+        "base_velocity_across": across,
+        "base_velocity_up": up,
         # Prescribed to the body, the motion comes on top of its own.
-        "sliding_velocity": own + base if model.on_body else own - base,
+        "sliding_velocity": own + sense * along,
+        "sliding_velocity_across": aside + sense * across,
         "force": history.friction[rows, 0],
         "force_across": history.friction[rows, 1],
         "drive_force": history.drive_force[rows],
@@ -59,16 +64,21 @@ def _last(time: FloatArray, frequency: float, points: int) -> npt.NDArray[np.int
     return rows[np.linspace(0, len(rows) - 1, min(points, len(rows))).round().astype(np.int64)]
 
 
-def _base_velocity(model: Model, phase: FloatArray) -> FloatArray:
-    """Velocity of what shakes along the drive, m/s."""
+def _base_velocity(model: Model, phase: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Velocity of what shakes along the drive, across it and up, m/s."""
     if model.shape is None or not model.vibrates:
-        return np.zeros(len(phase))
+        return np.zeros(len(phase)), np.zeros(len(phase)), np.zeros(len(phase))
     wave = model.shape.wave(ramped=False)
-    # A cycle late, so that the wave's rest before its start is not met.
-    rise = [
-        displacement_at(wave, 1.0 + p + _WIDTH) - displacement_at(wave, 1.0 + p - _WIDTH)
-        for p in phase
-    ]
-    scale = model.amplitude * model.unit_direction[0] * model.frequency / (2.0 * _WIDTH)
-    velocity: FloatArray = scale * np.array(rise)
-    return velocity
+
+    def rate(lead: float) -> FloatArray:
+        # A cycle late, so that the wave's rest before its start is not met.
+        rise = [
+            displacement_at(wave, 1.0 + p + _WIDTH) - displacement_at(wave, 1.0 + p - _WIDTH)
+            for p in np.mod(phase + lead, 1.0)
+        ]
+        return model.amplitude * model.frequency / (2.0 * _WIDTH) * np.array(rise)
+
+    along, across, up = model.unit_direction
+    plane = rate(0.0) if along or across else np.zeros(len(phase))
+    normal = rate(model.normal_lead) if up else np.zeros(len(phase))
+    return along * plane, across * plane, up * normal

@@ -8,9 +8,12 @@ from asperity.casefile import Table
 from asperity.commands import Command, Option
 from asperity.errors import ConvergenceError, InputError
 from asperity.gearset.parameters import Gearset
+from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.spectrum import Spectrum
 from asperity.start.kinds import KINDS, Values
 from asperity.studies.proposals import Proposals, propose
+from asperity.studies.requirements import Requirements
 from asperity.units import quantity_of, to_si
 
 MACRO = ("starts", "wheel_teeth", "centre_distance", "axial_module", "diameter_factor")
@@ -64,8 +67,9 @@ def proposals(
     Parameters
     ----------
     values : dict
-        The tables ``gearset``, ``operation`` and perhaps ``rating`` as a file has them; what the
-        gearset says of its macro-geometry is held, and the rest of it proposed.
+        The tables ``gearset``, ``operation`` and perhaps ``rating``, ``spectrum``, ``housing`` and
+        ``requirements`` as a file has them; what the gearset says of its macro-geometry is held,
+        and the rest of it proposed.
     ratio : float
         Of the speeds.
     rank, exact
@@ -78,7 +82,7 @@ def proposals(
     kept = {key: value for key, value in values["gearset"].items() if key not in _HELD}
     held = _held({key: value for key, value in values["gearset"].items() if key in _HELD})
     gearset = _table(Gearset, kept | _STAND_IN)
-    operation = _table(Operation, values["operation"])
+    operation = _operation(values)
     options = _table(RatingOptions, values.get("rating", {}))
     return propose(
         ratio,
@@ -90,7 +94,19 @@ def proposals(
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
         held=held,
         locks=locks,
+        requirements=_table(Requirements, values.get("requirements", {})),
     )
+
+
+def _operation(values: Values) -> Operation:
+    """Return how it is run, with its load spectrum and housing."""
+    run: Operation = _table(Operation, values["operation"])
+    tables = {
+        model.table: _table(model, values[model.table])
+        for model in (Spectrum, Housing)
+        if model.table in values
+    }
+    return run.with_tables(**tables)
 
 
 def _held(values: Mapping[str, Any]) -> dict[str, float]:

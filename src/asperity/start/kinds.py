@@ -232,5 +232,5 @@ RATIO = "40"
 def kind_of(name: str) -> Kind:
     """Return a kind by its name; raises InputError where there is none."""
     if name not in KINDS:
-        raise InputError(f"{name} is not a kind of case file{nearest(name, KINDS)}")
+        raise InputError(f"{name} is not a kind of case file{nearest(name, (*KINDS, 'bearing'))}")
     return KINDS[name]

@@ -54,7 +54,7 @@ def kind_of(tables: Mapping[str, object]) -> str:
 def opened(case: str, folder: Path | None) -> tuple[Path, str, str]:
     """Return the folder that a case is opened in, its name there, and its kind."""
     if not case:
-        return store.output_folder(folder or Path()), "", "slide"
+        return store.output_folder(folder or Path()), "", "home"
     path = shipped_case(case)
     if path is not None and not Path(case).is_file():
         return store.output_folder(folder or Path()), case, kind_of(store.read_toml(path))

@@ -39,14 +39,14 @@ def case_text(
     """
     lines = [f"# {title}", ""]
     for remark in remarks:
-        lines += [*_comment(remark), ""]
+        lines += [*comment(remark), ""]
     for name in names:
         model, given = tables[name], values.get(name, {})
-        heading = _comment(table_schema(model)["description"])
+        heading = comment(table_schema(model)["description"])
         lines += [*heading, f"[{name}]" if given else f"#[{name}]"]
         keys = {key.name: key for key in keys_of(model)}
         for own, value in given.items():
-            lines += [*_comment(keys[own].meaning), f"{own} = {toml(value)}", ""]
+            lines += [*comment(keys[own].meaning), f"{own} = {toml(value)}", ""]
         forms = {form for own in given for form in same_thing(model, own)}
         for key in keys.values():
             if key.name not in given:
@@ -63,7 +63,7 @@ def _left_out(key: Key, *, other: bool) -> Iterator[str]:
     written = f'"{key.default}"' if key.schema.get("type") == "string" else key.default
     value = (written if key.default not in ("", "required") else "") or key.example
     meaning = f"{key.meaning} (another form of what is given)" if other else key.meaning
-    yield from _comment(meaning)
+    yield from comment(meaning)
     if value:
         yield f"#{key.name} = {_tidy(value)}"
     else:
@@ -83,7 +83,8 @@ def _tidy(value: str) -> str:
     return value
 
 
-def _comment(text: str) -> list[str]:
+def comment(text: str) -> list[str]:
+    """Return a text as lines of a file that count for nothing."""
     return textwrap.wrap(text, _WIDTH, initial_indent="# ", subsequent_indent="#   ")
 
 

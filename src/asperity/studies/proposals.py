@@ -25,6 +25,7 @@ from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
 from asperity.results import Result, quantity
 from asperity.results.table import Table
+from asperity.studies.requirements import Requirements
 from asperity.studies.series import grid
 
 RANKS = {"size": "centre_distance", "efficiency": "efficiency", "margin": "margin"}
@@ -145,6 +146,7 @@ def propose(
     can_be_cut: Callable[[Mapping[str, Any]], bool] | None = None,
     held: Mapping[str, float] | None = None,
     locks: str = "",
+    requirements: Requirements | None = None,
 ) -> Proposals:
     """Propose gearsets for a ratio, by the torque and the speed of an operation.
 
@@ -170,6 +172,8 @@ def propose(
         What of the macro-geometry is given and not proposed, see `asperity.studies.series.grid`.
     locks : {'', 'rest', 'motion'}
         Whether the worm must lock itself, at rest or in motion, by every standard that rates it.
+    requirements : Requirements, optional
+        What is kept beside the safeties.
 
     Raises
     ------
@@ -186,7 +190,8 @@ def propose(
         raise InputError(
             f"--locks {locks}: it must be one of {choices(LOCKS[1:])}{suggestion(locks, LOCKS[1:])}"
         )
-    designs = grid(gear_ratio, held or {}, exact=exact)
+    keeps = requirements or Requirements()
+    designs = grid(gear_ratio, held or {}, exact=exact, off=keeps.ratio_tolerance)
     tried = np.array(designs).T
     room = thread_room(
         gearset.flank, gearset.tooth_proportions, tried[0], tried[4], gearset.pressure_angle
@@ -214,9 +219,16 @@ def propose(
     locking = _locking(rated, tables_of(options or RatingOptions(), None))
     if locks:
         known &= np.all([margin >= 0.0 for margin in locking[locks].values()], axis=0)
-    holding = known & (margins >= 1.0) & rated_by_all
+    kept_too = keeps.kept(rated, locking["rest"])
+    if known.any() and not (known & kept_too).any():
+        raise InputError(
+            f"[requirements] asks for {keeps.said}, which no gearset of the series for a ratio of "
+            f"{gear_ratio:g} has: ask for less, or choose another ratio"
+        )
+    known &= kept_too
+    holding = known & (margins >= keeps.safety) & rated_by_all
     if not holding.any():
-        holding = known & (margins >= 1.0)
+        holding = known & (margins >= keeps.safety)
     kept = np.flatnonzero(holding if holding.any() else known)
     if not len(kept):
         if locks:
@@ -261,6 +273,8 @@ def propose(
     if held:
         named = ", ".join(f"gearset.{key}" for key in held)
         notes.append(f"held as it is set: {named}")
+    if keeps.said:
+        notes.append(f"kept as [requirements] has it: {keeps.said}")
     if operation.wear_assumed:
         notes.append(operation.wear_assumed)
     if holding.any():

@@ -30,7 +30,9 @@ Row = tuple[float, ...]
 """Starts, teeth, centre distance and module in mm, diameter factor and profile shift."""
 
 
-def grid(gear_ratio: float, held: Mapping[str, float], *, exact: bool) -> list[Row]:
+def grid(
+    gear_ratio: float, held: Mapping[str, float], *, exact: bool, off: float = RATIO_OFF
+) -> list[Row]:
     """Return all gearsets of the series.
 
     Parameters
@@ -44,13 +46,15 @@ def grid(gear_ratio: float, held: Mapping[str, float], *, exact: bool) -> list[R
         diameter factor, or where that is held by the centre distance, or the module.
     exact : bool
         Whether the teeth must give the ratio as nearly as they can.
+    off : float
+        By how much they may miss it.
 
     Raises
     ------
     InputError
         Nothing has the ratio with what is held.
     """
-    rows = (row for row in _all(gear_ratio, held, exact) if _keeps(row, held))
+    rows = (row for row in _all(gear_ratio, held, exact, off) if _keeps(row, held))
     # A centre distance or module that follows comes from many of the series.
     found = list(dict.fromkeys(rows))
     if not found:
@@ -58,15 +62,15 @@ def grid(gear_ratio: float, held: Mapping[str, float], *, exact: bool) -> list[R
         held_too = f", with {given} (lengths in mm), which --set holds" if held else ""
         raise InputError(
             f"ratio is {gear_ratio:g}, which no gearset of the series has within "
-            f"{100 * RATIO_OFF:g} %{held_too}; choose another"
+            f"{100 * off:g} %{held_too}; choose another"
             f"{', or hold less' if held else ''}"
         )
     return found
 
 
-def _all(gear_ratio: float, held: Mapping[str, float], exact: bool) -> Iterator[Row]:
+def _all(gear_ratio: float, held: Mapping[str, float], exact: bool, off: float) -> Iterator[Row]:
     for distance in _of(held, "centre_distance", DISTANCES):
-        for starts, teeth in _teeth(distance, gear_ratio, held, exact):
+        for starts, teeth in _teeth(distance, gear_ratio, held, exact, off):
             for module in _of(held, "axial_module", MODULES):
                 for factor in _factors(distance, teeth, module, held):
                     yield from _with_shift(starts, teeth, distance, module, factor, held)
@@ -77,7 +81,7 @@ def _of(held: Mapping[str, float], key: str, series: Iterable[float]) -> Iterabl
 
 
 def _teeth(
-    distance: float, gear_ratio: float, held: Mapping[str, float], exact: bool
+    distance: float, gear_ratio: float, held: Mapping[str, float], exact: bool, off: float
 ) -> Iterator[tuple[int, int]]:
     if "starts" in held:
         possible: tuple[int, ...] = (int(held["starts"]),)
@@ -90,7 +94,7 @@ def _teeth(
         near = round(starts * gear_ratio)
         whole = (near,) if exact else (near - 1, near, near + 1)
         for teeth in _of(held, "wheel_teeth", whole):
-            if abs(teeth / starts / gear_ratio - 1.0) <= RATIO_OFF:
+            if abs(teeth / starts / gear_ratio - 1.0) <= off:
                 yield starts, int(teeth)
 
 

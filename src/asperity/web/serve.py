@@ -5,7 +5,6 @@ import contextlib
 import contextvars
 import html
 import os
-import secrets
 import socket
 import webbrowser
 from collections.abc import Callable
@@ -17,6 +16,7 @@ from asperity.processes import alone
 from asperity.start.listed import opened
 from asperity.store import reason
 from asperity.web.folder import Folder
+from asperity.web.token import token_of
 
 HOST = "127.0.0.1"
 _HELD = ".asperity-page"
@@ -52,7 +52,7 @@ def serve(
     place, name, screen = opened(case, folder)
     listening = _socket(port)
     number = listening.getsockname()[1]
-    token = secrets.token_urlsafe(24)
+    token = token_of(place)
     door = place.resolve() / _DOOR
     asked = {"case": name, "token": token} if name else {"token": token}
     address = f"http://{HOST}:{number}/#/{screen}?{urlencode(asked)}"

@@ -139,10 +139,15 @@ def _loaded(
         capped = force >= limit
         rest = moment - _dot(arm[capped], limit[capped])
         own = _dot(arm[~capped], force[~capped])
-        if rest <= 0.0 or own <= 0.0:
-            # Too much at the limit, or nothing else: all alike.
-            size = _dot(arm, np.minimum(limit, moment))
-            return np.minimum(limit, moment) * (moment / size)
+        if rest <= 0.0:
+            # More than the load at the limit: all less.
+            force = force * (moment / _dot(arm, force))
+            break
+        if own <= 0.0:
+            # Nothing else bears: all patches alike, below their limits.
+            most = np.minimum(limit, moment)
+            force = most * (moment / _dot(arm, most))
+            break
         force = np.where(capped, limit, np.minimum(force * (rest / own), limit))
         if abs(_dot(arm, force) - moment) <= _ROUNDING * moment:
             break

@@ -17,12 +17,13 @@ import dataclasses
 
 import numpy as np
 
-from asperity.arrays import BoolArray, FloatArray
+from asperity.arrays import FloatArray, IntArray
 from asperity.contact.halfspace.conjugate_gradients import Bearing, bear
 from asperity.contact.halfspace.influence import HalfSpace
 from asperity.drive.resolved.flank import ExactFlank
 from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Approach, Frame, Strip
-from asperity.drive.static.equilibrium import Balance
+from asperity.drive.teeth.contact import TeethContact
+from asperity.drive.teeth.placing import tooth_numbers
 from asperity.errors import ConvergenceError
 
 CLOSE = 0.05
@@ -57,6 +58,16 @@ class ToothPressure:
         """Area that bears, m^2."""
         return float(self.strip.area[self.force > 0.0].sum())
 
+    def extent(self) -> tuple[float, float]:
+        """Return length and width of the area that bears, as of an ellipse of its moments, m."""
+        frame = self.strip.frame
+        x, y = (a.ravel() for a in np.meshgrid(frame.x, frame.y, indexing="ij"))
+        on = self.force > 0.0
+        places = np.stack([x[on], y[on]])
+        spread = np.linalg.eigvalsh(np.cov(places, bias=True)) if on.sum() > 1 else np.zeros(2)
+        width, length = 4.0 * np.sqrt(np.maximum(spread, 0.0))
+        return float(length), float(width)
+
     def peaks(self) -> FloatArray:
         """Return the largest pressure of each of `ZONES`, Pa; 0 where it bears nothing."""
         return np.array([self._of(self.pressure, k).max(initial=0.0) for k in range(len(ZONES))])
@@ -75,6 +86,7 @@ class Resolved:
 
     teeth: tuple[ToothPressure, ...]  #: Those that bear
     approach: float  #: Turn of the wheel towards the worm beyond the condensed teeth's, rad
+    depth: float  #: By which patches at the pressure of plastic flow were pressed in, at most, m
     iterations: int
     residual: float
 
@@ -97,19 +109,39 @@ class ResolvedContact:
         self.modulus = modulus
         self.cap = cap
 
-    def resolve(self, balance: Balance) -> Resolved:
-        """Return the pressures of a balance; the fields of its contact must still be its own.
+    def resolve(
+        self,
+        contact: TeethContact,
+        beta: float,
+        phi: float,
+        shift: FloatArray,
+        *,
+        finer: bool = True,
+    ) -> Resolved:
+        """Return the pressures where worm and wheel stand, about what was last solved there.
+
+        Parameters
+        ----------
+        contact : TeethContact
+            Holds the fields of `TeethContact.act` at this place.
+        beta, phi : float
+            Angles of worm and wheel, rad.
+        shift : ndarray, shape (3,)
+            Of the worm along the axes of its own frame, m.
+        finer : bool
+            Whether strips are made finer until the peaks stand; the first ones are some 50 patches
+            across and along what is near.
 
         Raises
         ------
         ConvergenceError
             No equilibrium of the patches, or all of them at the pressure of plastic flow.
         """
-        teeth = _Teeth.of(self, balance)
+        teeth = _Teeth.of(self, contact, beta, phi, shift)
         strips, found = teeth.solve_within(teeth.first_strips(), [None] * len(teeth.numbers))
         iterations = found.iterations
         done = [False] * len(strips)
-        for shape in _LEVELS:
+        for shape in _LEVELS if finer else ():
             before = teeth.pressures(strips, found, done)
             finer = [
                 strip if ready else teeth.finer(strip, tooth, shape)
@@ -131,7 +163,7 @@ class ResolvedContact:
         pressures = teeth.pressures(strips, found, done)
         return Resolved(
             tuple(tooth for tooth in pressures if tooth is not None),
-            found.approach, iterations, found.residual,
+            found.approach, max(0.0, -float(found.gap.min())), iterations, found.residual,
         )  # fmt: skip
 
     def _close(self, before: ToothPressure, after: ToothPressure) -> bool:
@@ -152,20 +184,25 @@ class _Teeth:
 
     contact: ResolvedContact
     numbers: tuple[int, ...]  #: In their row
-    order: FloatArray  #: As the condensed teeth give way to each other: numbers times the side
+    order: IntArray  #: As the condensed teeth give way to each other: numbers times the side
     approaches: tuple[Approach, ...]
     rubbed: FloatArray  #: (K, n): Inward motion of the nodes under friction, m
     moment: float  #: Of the normal forces about the wheel's axis, N m
 
     @classmethod
-    def of(cls, owner: ResolvedContact, balance: Balance) -> _Teeth:
-        contact, sector = balance.contact, balance.contact.sector
-        _, rotation, translation = contact.placed(
-            balance.worm_angle + float(balance.yielded[0]), balance.wheel_angle, balance.shift
-        )
+    def of(
+        cls,
+        owner: ResolvedContact,
+        contact: TeethContact,
+        beta: float,
+        phi: float,
+        shift: FloatArray,
+    ) -> _Teeth:
+        sector = contact.sector
+        _, rotation, translation = contact.placed(beta, phi, shift)
         body = sector.body
-        numbers = np.array(balance.action.teeth)
-        order = contact.side * numbers
+        numbers = tuple(tooth_numbers(phi, sector.pitch, contact.slots))
+        order = contact.side * np.array(numbers)
         normals = sector.surface.nodal_normals
         worm = contact.worm.numbers.worm
         whole, rubbing, moment = [], [], 0.0
@@ -193,7 +230,7 @@ class _Teeth:
         approaches = tuple(
             Approach(rotation[k], translation[k], worm, moved[k]) for k in range(contact.slots)
         )
-        return cls(owner, tuple(balance.action.teeth), order, approaches, inward, moment)
+        return cls(owner, numbers, order, approaches, inward, moment)
 
     def first_strips(self) -> list[Strip | None]:
         """Return a strip over what is near the worm on each tooth; None where nothing is."""
@@ -324,7 +361,7 @@ def _guess(strip: Strip) -> FloatArray:
 
 
 def _response(
-    flexibility: FloatArray, blocks: FloatArray, order: FloatArray, force: FloatArray
+    flexibility: FloatArray, blocks: FloatArray, order: IntArray, force: FloatArray
 ) -> FloatArray:
     """Displacement of the nodes of all teeth under nodal forces (K, 3n), shape (K, n, 3), m."""
     moved = np.zeros_like(force)

@@ -73,6 +73,25 @@ class ExactFlank:
             made.z.reshape(-1) / _MILLIMETRES,
         )
 
+    @property
+    def nodes(self) -> int:
+        """Number of points of `grid`."""
+        return len(self.grid[0])
+
+    @property
+    def faces(self) -> IntArray:
+        """Faces between the points of `grid`, (m, 4)."""
+        at = np.arange(self.nodes).reshape(_ROWS, -1)
+        corners = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
+        return np.stack([corner.ravel() for corner in corners], axis=1)
+
+    def nearest(self, share: FloatArray, z: FloatArray) -> IntArray:
+        """Return the number of the nearest point of `grid` to places on the flank."""
+        columns = self.grid[3][: self.nodes // _ROWS]
+        middles = 0.5 * (columns[1:] + columns[:-1])
+        row = np.clip(np.rint(share * (_ROWS - 1)), 0, _ROWS - 1).astype(np.int64)
+        return row * len(columns) + np.searchsorted(middles, z)
+
     @cached_property
     def half_face(self) -> float:
         """Half the face width, m."""

@@ -110,16 +110,39 @@ class StaticResult(Drawn):
     loaded_teeth_min: int = quantity("", "", "teeth under load, least over a pitch")
     loaded_teeth_max: int = quantity("", "", "teeth under load, most over a pitch")
     load_share_max: float = quantity("", "", "largest share of a tooth in the normal force")
-    pressure_nodal: float = quantity(
-        "p", "MPa", "largest pressure at a node of the mesh", key="pressure_nodal_MPa"
+    pressure_flank: float = quantity(
+        "p", "MPa", "largest pressure on the flank, away from edges", key="pressure_flank_MPa"
     )
-    pressure_hertz: float = quantity(
-        "p_H", "MPa", "largest pressure of a Hertzian line with the same load on its length",
-        key="pressure_hertz_MPa",
+    pressure_worm_tip: float = quantity(
+        "p", "MPa", "largest pressure at the worm's tip edge", key="pressure_worm_tip_MPa"
+    )
+    pressure_wheel_tip: float = quantity(
+        "p", "MPa", "largest pressure at the wheel's tip edge", key="pressure_wheel_tip_MPa"
+    )
+    pressure_face_end: float = quantity(
+        "p", "MPa", "largest pressure at the ends of the face", key="pressure_face_end_MPa"
+    )
+    force_worm_tip: float = quantity("N", "N", "normal force at the worm's tip edge, largest")
+    force_wheel_tip: float = quantity("N", "N", "normal force at the wheel's tip edge, largest")
+    force_face_end: float = quantity("N", "N", "normal force at the ends of the face, largest")
+    pressure_mean: float = quantity(
+        "p_m", "MPa", "normal force over the area that bears", key="pressure_mean_MPa"
+    )
+    flow_pressure: float | None = quantity(
+        "H", "MPa", "limit: pressure at which the wheel flows, its hardness",
+        key="flow_pressure_MPa", default=None,
     )  # fmt: skip
-    pressure_resolved: bool = quantity(
-        "", "", "whether the mesh resolves the width of the contact", shown=False
+    flow_depth: float | None = quantity(
+        "", "um", "depth by which the wheel is pressed in at that pressure", default=None
     )
+    contact_length: float = quantity(
+        "", "mm", "length of the contact with the largest pressure on the flank"
+    )
+    contact_width: float = quantity("", "mm", "its width")
+    pressure_nodal: float = quantity(
+        "p", "MPa", "largest pressure at a node of the mesh, which grows with a finer one",
+        key="pressure_nodal_MPa", shown=False,
+    )  # fmt: skip
     residual: float = quantity("", "", "largest residual of a balance", shown=False)
     teeth_nodes: int = quantity("", "", "contact nodes of a flank", shown=False)
     condense_seconds: float = quantity(
@@ -145,6 +168,27 @@ class StaticResult(Drawn):
     tooth_force: FloatArray = quantity(
         "N", "N", "normal force on each tooth", dims=(*_PHASE, "tooth")
     )
+    pressure_flank_course: FloatArray = quantity(
+        "p", "Pa", "largest pressure on the flank", dims=_PHASE
+    )
+    pressure_worm_tip_course: FloatArray = quantity(
+        "p", "Pa", "largest pressure at the worm's tip edge", dims=_PHASE
+    )
+    pressure_wheel_tip_course: FloatArray = quantity(
+        "p", "Pa", "largest pressure at the wheel's tip edge", dims=_PHASE
+    )
+    pressure_face_end_course: FloatArray = quantity(
+        "p", "Pa", "largest pressure at the ends of the face", dims=_PHASE
+    )
+    force_worm_tip_course: FloatArray = quantity(
+        "N", "N", "normal force at the worm's tip edge", dims=_PHASE
+    )
+    force_wheel_tip_course: FloatArray = quantity(
+        "N", "N", "normal force at the wheel's tip edge", dims=_PHASE
+    )
+    force_face_end_course: FloatArray = quantity(
+        "N", "N", "normal force at the ends of the face", dims=_PHASE
+    )
     part: npt.NDArray[np.str_] = quantity(
         "", "", "what gives way", dims=_PART, coordinate=True, only="file"
     )
@@ -155,21 +199,21 @@ class StaticResult(Drawn):
         "T_R", "N m", "torque of the wheel", dims=("load",), coordinate=True, variable="load"
     )
     pattern: FloatArray = quantity(
-        "p", "Pa", "largest pressure over a pitch at the nodes of the flank",
+        "p", "Pa", "largest resolved pressure over a pitch at points of the flank",
         dims=("load", "node"),
     )  # fmt: skip
     pattern_back: FloatArray | None = quantity(
-        "p", "Pa", "the same on the other flank as the drive runs backwards, at the nodes turned "
+        "p", "Pa", "the same on the other flank as the drive runs backwards, at the points turned "
         "half a turn about the tooth",
         dims=("load", "node"), default=None,
     )  # fmt: skip
     node_radius: FloatArray = quantity(
-        "r", "m", "distance of the nodes from the wheel's axis", dims=("node",)
+        "r", "m", "distance of the points from the wheel's axis", dims=("node",)
     )
     node_face: FloatArray = quantity(
-        "z", "m", "place of the nodes along the wheel's axis", dims=("node",)
+        "z", "m", "place of the points along the wheel's axis", dims=("node",)
     )
-    faces: IntArray = quantity("", "", "nodes of the faces", dims=("face", "corner"), only="file")
+    faces: IntArray = quantity("", "", "points of the faces", dims=("face", "corner"), only="file")
 
     @property
     def inputs(self) -> Mapping[str, Any]:

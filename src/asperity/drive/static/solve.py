@@ -4,22 +4,27 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-import math
+import functools
 from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.contact.candidates.records import Body
-from asperity.contact.candidates.wrench import place_of
 from asperity.drive.friction import friction_curve, rating_inputs
 from asperity.drive.friction_curve import friction_at
 from asperity.drive.lugre import of_speed, steady_friction
 from asperity.drive.problem import DriveProblem
+from asperity.drive.resolved.contact import ResolvedContact
+from asperity.drive.resolved.flank import ExactFlank
+from asperity.drive.resolved.strip import ZONES
 from asperity.drive.shafts import compliances_of
 from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
-from asperity.drive.static.pressure import FlankPressure
+from asperity.drive.static.notes import notes_of
+from asperity.drive.static.pressure import modulus_of
 from asperity.drive.static.result import PATTERNS, StaticResult
+from asperity.drive.static.seen import Pattern, Seen, contact_means
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
@@ -38,7 +43,7 @@ from asperity.flanks.worm.setting import Pair
 from asperity.runs import Run
 
 _MILLIMETRES = 1e3
-_MEGA = 1e6
+_MEGA, _MICRO = 1e6, 1e6
 # Torques beside the load, between which the tangent stiffness is taken.
 _BESIDE = 0.01
 # A tooth with less of the normal force counts as unloaded.
@@ -120,8 +125,22 @@ class StaticModel:
         self.friction = friction_of(problem, self._sliding_speed())
         self.contact = TeethContact(self.sector, self.friction)
         self.equilibrium = Equilibrium(self.contact, whole)
-        self.pressure = FlankPressure.of(
-            self.sector, problem.gearset.wheel_material, problem.gearset.worm_material
+
+    @functools.cached_property
+    def resolved(self) -> ResolvedContact:
+        """What resolves the pressures of its balances."""
+        problem = self.problem
+        wheel, worm = problem.gearset.wheel_material, problem.gearset.worm_material
+        give = self.sector.body.flexibility
+        if problem.drive.threads == "elastic":
+            # Of the worm the patches have all of it.
+            give = give - thread_flexibility(
+                self.sector.surface, worm.youngs_modulus, worm.poisson_ratio
+            )
+        return ResolvedContact(
+            ExactFlank.of(self.sector, wheel, give),
+            modulus_of(wheel, worm),
+            wheel.flow_pressure if problem.drive.plastic else None,
         )
 
     def _sliding_speed(self) -> float:
@@ -170,76 +189,6 @@ class StaticModel:
             raise too_much(self.problem) from None
 
 
-@dataclasses.dataclass
-class _Seen:
-    """What is taken from the fields of each phase."""
-
-    model: StaticModel
-    weight: float = 0.0
-    radius: float = 0.0
-    speed: float = 0.0
-    nodal_max: float = 0.0
-    hertz: float = 0.0
-    resolved: bool = True
-    turns: list[FloatArray] = dataclasses.field(default_factory=list)
-    nodal: FloatArray = dataclasses.field(init=False)
-    forces: FloatArray = dataclasses.field(init=False)
-
-    def __post_init__(self) -> None:
-        nodes = self.model.sector.body.nodes
-        self.nodal = np.zeros(nodes)
-        self.forces = np.zeros((0, 3 * nodes))
-
-    def pattern(self, _number: int, balance: Balance) -> None:
-        """Keep the largest pressure at each node."""
-        for k in range(balance.contact.slots):
-            if balance.action.normal[k] > 0.0:
-                field = self.model.pressure.field(balance.contact, k)
-                np.maximum(self.nodal, self.model.pressure.nodal(field), out=self.nodal)
-
-    def whole(self, number: int, balance: Balance) -> None:
-        """Keep pressures, radius and speed."""
-        self.pattern(number, balance)
-        contact = balance.contact
-        largest = 0.0
-        for k in range(contact.slots):
-            if balance.action.normal[k] <= 0.0:
-                continue
-            field = self.model.pressure.field(contact, k)
-            largest = max(largest, float(self.model.pressure.nodal(field).max()))
-            value, resolved = self.model.pressure.hertz(field)
-            if value > self.hertz:
-                self.hertz, self.resolved = value, resolved
-        self.turns.append(balance.turns)
-        force, radius, speed = contact_means(contact, balance)
-        self.weight += force
-        self.radius += force * radius
-        self.speed += force * speed
-        if largest > self.nodal_max:
-            self.nodal_max = largest
-            self.forces = contact.nodal_forces()
-
-
-def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float, float]:
-    """Return normal force, N, its mean radius on the worm, m, and sliding way, m/rad."""
-    _, rotation, translation = contact.placed(
-        balance.worm_angle + float(balance.yielded[0]), balance.wheel_angle, balance.shift
-    )
-    forces, radii, ways = [], [], []
-    shapes = contact.sector.body.shapes
-    for k in range(contact.slots):
-        own, answer = contact.candidates.of(k), contact.answer.of(k)
-        for q in np.flatnonzero(answer.pressure[: 4 * int(own.counts[0])] > 0.0):
-            place = np.array(place_of(own, shapes, answer.u, q))
-            x, y, _ = rotation[k].T @ (place - translation[k])
-            forces.append(answer.pressure[q] * own.weights[q])
-            radii.append(math.hypot(x, y))
-            ways.append(np.linalg.norm(answer.slip_1[q]))
-    weights = np.array(forces)
-    whole = float(weights.sum())
-    return whole, float(weights @ radii) / whole, float(weights @ ways) / whole
-
-
 def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     """Solve the loaded contact of a drive over a pitch.
 
@@ -252,15 +201,15 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     """
     model = StaticModel(problem, run)
     load, sector_, contact = problem.load, model.sector, model.contact
-    seen = _Seen(model)
-    less_loaded = [_Seen(model) for _ in PATTERNS[:-1]]
+    seen = Seen(model)
+    less_loaded = [Pattern(model) for _ in PATTERNS[:-1]]
     count = len(model.phases)
     total = (3 if run.detailed else 2) * count
     every = _EVERY if count >= _MANY else 1
     with run.going_on():
         forward, more, less, frictionless, reversed_ = model.courses(
             [
-                Asked(load, look=seen.whole),
+                Asked(load, look=seen.look),
                 *(Asked((1.0 + sign * _BESIDE) * load, every=every) for sign in (1.0, -1.0)),
                 Asked(load, FRICTIONLESS),
                 Asked(load, REVERSED),
@@ -269,7 +218,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         )
         model.courses(
             [
-                Asked(share * load, look=part.pattern)
+                Asked(share * load, look=part.look)
                 for share, part in zip(PATTERNS[:-1], less_loaded, strict=True)
             ],
             lambda done: run.checkpoint(count + done, total, what="phases"),
@@ -282,11 +231,11 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     loaded = (share > _LOADED).sum(axis=1)
     axes = contact.stand.axes
     on_worm = -forward.wrench[:, :3].mean(axis=0)
-    surface = sector_.surface
+    places = model.resolved.flank.grid[0]
     return StaticResult(
         problem=problem,
         sector=sector_,
-        nodal_force=seen.forces,
+        nodal_force=seen.nodal_forces,
         output_torque=load,
         friction=model.friction,
         input_torque=float(forward.worm_torque.mean()),
@@ -305,9 +254,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         loaded_teeth_min=int(loaded.min()),
         loaded_teeth_max=int(loaded.max()),
         load_share_max=float(share.max()),
-        pressure_nodal=seen.nodal_max / _MEGA,
-        pressure_hertz=seen.hertz / _MEGA,
-        pressure_resolved=seen.resolved,
+        **_pressures(model, seen),
         residual=max(forward.residual, frictionless.residual, reversed_.residual),
         teeth_nodes=sector_.body.nodes,
         condense_seconds=sector_.seconds,
@@ -321,21 +268,21 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         part=np.array(list(parts)),
         part_stiffness=np.array(list(parts.values())),
         pattern_torque=load * np.array(PATTERNS),
-        pattern=np.array([*(part.nodal for part in less_loaded), seen.nodal]),
+        pattern=np.array([*(part.largest for part in less_loaded), seen.pattern.largest]),
         pattern_back=back,
-        node_radius=np.hypot(surface.positions[:, 0], surface.positions[:, 1]),
-        node_face=problem.gearset.hand_sign * surface.positions[:, 2],
-        faces=surface.faces,
-        notes=_notes(problem, seen),
+        node_radius=np.hypot(places[:, 0], places[:, 1]),
+        node_face=problem.gearset.hand_sign * places[:, 2],
+        faces=model.resolved.flank.faces,
+        notes=notes_of(problem, seen, forward),
     )
 
 
 def _back_patterns(model: StaticModel, done: int, total: int) -> FloatArray | None:
     """Largest pressures on the other flanks as the drive runs backwards; None where none bear."""
     contact = TeethContact(model.sector, model.friction, side=-1)
-    seen = [_Seen(model) for _ in PATTERNS]
+    seen = [Pattern(model) for _ in PATTERNS]
     asked = [
-        Asked(share * model.problem.load, REVERSED, look=part.pattern)
+        Asked(share * model.problem.load, REVERSED, look=part.look)
         for share, part in zip(PATTERNS, seen, strict=True)
     ]
     touching = touching_angles(contact, model.phases)
@@ -346,7 +293,36 @@ def _back_patterns(model: StaticModel, done: int, total: int) -> FloatArray | No
         )  # fmt: skip
     except TooDeepError:
         return None
-    return np.array([part.nodal for part in seen])
+    return np.array([part.largest for part in seen])
+
+
+def _pressures(model: StaticModel, seen: Seen) -> dict[str, Any]:
+    """What a result has of the resolved pressures, MPa, N, mm and um."""
+    cap, worst = model.resolved.cap, seen.worst
+    assert worst is not None
+    zones = {
+        key: value
+        for name, (peak, force) in seen.largest().items()
+        for key, value in ((f"pressure_{name}", peak / _MEGA), (f"force_{name}", force))
+    }
+    del zones["force_flank"]
+    courses = {
+        f"{what}_{name}_course": np.array(values)[:, k]
+        for k, name in enumerate(ZONES)
+        for what, values in (("pressure", seen.peaks), ("force", seen.forces))
+    }
+    del courses["force_flank_course"]
+    length, width = worst.extent()
+    return {
+        **zones,
+        **courses,
+        "pressure_mean": seen.mean / _MEGA,
+        "flow_pressure": None if cap is None else cap / _MEGA,
+        "flow_depth": None if cap is None else _MICRO * max(seen.depths),
+        "contact_length": _MILLIMETRES * length,
+        "contact_width": _MILLIMETRES * width,
+        "pressure_nodal": seen.nodal / _MEGA,
+    }
 
 
 def _parts(model: StaticModel, turns: FloatArray, more: Course, less: Course) -> dict[str, float]:
@@ -362,32 +338,3 @@ def _parts(model: StaticModel, turns: FloatArray, more: Course, less: Course) ->
     }
     teeth = (more.mean_deflection - less.mean_deflection) / torque - sum(shafts.values())
     return {"teeth": 1.0 / teeth} | {name: 1.0 / value for name, value in shafts.items()}
-
-
-def _notes(problem: DriveProblem, seen: _Seen) -> tuple[str, ...]:
-    notes = []
-    left_out = [
-        what
-        for what, there in (
-            ("bending of the worm's shaft", problem.shaft.diameter and problem.shaft.span),
-            ("its radial bearings", problem.shaft.bearing_radial),
-            ("its axial bearing and seat", problem.shaft.axial),
-            ("its torsion", problem.shaft.torsion),
-        )
-        if not there
-    ]
-    if left_out:
-        notes.append(
-            f"rigid: {', '.join(left_out)}; together they can give several times what the teeth do"
-        )
-    if problem.drive.threads == "rigid":
-        notes.append(
-            "the worm's threads are rigid (drive.threads): elastic ones take a fifth off the "
-            "pressure"
-        )
-    if not seen.resolved:
-        notes.append(
-            "the contact is narrower than the elements: the pressure at nodes grows with a finer "
-            "mesh; the Hertzian one does not"
-        )
-    return tuple(notes)

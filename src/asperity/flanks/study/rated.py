@@ -53,12 +53,21 @@ def answer(asked: Asked, run: Run) -> Rated:
     """
     if asked.flanks is not None and run.folder is None:
         raise InputError("--pattern: it is shown in the report; name a folder for it with --out")
-    rated = rated_answer(asked.rating, run)
+    rated = _with_parts(rated_answer(asked.rating, run), asked.rating[0])
     if asked.flanks is None:
         return rated
     from asperity.flanks.study import flank
 
     return dataclasses.replace(rated, contact=_contact(flank.study(asked.flanks)))
+
+
+def _with_parts(rated: Rated, case: Case) -> Rated:
+    """Return a rating with what the shafts and bearings of its case come to, where it has any."""
+    if not any(name in case for name in ("worm_shaft", "wheel_shaft")):
+        return rated
+    from asperity.shafts.study import shaft_rows
+
+    return dataclasses.replace(rated, rows=shaft_rows(case, iso=rated.iso14521))
 
 
 def _contact(found: "FlankStudy") -> Section:

@@ -66,7 +66,7 @@ def _least(given: Inputs, parts: list[Values]) -> Real:
     if given.operation.spectrum is None:
         return given.least(safeties)
     lasts = [part.hours * 3600.0 > _MOMENTARY for part in given.loads]
-    if given.together or any(np.ndim(long) for long in lasts):
+    if given.together or any(isinstance(long, np.ndarray) for long in lasts):
         lasting = [np.where(a, b, np.inf) for a, b in zip(lasts, safeties, strict=True)]
         some, every = given.least(lasting), given.least(safeties)
         return np.where(np.isinf(some), every, some)

@@ -109,7 +109,7 @@ def rise_before_load(top: dtheta, share: ED, cycle: t, time_constant_at_rest: ta
 
     Examples
     --------
-    >>> round(rise_before_load(12.261, 0.15, 600.0, 1587.1), 3)
+    >>> round(rise_before_load(12.2614, 0.15, 600.0, 1587.1), 3)
     8.892
     """
     return top * np.exp(-(1.0 - share) * cycle / time_constant_at_rest)

@@ -1,5 +1,5 @@
 /** Fields made from the tables of a case: unit, bounds, choices, example, one line of meaning. */
-import { html, useEffect, useState } from "../vendor/preact.js";
+import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { forms, useCaseFile } from "./api.js";
 import { fault, instead, useCase } from "./state.js";
 import { digits, factor, inUnit, split } from "./units.js";
@@ -154,6 +154,34 @@ export function AllKeys({ tables, brief }) {
 export const Folded = ({ children }) => html`<details open=${innerWidth > 700}>
   <summary>what is set</summary>${children}</details>`;
 
+/** So far a finger goes along a slider before it drags it; what goes more up or down scrolls, px. */
+const SURE = 8;
+
+/**
+ * What keeps a slider where it is while a finger that scrolls passes over it.
+ * @param {(event: any) => void} moved what a slider that is dragged does
+ */
+function useTouch(moved) {
+  const finger = useRef(null);
+  const back = ({ currentTarget }) => finger.current && (currentTarget.value = finger.current.value);
+  const over = () => (finger.current = null);
+  return {
+    onPointerDown: ({ pointerType, clientX, clientY, currentTarget }) =>
+      (finger.current = pointerType === "touch"
+        ? { x: clientX, y: clientY, value: currentTarget.value, sure: false } : null),
+    onPointerMove: (event) => {
+      const { x, y, sure } = finger.current ?? { sure: true };
+      if (sure) return;
+      const [along, aside] = [event.clientX - x, event.clientY - y].map(Math.abs);
+      if (along > SURE && along > aside) finger.current.sure = true;
+    },
+    // The browser takes the finger for its own: it scrolls.
+    onPointerCancel: (event) => (back(event), over()),
+    onPointerUp: (event) => (finger.current?.sure === false && back(event), over()),
+    onInput: (event) => (finger.current?.sure === false ? back(event) : moved(event)),
+  };
+}
+
 /** Digits of what a slider says, few enough to read and enough to tell its steps apart. */
 const KEPT = 3;
 const STEPS_A_DECADE = 100;
@@ -168,6 +196,8 @@ export function Slider({ path, label, low, high, unit, log, step }) {
   const { set, unset } = useCase();
   const { text, own: before = "" } = useValue(path);
   const field = fieldOf(path);
+  const moved = useRef(null);
+  const touch = useTouch((event) => moved.current(event));
   if (!field) return null;
   const wrong = fault.value.includes(`${path} `);
   const own = unit ?? field.unit;
@@ -179,7 +209,7 @@ export function Slider({ path, label, low, high, unit, log, step }) {
   const spread = Math.log10(most / least);
   const steps = byRatio ? Math.round(STEPS_A_DECADE * spread) : 0;
   const place = byRatio ? Math.log10(Math.max(now, least) / least) * STEPS_A_DECADE : now;
-  const moved = (event) => {
+  moved.current = (event) => {
     const at = Number(event.target.value);
     const wanted = byRatio ? least * 10 ** (at / STEPS_A_DECADE) : at;
     // In the unit that is written, so that 0.5 mm/s does not become 0.0005 m/s.
@@ -198,7 +228,7 @@ export function Slider({ path, label, low, high, unit, log, step }) {
     <input type="range" id=${id} min=${byRatio ? 0 : least} max=${byRatio ? steps : most}
       step=${byRatio ? 1 : (step ?? (most - least) / 200)}
       value=${Number.isFinite(place) ? place : 0} aria-valuetext=${text || "not given"}
-      onInput=${moved} />
+      ...${touch} />
   </div>`;
 }
 

@@ -2,10 +2,11 @@
 import { html, render, signal, useEffect } from "../vendor/preact.js";
 import { about, loadAbout, loadForms } from "./api.js";
 import { App } from "./shell.js";
-import { handed, route } from "./state.js";
+import { handed, route, whenHanded } from "./state.js";
 
 /** In the order in which they are offered. @type {import("./shell.js").Listed[]} */
 const SCREENS = [
+  { name: "home", title: "Start", kind: "", group: "" },
   { name: "slide", title: "Sliding body", kind: "slide", group: "A body, shaken" },
   { name: "sweep", title: "Sweep", kind: "slide", group: "A body, shaken" },
   { name: "block", title: "Elastic block", kind: "block", group: "A body, shaken" },
@@ -46,7 +47,8 @@ async function wait() {
     trouble.value = null;
   } catch (error) {
     trouble.value = error;
-    if (error.status === 403) return;
+    // A tab that is opened at the printed address hands its token on.
+    if (error.status === 403) return whenHanded(() => location.reload());
   }
   if (!about.value?.ready) setTimeout(wait, 1000);
 }

@@ -88,14 +88,14 @@ const COLUMNS = [
   ["value", (entry) => html`<${Num} entry=${entry} />`, "right"],
 ];
 
-/** All numbers of an answer, folded away. @param {{entries: Entry[]}} props */
-export function AllNumbers({ entries }) {
+/** All numbers of an answer, folded away; `of` tells them from others of the screen. @param {{entries: Entry[], of?: string}} props */
+export function AllNumbers({ entries, of = "" }) {
   const [open, setOpen] = useState(false);
   const columns = () => ["key", "symbol", "value", "unit", "meaning", "equation", "source"].map((label) =>
     ({ label, values: entries.map((entry) => entry[label]) }));
   return html`<details class="all" onToggle=${(event) => setOpen(event.target.open)}>
     <summary>all ${entries.length} numbers</summary>
-    ${open ? html`<${Table} region="all numbers" rows=${entries} columns=${COLUMNS} />
-      <${Beneath} title="All numbers" columns=${columns} />` : null}
+    ${open ? html`<${Table} region=${`all numbers${of}`} rows=${entries} columns=${COLUMNS} />
+      <${Beneath} title=${`All numbers${of}`} columns=${columns} />` : null}
   </details>`;
 }

@@ -1,6 +1,7 @@
 /** Lines over an axis, with their legend, which tells the numbers where the pointer is. */
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
+import { between } from "./motion.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
 
@@ -13,7 +14,8 @@ import { digits } from "./units.js";
  * @typedef {{title: string, x: {label: string, unit?: string, values: number[]}, series: Line[],
  *   bands?: {from: number, to: number}[], marks?: {x: number, y?: number}[],
  *   y?: string, height?: number, log?: boolean, xlog?: boolean, range?: [number, number],
- *   onPick?: (x: number) => void}} Shown
+ *   onPick?: (x: number) => void, running?: any}} Shown `running`: a signal of when, in cycles, of
+ *   marks that run along the lines
  */
 
 export const [LEFT, RIGHT, TOP, BOTTOM] = [66, 14, 8, 42];
@@ -130,9 +132,27 @@ export const Axes = ({ across, ups, right, bottom, along, upward }) => html`
     transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
   <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${along}</text>`;
 
+/** Marks that run along the lines with what moves beside them. @param {{part: any, dots: any[], top: number}} props */
+function Running({ part, places, dots, bottom }) {
+  const drawn = useRef(null);
+  // At once with the lines: as many marks as there are.
+  useLayoutEffect(() => part.subscribe((time) => {
+    const now = time % 1;
+    const [line, ...marks] = drawn.current.children;
+    const x = between(places, now);
+    line.setAttribute("d", `M${x} ${TOP}V${bottom}`);
+    marks.forEach((mark, row) => {
+      mark.setAttribute("cx", x);
+      mark.setAttribute("cy", between(dots[row].values, now));
+    });
+  }), [part, places, dots, bottom]);
+  return html`<g ref=${drawn} class="passing"><path class="passing" />
+    ${dots.map(({ colour }) => html`<circle class=${`runs fill${colour}`} r="4.5" />`)}</g>`;
+}
+
 /** @param {Shown} props */
 export function Plot(props) {
-  const { title, x, bands = [], marks = [], y, height = 260, log, xlog, range, onPick } = props;
+  const { title, x, bands = [], marks = [], y, height = 260, log, xlog, range, onPick, running } = props;
   const [box, width] = useWidth();
   const [pointed, setPointed] = useState(null);
   // Of what there is no number of, nothing is drawn and nothing said.
@@ -169,6 +189,9 @@ export function Plot(props) {
         ${marks.filter((mark) => number(mark.x)).map((mark) => (number(mark.y)
           ? html`<circle class="here" cx=${across.at(mark.x)} cy=${ups[0].at(mark.y)} r="5" />`
           : html`<path class="here" stroke-dasharray="4 4" d=${`M${across.at(mark.x)} ${TOP}V${bottom}`} />`))}
+        ${running ? html`<${Running} part=${running} bottom=${bottom} places=${x.values.map((each) => across.at(each))}
+          dots=${lines.filter((line) => !line.x && line.values.every(number)).map((line) => ({
+            colour: line.colour, values: line.values.map((value) => upOf(line).at(value)) }))} />` : null}
         ${pointed === null ? null : html`<path class="passing" d=${`M${across.at(pointed)} ${TOP}V${bottom}`} />`}
         <rect class="over" x=${LEFT} y=${TOP} width=${right - LEFT} height=${bottom - TOP}
           onPointerMove=${point} onPointerLeave=${() => setPointed(null)}

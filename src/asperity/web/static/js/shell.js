@@ -3,6 +3,8 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, route, useCase } from "./state.js";
+import { share } from "./share.js";
+import { visited } from "./visited.js";
 
 /**
  * @typedef {{name: string, title: string, kind: string, group: string,
@@ -31,6 +33,11 @@ export function App({ screens, children }) {
   useEffect(() => {
     document.title = `${here?.title ?? "?"} · asperity`;
   }, [here]);
+  useEffect(() => {
+    // Not each place that a slider passes.
+    const timer = here && params.case ? setTimeout(() => visited(here.title, address({ screen, params }), params), 1500) : 0;
+    return () => clearTimeout(timer);
+  }, [screen, params]);
   const link = ({ name, title, kind }) => html`<li key=${name}>
     <a href=${address({ screen: name, params: last[kind] ?? {} })}
       onClick=${(event) => {
@@ -43,13 +50,13 @@ export function App({ screens, children }) {
     <nav aria-label="screens">
       <p class="brand"><img src="icon.svg" alt="" width="22" height="22" /> asperity</p>
       ${[...new Set(screens.map(({ group }) => group))].map((group) => html`
-        <div class="group" key=${group}><p>${group}</p>
+        <div class="group" key=${group}>${group ? html`<p>${group}</p>` : null}
           <ul>${screens.filter((each) => each.group === group).map(link)}</ul></div>`)}
     </nav>
     <main id="main" tabindex="-1">
       ${about.value && !about.value.ready ? html`<p class="wait" role="status">
-        What computes is being compiled, once for this machine: seconds for a sliding body, a few
-        minutes for the rest. The page comes alive by itself.</p>` : null}
+        What computes is starting: a moment, or some seconds the first time on this machine. The page
+        comes alive by itself.</p>` : null}
       ${children}
     </main>
     <${Behind} />
@@ -122,8 +129,9 @@ function Save({ toml, unless }) {
 }
 
 /** What a reader of the numbers should know. @param {{notes: string[] | undefined}} props */
-export const Notes = ({ notes }) => notes?.length ? html`<ul class="notes" aria-label="notes">
-  ${notes.map((note) => html`<li key=${note}>${note}</li>`)}</ul>` : null;
+export const Notes = ({ notes }) => notes?.length ? html`<details class="notes">
+  <summary>${notes.length === 1 ? "1 note" : `${notes.length} notes`}</summary>
+  <ul aria-label="notes">${notes.map((note) => html`<li key=${note}>${note}</li>`)}</ul></details>` : null;
 
 /** Put a text on the clipboard, or show it where there is none. */
 export async function copy(text) {
@@ -160,6 +168,8 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
         ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
         ${answer?.command ? html`<button type="button" title=${answer.command}
           onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
+        ${answer?.answer && answer.toml ? html`<button type="button" title="all of this as one file that anyone opens"
+          onClick=${unless(() => share(title, answer))}>share</button>` : null}
         ${actions}
         <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
       </div>

@@ -5,17 +5,38 @@ import { signal } from "../vendor/preact.js";
 
 const SET = "set.";
 const TOKEN = "asperity-token";
+/** Tokens that this browser was handed at this address, the latest first, and how many are kept. */
+const TOKENS = "asperity-tokens";
+const MOST = 8;
 /** How long nothing must change before a change is a step to go back from, ms. */
 const REST = 300;
+
+function known() {
+  try {
+    return JSON.parse(localStorage.getItem(TOKENS) ?? "[]").filter((each) => typeof each === "string");
+  } catch {
+    return [];
+  }
+}
+
+/** The token that stood in the address, of which other tabs may not know. */
+let fresh = "";
+
+/** Take a token for this tab, and keep it for those that begin with a bookmark. */
+function take(token) {
+  sessionStorage.setItem(TOKEN, token);
+  const others = known().filter((each) => each !== token);
+  localStorage.setItem(TOKENS, JSON.stringify([token, ...others].slice(0, MOST)));
+}
 
 /** @returns {Route} */
 function read() {
   const [path, query] = location.hash.replace(/^#\/?/, "").split("?");
   const params = new URLSearchParams(query ?? "");
   const token = params.get("token");
-  if (token) sessionStorage.setItem(TOKEN, token);
+  if (token) take((fresh = token));
   params.delete("token");
-  const found = { screen: path || "slide", params: Object.fromEntries(params) };
+  const found = { screen: path || "home", params: Object.fromEntries(params) };
   if (token) history.replaceState(null, "", address(found));
   return found;
 }
@@ -29,7 +50,22 @@ export function address({ screen, params }) {
 export const route = signal(read());
 
 /** What a request must bring, as it was handed over in the address. */
-export const token = () => sessionStorage.getItem(TOKEN) ?? "";
+export const token = () => sessionStorage.getItem(TOKEN) ?? known()[0] ?? "";
+
+/**
+ * Take another token than those that were refused, of another folder's page that was served here.
+ * @param {{has: (token: string) => boolean}} refused @returns {boolean} whether there is one
+ */
+export function takeAnother(refused) {
+  const other = known().find((each) => !refused.has(each));
+  if (other) sessionStorage.setItem(TOKEN, other);
+  return Boolean(other);
+}
+
+/** What is done with a token of another tab while this tab's own is refused. */
+let onOther = null;
+/** @param {() => void} then */
+export const whenHanded = (then) => (onOther = then);
 
 /** What tabs of this page tell each other: nothing asks for the token, a text is it. */
 const tabs = new BroadcastChannel(TOKEN);
@@ -39,11 +75,13 @@ const PATIENCE = 300;
 /** Done once the token is there, of the address or of another tab, or nobody has it. */
 export const handed = new Promise((done) => {
   tabs.onmessage = ({ data }) => {
-    if (!data && token()) tabs.postMessage(token());
-    if (!data || token()) return;
-    sessionStorage.setItem(TOKEN, data);
+    if (!data && token() && !onOther) tabs.postMessage(token());
+    if (!data || (token() && !onOther) || data === token()) return;
+    take(data);
     done();
+    onOther?.();
   };
+  if (fresh) tabs.postMessage(fresh);
   if (token()) return done();
   tabs.postMessage("");
   setTimeout(done, PATIENCE);

@@ -1,6 +1,6 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
-import { html, useEffect, useState } from "../vendor/preact.js";
-import { commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
+import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
+import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
 import { download } from "./figure.js";
 import { Notes } from "./shell.js";
 import { route, setParam } from "./state.js";
@@ -8,6 +8,10 @@ import { route, setParam } from "./state.js";
 /** Files that are shown without asking for more. */
 const FEW = 6;
 const ENDED = ["stopped", "done", "failed"];
+const REPORT = "report.html";
+
+/** Hand a file of a job over. */
+const take = async (id, name) => download(name, await (await fetchRaw(placeOf(id, encodeURIComponent(name)))).blob());
 
 /** Jobs that were begun here, by what was asked: another visit finds them again. */
 const begun = {};
@@ -23,14 +27,39 @@ function nameOf(body) {
   return sum.toString(36);
 }
 
+/** Answers that ship, of what the screens open with: what was asked, and the folder they stand in. */
+const shipped = signal([]);
+get("shown/index.json").then((found) => (shipped.value = found), () => {});
+
+/**
+ * The answer that ships for a command of a case, whatever else is set; null where there is none.
+ * @param {any} asked @param {string} slot
+ */
+function exampleOf(asked, slot) {
+  const named = (name) => about.value?.cases.find(({ alias }) => alias && alias === name)?.name ?? name;
+  const kind = ({ command, case: name, options }) => nameOf({ command, name: named(name), options });
+  const found = asked && shipped.value.find((each) => each.slot === slot && kind(each.asked) === kind(asked));
+  const same = found && nameOf({ ...found.asked, case: asked.case });
+  return found ? { ...found, id: `shown/${found.at}`, name: same } : null;
+}
+
+const isShipped = (id) => id.startsWith("shown/");
+/** Where a file of a job is, or of an answer that ships. @param {string} id @param {string} name */
+export const placeOf = (id, name) => (isShipped(id) ? `${id}/${name}` : `/api/jobs/${id}/files/${name}`);
+const answerOf = (id) => (isShipped(id) ? `${id}/answer.json` : `/api/jobs/${id}/answer`);
+/** @param {string} id @param {string[]} names of variables; none: what there is, without values */
+export const dataOf = (id, names = []) => (isShipped(id) ? `${id}/data.json`
+  : `/api/jobs/${id}/data${names.length ? `?names=${names.join()}` : ""}`);
+
 const NOTHING = { job: null, data: null, error: null, asking: false };
 
 /**
  * A job of a command; which one stands in the address, with a name for what was asked of it.
  *
  * @typedef {{id: string, job: any, data: any, error: Error | null, asking: boolean, can: boolean,
- *   stale: boolean, start: () => Promise<void>, stop: () => void}} Job `asking`: begun, and not heard of yet;
- *   `can`: there is something to ask; `stale`: something was set since
+ *   stale: boolean, from: string, files?: string[], start: () => Promise<void>, stop: () => void}} Job `asking`:
+ *   begun, and not heard of yet; `can`: there is something to ask; `stale`: something was set since; `from`: of
+ *   which job `data` is, or of which answer that ships
  *
  * @param {string} command
  * @param {object | null} body what a new one would be asked: case, settings, options
@@ -56,7 +85,7 @@ export function useJob(command, body, slot = "") {
       // Its pictures may come later.
       if (!job.answered || answered) return;
       answered = true;
-      get(`/api/jobs/${id}/answer`, leave).then((data) => put({ data }), failed);
+      get(answerOf(id), leave).then((data) => put({ data }), failed);
     };
     follow(id, hear, leave.signal).then(() => get(`/api/jobs/${id}`, leave)).then(hear).catch(failed);
     return () => leave.abort();
@@ -74,7 +103,13 @@ export function useJob(command, body, slot = "") {
     }
   };
   const stop = () => post(`/api/jobs/${id}/stop`, {});
-  return { id, ...state, can: Boolean(asked), stale: Boolean(id) && of !== name, start, stop };
+  // What ships is shown until the reader's own is there.
+  const example = state.data ? null : exampleOf(asked, slot);
+  const ships = useAsked(example ? answerOf(example.id) : "", (leave) => get(answerOf(example.id), leave)).found;
+  const found = { can: Boolean(asked), start, stop, id, ...state };
+  if (!ships) return { ...found, from: state.data ? id : "", stale: Boolean(id) && of !== name };
+  const job = state.job ?? { state: "done", files: example.files, shipped: true };
+  return { ...found, job, from: example.id, files: example.files, data: ships, stale: example.name !== name };
 }
 
 /**
@@ -89,8 +124,8 @@ export function useTaken(work, command, body) {
 }
 
 /** Variables of what a job left, null until they are there. @param {Job} work */
-export function useData({ id, job }, names) {
-  const path = job?.state === "done" ? `/api/jobs/${id}/data?names=${names.join()}` : "";
+export function useData({ from, job }, names) {
+  const path = from && (isShipped(from) || job?.state === "done") ? dataOf(from, names) : "";
   return useAsked(path, (leave) => get(path, leave)).found;
 }
 
@@ -116,10 +151,11 @@ export function Work({ work, label }) {
   const { job, asking, can, stale, start, stop } = work;
   const running = job && !ENDED.includes(job.state);
   const said = asking ? "begun" : running ? left(job)
+    : job?.shipped ? `an answer that ships${stale ? ", to the case as it is written" : ""}; your own takes its place`
     : stale && job ? "something was set since; this is the answer to what was asked before"
     : job ? left(job) : "";
   return html`<div class="work">
-    <button type="button" class=${job?.state === "done" && !stale ? "" : "main"} disabled=${running || asking || !can}
+    <button type="button" class=${job?.state === "done" && !job.shipped && !stale ? "" : "main"} disabled=${running || asking || !can}
       onClick=${start}>${job?.state === "stopped" && !stale ? `go on: ${label}` : label}</button>
     ${running || asking ? html`<progress aria-label=${label} max=${job?.total || 1}
       value=${job?.total ? job.done : undefined}></progress>` : null}
@@ -133,8 +169,9 @@ export const WorkPanel = ({ title, name, says, label, work, children }) => html`
   <section class="panel" aria-label=${name ?? title}><h2>${title}</h2>
     ${says ? html`<p class="says">${says}</p>` : null}
     <${Work} work=${work} label=${label} />
-    ${work.data ? html`<${Notes} notes=${work.data.notes} />` : null}
-    ${children}
+    <div class=${work.stale ? "before" : ""}>
+      ${work.data ? html`<${Notes} notes=${work.data.notes} />` : null}
+      ${children}</div>
   </section>`;
 
 /** Several errors or none, as a screen tells one. */
@@ -142,14 +179,36 @@ export const firstError = (...works) => works.map(({ error }) => error).find(Boo
 
 /** What a job has left, to take along. @param {{job: any}} props */
 export function Files({ job }) {
-  const take = async (name) => {
-    const path = `/api/jobs/${job.id}/files/${encodeURIComponent(name)}`;
-    download(name, await (await fetchRaw(path)).blob());
-  };
-  if (!job?.files?.length) return null;
+  if (!job?.files?.length || job.shipped) return null;
   const buttons = job.files.map((name) => html`<button type="button" class="quiet" key=${name}
-    onClick=${() => take(name)}>${name}</button>`);
+    onClick=${() => take(job.id, name)}>${name}</button>`);
   return html`<p class="row"><span class="says">files:</span> ${buttons.slice(0, FEW)}</p>
     ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more files</summary>
       ${buttons.slice(FEW)}</details>` : null}`;
+}
+
+/**
+ * A report of what is set, made by a job and handed over when it is there, with its other files beneath.
+ * @param {{command: string, body: object | null}} props of a command that leaves `report.html`
+ */
+export function Report({ command, body }) {
+  const work = useJob(command, body, "-report");
+  const wanted = useRef(false);
+  const { id, job, asking, can, stale, start } = work;
+  const there = job?.state === "done" && !stale && job.files.includes(REPORT);
+  const running = asking || (job && !ENDED.includes(job.state));
+  useEffect(() => {
+    if (!there || !wanted.current) return;
+    wanted.current = false;
+    take(id, REPORT);
+  }, [there, id]);
+  const ask = () => {
+    if (there) return take(id, REPORT);
+    wanted.current = true;
+    start();
+  };
+  return html`<button type="button" disabled=${running || !can} onClick=${ask}>
+      ${running ? "report is being written" : "report"}</button>
+    ${there ? html`<${Files} job=${job} />` : null}
+    ${work.error ? html`<span class="bad" role="alert">✗ ${work.error.message}</span>` : null}`;
 }

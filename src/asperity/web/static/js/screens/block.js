@@ -122,7 +122,7 @@ function Marched({ work }) {
         range=${span(pressure)} says="seen from below; along the drive to the right, across it upwards" />
       <${Plot} title="Drive force over time" x=${{ label: "time", unit: "ms", values: milli(data.time) }}
         series=${[{ label: "drive force", unit: "N", values: data.drive_force.values }]} /></div>` : null}
-    <${Files} job=${work.job} /><${AllNumbers} entries=${work.data.entries} />`;
+    <${Files} job=${work.job} /><${AllNumbers} entries=${work.data.entries} of=", marched" />`;
 }
 
 /** Quadrilaterals of the faces of elements, of which those of nine nodes have four. */

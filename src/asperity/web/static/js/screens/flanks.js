@@ -9,7 +9,7 @@ import { nearest, stage, unpacked } from "../scene.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { digits } from "../units.js";
-import { useJob, useTaken, Work } from "../work.js";
+import { placeOf, useJob, useTaken, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
@@ -172,7 +172,7 @@ export function view() {
   const body = name ? { case: name, settings, options: { density: "coarse" } } : null;
   const work = useJob("flank", body);
   const taken = useTaken(work, "flank", body);
-  const path = work.job?.files?.includes(PACKED) ? `/api/jobs/${work.id}/files/${PACKED}` : "";
+  const path = (work.files ?? work.job?.files)?.includes(PACKED) ? placeOf(work.from, PACKED) : "";
   const packed = useAsked(path, async (leave) => unpacked(await (await fetchRaw(path, leave)).arrayBuffer()));
   const gears = packed.found;
   const { part = "mesh", layer = "gap", side = "+1", worm = "clear" } = route.value.params;

@@ -9,6 +9,7 @@ import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
+import { Report } from "../work.js";
 
 /** What stands side by side: a meaning, and its key by each standard. */
 const SIDE_BY_SIDE = [
@@ -177,6 +178,7 @@ export function view() {
   }));
   return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${data} error=${error} busy=${busy} late=${late} now=${now}
+      actions=${html`<${Report} command="rate" body=${body} />`}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
     <div class="columns">

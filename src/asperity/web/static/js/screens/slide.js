@@ -6,6 +6,7 @@ import { Flow } from "../flow.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
+import { moment, Stage } from "../stage.js";
 import { route, setParam, useCase } from "../state.js";
 import { digits, inUnit, readable } from "../units.js";
 
@@ -17,7 +18,17 @@ const CLOSED = "rigid friction on a rigid drive, closed form";
 const OVER = {
   direction: { label: "direction", unit: "deg", words: "direction" },
   k: { label: "velocity ratio k", unit: "", words: "strength" },
+  elevation: { label: "elevation", unit: "deg", words: "elevation", normal: true },
+  phase: { label: "phase of the normal part", unit: "deg", words: "phase", normal: true },
 };
+/** Angles that a curve goes over: their keys, and the angle of what is set. */
+const ANGLES = {
+  // A body that is shaken from behind is shaken as from before.
+  direction: ["vibration.direction", (angle) => (Math.acos(Math.abs(Math.cos((angle * Math.PI) / 180))) * 180) / Math.PI],
+  elevation: ["vibration.elevation", (angle) => angle], phase: ["vibration.normal_phase", (angle) => angle],
+};
+/** So much less must be left elsewhere on a curve for it to be worth a word. */
+const WORTH = 0.01;
 
 /** Bounds of the amplitude's slider by its form. */
 const BOUNDS = {
@@ -51,7 +62,7 @@ export function view() {
     lead="Shake what a body slides on, and less force pulls it. Drag a slider; every number opens where it comes from."
     kinds=${["slide"]} first="body-shaken-along" start=${START}
     answer=${point.data} error=${point.error} busy=${point.busy} late=${point.late} now=${point.now}>
-    <div class="columns headed">
+    <div class="columns headed moving">
       <section class="controls" aria-label="what is set">
         <${Strength} k=${answer.velocity_ratio} />
         <${Direction} />
@@ -65,6 +76,8 @@ export function view() {
         <${AllKeys} tables=${["slider", "friction", "vibration", "normal", "wear", "solve"]} />
       </section>
       <${Headline} numbers=${numbers} />
+      <${Stage} series=${point.data?.series} ratio=${answer.ratio} k=${answer.velocity_ratio}
+        limit=${answer.static_drive_force_N} />
       <section class="shown" aria-label="what comes of it">
         <${Curves} k=${answer.velocity_ratio} ratio=${answer.ratio} failed=${Boolean(point.error)} />
         ${drawn}
@@ -137,7 +150,7 @@ const pinned = () => JSON.parse(route.value.params.pins ?? "[]");
 const put = (pins) => setParam("pins", pins.length ? JSON.stringify(pins) : "");
 
 /** Keys of what a curve goes over. */
-const OWN = { direction: ["vibration.direction"], k: Object.keys(BOUNDS).map((key) => `vibration.${key}`) };
+const OWN = { ...Object.fromEntries(Object.entries(ANGLES).map(([key, [path]]) => [key, [path]])), k: Object.keys(BOUNDS).map((key) => `vibration.${key}`) };
 
 /** What a curve follows from: not from where on it the body is. */
 function curveBody({ name, settings }, over, k) {
@@ -185,15 +198,16 @@ function unstable({ x, unstable: flags }) {
 
 function Curves({ k, ratio, failed }) {
   const here = useCase();
-  const over = route.value.params.over === "k" ? "k" : "direction";
+  const normal = Boolean(useValue("normal.stiffness").text);
+  const first = inUnit(useValue("vibration.elevation").text, "deg") > 0 ? "elevation" : "direction";
+  const can = Object.keys(OVER).filter((key) => normal || !OVER[key].normal);
+  const over = can.find((key) => key === route.value.params.over) ?? first;
   const body = here.name && k !== undefined ? curveBody(here, over, k) : null;
   const { data, error, busy } = useLive("curve", body, REST);
   const pins = usePins();
-  const direction = inUnit(useValue("vibration.direction").text, "deg");
+  const angles = Object.values(ANGLES).map(([path]) => inUnit(useValue(path).text, "deg") || 0);
   const curve = data?.answer.over === over ? data.series : null;
-  // A body that is shaken from behind is shaken as from before.
-  const turned = (Math.acos(Math.abs(Math.cos((direction * Math.PI) / 180))) * 180) / Math.PI;
-  const at = over === "k" ? k : turned;
+  const at = over === "k" ? k : ANGLES[over][1](angles[Object.keys(ANGLES).indexOf(over)]);
   const { label, unit } = OVER[over];
   const shown = pins.filter(({ pin, series }) => series && pin.options.over === over);
   const lines = !curve ? [] : [
@@ -206,13 +220,13 @@ function Curves({ k, ratio, failed }) {
   const shaky = curve ? unstable(curve) : [];
   const pick = (x) =>
     over === "k" ? here.set("vibration.velocity_ratio", digits(x, 3))
-    : here.set("vibration.direction", `${Math.round(Math.min(90, Math.max(0, x)))} deg`);
+    : here.set(ANGLES[over][0], `${Math.round(Math.min(Math.max(...curve.x), Math.max(Math.min(...curve.x), x)))} deg`);
   return html`<section class="panel" aria-label="curve">
     <div class="row">
       <fieldset class="row choice"><legend class="hidden">ratio over</legend>
-        ${Object.entries(OVER).map(([key, { words }]) => html`<label key=${key}>
+        ${can.map((key) => html`<label key=${key}>
           <input type="radio" name="over" value=${key} checked=${key === over}
-            onChange=${() => setParam("over", key === "k" ? "k" : "")} /> over ${words}</label>`)}
+            onChange=${() => setParam("over", key === first ? "" : key)} /> over ${OVER[key].words}</label>`)}
       </fieldset>
       <button type="button" disabled=${!curve || pins.length >= MOST_PINS}
         onClick=${() => put([...pinned(), body])}>pin this curve</button>
@@ -225,9 +239,21 @@ function Curves({ k, ratio, failed }) {
     ${curve ? html`<${Plot} title=${`Force left over ${OVER[over].words}`} height=${300} xlog=${over === "k"}
       x=${{ label, unit, values: curve.x }} series=${lines} bands=${shaky} onPick=${pick} y="ratio"
       marks=${failed || ratio === undefined || ratio === null ? [] : [{ x: at, y: ratio }]} />` : null}
+    ${curve && ratio !== null ? html`<${Best} curve=${curve} ratio=${ratio} over=${over} pick=${pick} />` : null}
     <p class="says">${shaky.length ? "Shaded: no stable state was found there. " : ""}
       Click into the curve to go there.</p>
   </section>`;
+}
+
+/** Where on the curve least is left, and how to go there. */
+function Best({ curve, ratio, over, pick }) {
+  const { x, ratio: left, unstable: flags } = curve;
+  const known = left.map((value, at) => ({ value, at })).filter(({ value, at }) => value !== null && !flags[at]);
+  if (over === "k" || !known.length || ratio === undefined) return null;
+  const { value, at } = known.reduce((best, one) => (Math.abs(one.value) < Math.abs(best.value) ? one : best));
+  if (ratio - value < WORTH) return html`<p role="status">No other ${OVER[over].words} leaves less.</p>`;
+  return html`<p class="row"><span role="status">Least is left at ${digits(x[at], 3)}°: ${digits(value, 3)}.</span>
+    <button type="button" onClick=${() => pick(x[at])}>take it</button></p>`;
 }
 
 function Waves({ series }) {
@@ -244,6 +270,6 @@ function Waves({ series }) {
     { label: "base", unit: "mm/s", values: milli(base), dash: [3, 3], colour: 6, faint: true },
     { label: "sliding", unit: "mm/s", values: milli(sliding), dash: [8, 4], colour: 0 },
   ];
-  return html`<${Plot} title="Over a cycle" x=${{ label: "phase, cycles", values: phase }}
+  return html`<${Plot} title="Over a cycle" running=${moment} x=${{ label: "phase, cycles", values: phase }}
     series=${lines.filter(Boolean)} />`;
 }

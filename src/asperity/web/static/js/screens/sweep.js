@@ -7,7 +7,7 @@ import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { digits, inUnit, split } from "../units.js";
-import { Files, lasting, useJob, Work } from "../work.js";
+import { dataOf, Files, lasting, useJob, Work } from "../work.js";
 
 const SLIDE = { tables: ["slider", "friction", "vibration", "normal"], rest: ["solve"], verb: "slide", shown: "ratio",
   start: { "solve.method": "periodic" },
@@ -142,7 +142,8 @@ function overAll(listed) {
 }
 
 /** What is solved so far of what is shown; looked at again while the job runs, and until it is seen. */
-function useSoFar({ id, job }) {
+function useSoFar({ id: own, from, job }) {
+  const id = own || from;
   const [known, setKnown] = useState({ id: "", names: [], data: null });
   const [look, setLook] = useState(0);
   const wanted = route.value.params.shown;
@@ -150,14 +151,13 @@ function useSoFar({ id, job }) {
   useEffect(() => {
     if (!id || !state) return;
     const leave = new AbortController();
-    const path = `/api/jobs/${id}/data`;
     let timer = 0;
     const again = () => (timer = setTimeout(() => setLook((old) => old + 1), LOOK));
     (async () => {
-      const names = overAll(await get(path, leave));
+      const names = overAll(await get(dataOf(id), leave));
       const name = [wanted, SLIDE.shown, GEAR.shown, names[0]?.[0]].find((each) => names.some(([key]) => key === each));
       const wants = names.some(([key]) => key === SETTLED) ? `${name},${SETTLED}` : name;
-      setKnown({ id, names, name, data: await get(`${path}?names=${wants}`, leave) });
+      setKnown({ id, names, name, data: await get(dataOf(id, wants.split(",")), leave) });
       if (state === "running") again();
     })().catch((error) => error.name === "AbortError" || again());
     return () => {

@@ -1,0 +1,104 @@
+"""Make the answers that ship with the page: what its screens show before anything is asked.
+
+``python docs/make_shown.py [SCREEN ...]`` asks for each as a reader would, in chromium before a
+server of its own, and keeps what the page then takes: the answer, its variables, its geometry.
+"""
+
+import json
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "tests"))
+SHOWN = ROOT / "src/asperity/web/static/shown"
+
+# Of each screen the buttons that begin a job, and in which slot of the screen that stands.
+SCREENS = {
+    "flanks": {"cut the wheel": ""},
+    "block": {"settle": "-settled", "march": "-march"},
+    "sweep": {"solve the grid": ""},
+    "size": {"find the most efficient designs": ""},
+    "drive": {"shake it": "", "load it": "-static", "try each way": "", "take the motor off": ""},
+}
+PATIENCE = 1_800_000  # ms
+
+
+def made(served, page, label):
+    """Begin a job and wait for it; returns what was asked and the job's own folder."""
+    from playwright.sync_api import expect
+
+    with page.expect_response(lambda one: one.url.endswith("/api/jobs"), timeout=PATIENCE) as told:
+        page.get_by_role("button", name=label, exact=True).click()
+    asked, job = json.loads(told.value.request.post_data), told.value.json()
+    box = page.locator(".work", has=page.get_by_role("button", name=label, exact=True))
+    expect(box.get_by_role("status")).to_contain_text("done", timeout=PATIENCE)
+    return asked, job["id"]
+
+
+def keep(served, at, asked, identity, slot):
+    """Write what the page takes of a job; returns its line of the list."""
+    folder = SHOWN / at
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    path = f"/api/jobs/{identity}"
+    (folder / "answer.json").write_text(json.dumps(served.get(f"{path}/answer").json) + "\n")
+    files = served.get(path).json["files"]
+    listed = served.get(f"{path}/data")
+    if listed.status == 200 and asked["command"] not in ("flank", "optimise"):
+        names = NAMES.get(at, [*listed.json])
+        data = served.get(f"{path}/data?names={','.join(names)}").json
+        (folder / "data.json").write_text(json.dumps(data) + "\n")
+    kept = [name for name in files if name == "flanks.bin"]
+    for name in kept:
+        (folder / name).write_bytes(served.get(f"{path}/files/{name}").body)
+    return {"asked": asked, "slot": slot, "at": at, "files": kept}
+
+
+# Variables that the screens draw, of files that hold many more.
+NAMES = {
+    "drive-static": [
+        *("phase", "tooth_force", "load", "pattern", "node_radius", "node_face", "faces"),
+    ],
+    "drive": ["torque_ratio"],
+    "directions": ["torque_ratio"],
+    "locking": ["amplitude", "creep_over", "creep_limit"],
+    "block-settled": ["friction", "slider_friction"],
+    "block-march": ["pressure", "faces", "node_x", "node_y", "drive_force"],
+}
+
+
+def main(names):
+    """Make those of the screens that are named, or of all."""
+    import os
+
+    from apparatus.browser import Seen
+    from apparatus.page import Served
+    from playwright.sync_api import sync_playwright
+
+    listing = SHOWN / "index.json"
+    lines = json.loads(listing.read_text()) if listing.exists() else []
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        served = Served(Path(folder), dict(os.environ), "--port", "0")
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=["--disable-gpu", "--no-sandbox"]
+        )
+        try:
+            seen = Seen(browser, served)
+            for screen in names or SCREENS:
+                page = seen.open(screen)
+                for label, slot in SCREENS[screen].items():
+                    asked, identity = made(served, page, label)
+                    at = asked["command"].replace(" ", "-") + slot
+                    line = keep(served, at, asked, identity, slot)
+                    lines = [one for one in lines if one["at"] != at] + [line]
+                    listing.write_text(json.dumps(lines, indent=1) + "\n")
+                    print(at, flush=True)
+        finally:
+            browser.close()
+            served.close()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,99 @@
+"""What a user of a loaded gearset's numbers should know of them, in lines."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from asperity.drive.problem import DriveProblem
+from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP
+from asperity.drive.static.seen import Seen
+from asperity.drive.static.sweep import Course
+
+_MEGA, _MICRO = 1e6, 1e6
+# Of the normal force, from which on an edge is told of.
+_BEARS = 1e-3
+# Of the error under load: without load there is none but the mesh's, with flanks like these.
+_NOISE = 3.0
+_FEW = 8
+_EDGES = {
+    WORM_TIP: ("the worm's tip edge", "modification.tip_relief takes it off"),
+    WHEEL_TIP: ("the wheel's tip edge", "it is sharp here; relief at the worm's root takes it off"),
+    FACE_END: ("an end of the wheel's face", "a hob of some oversize or tilt moves it inwards"),
+}
+
+
+def notes_of(problem: DriveProblem, seen: Seen, forward: Course) -> tuple[str, ...]:
+    """Return the notes of a loaded gearset."""
+    return (*_rigid(problem), *_pressures(problem, seen), *_error(problem, forward))
+
+
+def _rigid(problem: DriveProblem) -> Iterator[str]:
+    left_out = [
+        what
+        for what, there in (
+            ("bending of the worm's shaft", problem.shaft.diameter and problem.shaft.span),
+            ("its radial bearings", problem.shaft.bearing_radial),
+            ("its axial bearing and seat", problem.shaft.axial),
+            ("its torsion", problem.shaft.torsion),
+        )
+        if not there
+    ]
+    if left_out:
+        yield f"rigid: {', '.join(left_out)}; together they can give several times what the teeth do"
+    if problem.drive.threads == "rigid":
+        yield (
+            "the worm's threads are rigid (drive.threads) in torque, deflection and error; in the "
+            "pressures they give as a half-space"
+        )
+
+
+def _pressures(problem: DriveProblem, seen: Seen) -> Iterator[str]:
+    peaks, forces = np.array(seen.peaks), np.array(seen.forces)
+    whole = forces.sum(axis=1)
+    wheel = problem.gearset.wheel_material
+    cap = wheel.flow_pressure if problem.drive.plastic else None
+    for zone, (edge, mend) in _EDGES.items():
+        bearing = forces[:, zone] > _BEARS * whole
+        if not bearing.any():
+            continue
+        worst = int(np.argmax(forces[:, zone]))
+        flows = cap is not None and peaks[:, zone].max() > 0.999 * cap
+        yield (
+            f"{edge} bears at {int(bearing.sum())} of {len(forces)} phases, up to "
+            f"{forces[worst, zone]:.4g} N ({100.0 * forces[worst, zone] / whole[worst]:.2g} %) at "
+            f"{peaks[:, zone].max() / _MEGA:.4g} MPa"
+            + (", where it flows" if flows else "")
+            + f": {mend}"
+        )
+    if cap is not None and peaks[:, FLANK].max() > 0.999 * cap:
+        yield (
+            f"the flank itself flows: its pressure comes to {cap / _MEGA:.4g} MPa, the hardness of "
+            "the wheel; take a smaller operation.output_torque, or a larger or harder wheel"
+        )
+    if problem.drive.plastic and wheel.flow_pressure is None:
+        yield (
+            f"nothing is known of the hardness of {wheel.name}: pressures are elastic "
+            "(gearset.wheel_material.brinell_hardness)"
+        )
+    if cap is None and forces[:, [WHEEL_TIP, FACE_END]].any():
+        yield (
+            "the wheel's edges are sharp: their elastic pressures grow with finer patches, their "
+            "forces do not"
+        )
+    if not seen.resolved:
+        yield "a peak still changed by more than 5 % with the finest patches"
+
+
+def _error(problem: DriveProblem, forward: Course) -> Iterator[str]:
+    if problem.drive.phases < _FEW:
+        yield (
+            f"drive.phases is {problem.drive.phases}: a transmission error needs {_FEW} phases or "
+            "more, and peaks between them are not seen"
+        )
+        return
+    noise = float(np.ptp(forward.touching))
+    if float(np.ptp(forward.error)) < _NOISE * noise:
+        yield (
+            f"without load the error is {_MICRO * noise:.3g} urad, the points of the mesh among "
+            "it: the error under this load is hardly more"
+        )

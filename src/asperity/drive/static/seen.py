@@ -1,0 +1,123 @@
+"""What is taken from the balances of a pitch: means of the contact, and resolved pressures."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.contact.candidates.wrench import place_of
+from asperity.drive.resolved.contact import Resolved, ToothPressure
+from asperity.drive.resolved.strip import FLANK, ZONES
+from asperity.drive.static.equilibrium import Balance
+from asperity.drive.static.pressure import nodal_pressure
+from asperity.drive.teeth.contact import TeethContact
+
+if TYPE_CHECKING:
+    from asperity.drive.static.solve import StaticModel
+
+
+def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float, float]:
+    """Return normal force, N, its mean radius on the worm, m, and sliding way, m/rad."""
+    _, rotation, translation = contact.placed(
+        balance.worm_angle + float(balance.yielded[0]), balance.wheel_angle, balance.shift
+    )
+    forces, radii, ways = [], [], []
+    shapes = contact.sector.body.shapes
+    for k in range(contact.slots):
+        own, answer = contact.candidates.of(k), contact.answer.of(k)
+        for q in np.flatnonzero(answer.pressure[: 4 * int(own.counts[0])] > 0.0):
+            place = np.array(place_of(own, shapes, answer.u, q))
+            x, y, _ = rotation[k].T @ (place - translation[k])
+            forces.append(answer.pressure[q] * own.weights[q])
+            radii.append(math.hypot(x, y))
+            ways.append(np.linalg.norm(answer.slip_1[q]))
+    weights = np.array(forces)
+    whole = float(weights.sum())
+    return whole, float(weights @ radii) / whole, float(weights @ ways) / whole
+
+
+def resolved(model: StaticModel, balance: Balance, *, finer: bool = True) -> Resolved:
+    """Return the resolved pressures of a balance; its contact must still hold its fields."""
+    beta = balance.worm_angle + float(balance.yielded[0])
+    return model.resolved.resolve(
+        balance.contact, beta, balance.wheel_angle, balance.shift, finer=finer
+    )
+
+
+class Pattern:
+    """The largest resolved pressures of a pitch over the flank, on the grid of the exact flank."""
+
+    def __init__(self, model: StaticModel) -> None:
+        self.model = model
+        self.largest = np.zeros(model.resolved.flank.nodes)
+
+    def look(self, _number: int, balance: Balance) -> None:
+        """Keep what a balance presses, resolved by its first strips alone."""
+        self.keep(resolved(self.model, balance, finer=False))
+
+    def keep(self, found: Resolved) -> None:
+        """Keep what was resolved."""
+        flank = self.model.resolved.flank
+        for tooth in found.teeth:
+            on = tooth.force > 0.0
+            nearest = flank.nearest(tooth.strip.share[on], tooth.strip.points[on, 2])
+            np.maximum.at(self.largest, nearest, tooth.pressure[on])
+
+
+class Seen:
+    """What is taken from each phase under the load."""
+
+    def __init__(self, model: StaticModel) -> None:
+        self.model = model
+        self.pattern = Pattern(model)
+        self.weight = self.radius = self.speed = 0.0
+        self.nodal = 0.0  #: Largest pressure at a node of the mesh, Pa
+        self.turns: list[FloatArray] = []
+        self.peaks: list[FloatArray] = []  #: By phase and zone, Pa
+        self.forces: list[FloatArray] = []  #: By phase and zone, N
+        self.areas: list[float] = []  #: That bear, m^2
+        self.depths: list[float] = []  #: Pressed in plastically, m
+        self.resolved = True
+        self.worst: ToothPressure | None = None  #: Of the largest pressure on a flank
+        self.nodal_forces = np.zeros((0, 3 * model.sector.body.nodes))
+
+    def look(self, _number: int, balance: Balance) -> None:
+        """Take what a balance has."""
+        contact = balance.contact
+        for k in range(contact.slots):
+            if balance.action.normal[k] > 0.0:
+                self.nodal = max(self.nodal, float(nodal_pressure(contact, k).max()))
+        self.turns.append(balance.turns)
+        force, radius, speed = contact_means(contact, balance)
+        self.weight += force
+        self.radius += force * radius
+        self.speed += force * speed
+        found = resolved(self.model, balance)
+        self.pattern.keep(found)
+        peaks = np.array([tooth.peaks() for tooth in found.teeth])
+        self.peaks.append(peaks.max(axis=0))
+        self.forces.append(np.sum([tooth.forces() for tooth in found.teeth], axis=0))
+        self.areas.append(sum(tooth.area for tooth in found.teeth))
+        self.depths.append(found.depth)
+        self.resolved &= all(tooth.resolved for tooth in found.teeth)
+        worst = found.teeth[int(np.argmax(peaks[:, FLANK]))]
+        if self.worst is None or worst.peaks()[FLANK] > self.worst.peaks()[FLANK]:
+            self.worst = worst
+        if peaks.max() >= max(float(each.max()) for each in self.peaks):
+            self.nodal_forces = contact.nodal_forces()
+
+    def largest(self) -> dict[str, tuple[float, float]]:
+        """Return the largest pressure, Pa, and force, N, of a pitch by zone."""
+        peaks, forces = np.max(self.peaks, axis=0), np.max(self.forces, axis=0)
+        return {
+            name: (float(peak), float(force))
+            for name, peak, force in zip(ZONES, peaks, forces, strict=True)
+        }
+
+    @property
+    def mean(self) -> float:
+        """Normal force over the area that bears, mean over the pitch, Pa."""
+        return float(np.sum(self.forces) / np.sum(self.areas))

@@ -1,0 +1,133 @@
+"""Lives and static safeties of the bearings of a shaft, over its loads."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from asperity.errors import InputError
+from asperity.shafts.options import BearingOptions
+from asperity.shafts.parameters import ShaftBearing
+from asperity.shafts.rolling import life
+from asperity.shafts.rolling.equivalent import dynamic_load, outside_table, static_load
+
+_LEAST = 1e-6  # of C, of a bearing that carries next to nothing
+
+
+class Carried(NamedTuple):
+    """What a bearing carries under one load.
+
+    Attributes
+    ----------
+    radial, axial : float
+        N.
+    hours : float
+        Of the life, h.
+    speed : float
+        rpm.
+    viscosity : float
+        Of the oil, mm2/s.
+    """
+
+    radial: float
+    axial: float
+    hours: float
+    speed: float
+    viscosity: float
+
+
+class Life(NamedTuple):
+    """What a bearing comes to under the loads of a life.
+
+    Attributes
+    ----------
+    radial, axial : float
+        Of the load with the greatest equivalent load, N.
+    equivalent : float
+        P of that, N; of several loads the mean P_m.
+    rating_life : float
+        L_10h, h.
+    modified : float or None
+        L_nmh with oil, dirt and reliability, h; None where nothing is said of the oil's cleanness.
+    kappa, a_iso : float or None
+        Viscosity ratio and life modification factor, each the least of all loads.
+    static_safety : float
+        s_0, the least of all loads.
+    damage : tuple of float
+        Share of each load in what uses the bearing up.
+    outside : bool
+        Whether the axial load is more than the table of a deep groove bearing reaches.
+    """
+
+    radial: float
+    axial: float
+    equivalent: float
+    rating_life: float
+    modified: float | None
+    kappa: float | None
+    a_iso: float | None
+    static_safety: float
+    damage: tuple[float, ...]
+    outside: bool
+
+    @property
+    def told(self) -> float:
+        """The life that is judged, h."""
+        return self.rating_life if self.modified is None else self.modified
+
+
+def life_of(
+    place: ShaftBearing, loads: Sequence[Carried], options: BearingOptions, peak: float = 1.0
+) -> Life:
+    """Return what a bearing comes to under loads.
+
+    Raises
+    ------
+    InputError
+        No bearing is named there.
+    """
+    rolling = place.bearing
+    if rolling is None:
+        raise InputError("bearing.bearing is missing; name one of a data file")
+    c, c0 = rolling.ratings(pair=place.pair)
+    p, lives, modified, kappas, factors, statics = rolling.exponent, [], [], [], [], []
+    equivalents = []
+    for each in loads:
+        of = rolling.factors(each.axial, opposed=place.opposed)
+        load = max(dynamic_load(of, each.radial, each.axial), _LEAST * c)
+        rest = max(static_load(of, peak * each.radial, peak * each.axial), _LEAST * c0)
+        equivalents.append(load)
+        statics.append(float(life.static_safety(c0, rest)))
+        lives.append(float(life.rating_life_hours(c, load, p, each.speed)))
+        if options.e_c is not None:
+            reference = life.reference_viscosity(each.speed, rolling.pitch_diameter)
+            kappa = float(life.viscosity_ratio(each.viscosity, reference))
+            limit = rolling.endless_below * (2.0 if place.pair else 1.0)
+            factor = float(
+                life.life_modification(kappa, options.e_c, limit, load, rolling.elements)
+            )
+            kappas.append(kappa)
+            factors.append(factor)
+            modified.append(float(life.modified_life(options.a_1, factor, lives[-1])))
+    hours = [each.hours for each in loads]
+    whole = life.spectrum_life(hours, lives)
+    reached = options.a_1 * whole if not modified else life.spectrum_life(hours, modified)
+    turns = [each.hours * each.speed for each in loads]
+    mean = (sum(t * load**p for t, load in zip(turns, equivalents, strict=True)) / sum(turns)) ** (
+        1.0 / p
+    )
+    counted = modified or lives
+    used = [h / own for h, own in zip(hours, counted, strict=True)]
+    worst = max(range(len(loads)), key=equivalents.__getitem__)
+    asked = bool(modified) or options.reliability != 90
+    return Life(
+        loads[worst].radial,
+        loads[worst].axial,
+        equivalents[0] if len(loads) == 1 else mean,
+        whole,
+        reached if asked else None,
+        min(kappas) if kappas else None,
+        min(factors) if factors else None,
+        min(statics),
+        tuple(each / sum(used) for each in used),
+        rolling.kind == "deep groove"
+        and any(outside_table(rolling.f0 or 1.0, w.axial, rolling.static_rating) for w in loads),
+    )

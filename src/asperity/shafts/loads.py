@@ -1,0 +1,197 @@
+"""What the teeth put on both shafts: each load of the life in each of four cases.
+
+The worm turns clockwise or the other way, seen from the end it is driven at, and drives the wheel
+or is driven by it. Where the load drives, the other flanks touch: axial and radial force are those
+of the worm driving, the axial one turned round, and the tangential one is F_tm2 tan(gamma - rho),
+below zero where the worm locks itself and the motor turns it even so. The axes are those of
+`asperity.rating.forces`.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Literal, NamedTuple, cast
+
+import numpy as np
+
+from asperity.errors import InputError
+from asperity.formulas import masking
+from asperity.rating.inputs import Inputs, Values
+from asperity.rating.iso14521.calculation import parts_of
+from asperity.rating.iso14521.forces import (
+    separating_force,
+    wheel_tangential_force,
+    worm_tangential_force,
+)
+from asperity.rating.result import Rating
+from asperity.shafts.statics import PointLoad, Vector, mesh_load
+
+Rotation = Literal["clockwise", "anticlockwise"]
+Drives = Literal["worm", "load"]
+
+
+class Condition(NamedTuple):
+    """A rotation of the worm, seen from the end it is driven at, and what drives."""
+
+    rotation: Rotation
+    drives: Drives
+
+    @property
+    def text(self) -> str:
+        """As tables show it."""
+        return f"{self.rotation}, {self.drives} drives"
+
+    @property
+    def short(self) -> str:
+        """As a screen shows it."""
+        return self.rotation if self.drives == "worm" else f"{self.rotation}, load drives"
+
+    @property
+    def key(self) -> str:
+        """In JSON."""
+        return f"{self.rotation}_{self.drives}_drives"
+
+
+EVERY = tuple(
+    Condition(rotation, drives)
+    for drives in cast(tuple[Drives, ...], ("worm", "load"))
+    for rotation in cast(tuple[Rotation, ...], ("clockwise", "anticlockwise"))
+)
+
+
+def conditions(raises: Rotation | None) -> tuple[Condition, ...]:
+    """Return the four cases, or the two of a load that never reverses."""
+    if raises is None:
+        return EVERY
+    lowers: Rotation = "anticlockwise" if raises == "clockwise" else "clockwise"
+    return Condition(raises, "worm"), Condition(lowers, "load")
+
+
+class Load(NamedTuple):
+    """A load of the life.
+
+    Attributes
+    ----------
+    hours : float
+        Of the life, h.
+    torque : float
+        Of the wheel, N m.
+    speed, wheel_speed : float
+        Of worm and wheel, rpm.
+    tangential, axial, radial : float
+        F_tm1, F_tm2 and F_rm, N, worm driving.
+    driven : float
+        F_tm1 where the load drives, N; below zero where the worm locks itself.
+    viscosity : float
+        Of the oil in the sump, mm2/s.
+    rotation : {'both', 'clockwise', 'anticlockwise'}
+        Which the worm has under it, whatever the case.
+    lets_down : bool
+        Whether the load drives under it, whatever the case.
+    """
+
+    hours: float
+    torque: float
+    speed: float
+    wheel_speed: float
+    tangential: float
+    axial: float
+    radial: float
+    driven: float
+    viscosity: float
+    rotation: Literal["both", "clockwise", "anticlockwise"] = "both"
+    lets_down: bool = False
+
+    def within(self, case: Condition) -> Condition:
+        """Return its condition in a case: what it says of itself, else that of the case."""
+        rotation = case.rotation if self.rotation == "both" else self.rotation
+        return Condition(rotation, "load" if self.lets_down else case.drives)
+
+    def on_worm(self, condition: Condition, hand: float) -> Vector:
+        """Return what the teeth put on the worm, by x, y and z, N."""
+        turn = -1.0 if condition.rotation == "clockwise" else 1.0
+        if condition.drives == "worm":
+            return hand * turn * self.axial, self.radial, turn * self.tangential
+        return -hand * turn * self.axial, self.radial, -turn * self.driven
+
+
+def cases_of(loads: Sequence[Load], raises: Rotation | None) -> tuple[Condition, ...]:
+    """Return the cases in which the loads differ, of four, or two of one that never reverses."""
+    found = {tuple(load.within(case) for load in loads): case for case in conditions(raises)[::-1]}
+    return tuple(found.values())[::-1]
+
+
+def loads_of(given: Inputs, iso: Rating) -> tuple[Load, ...]:
+    """Return the loads of a life, beside a rating by ISO/TR 14521.
+
+    Each part of a duty cycle or spectrum is a load of its own; without one there is a single load.
+
+    Raises
+    ------
+    InputError
+        The standard has no answer for a part.
+    """
+    steps = given.operation.steps or ()
+    if not given.duty:
+        return (
+            _load(
+                given, float(given.life), float(given.output_torque), float(given.worm_speed),
+                float(iso["mu_zm"]), float(iso["theta_S_degC"]),
+            ),
+        )  # fmt: skip
+    with masking():
+        found = parts_of(given, {key: iso[key] for key in ("p_m_star", "E_red_MPa")})
+    friction, sump = (_each(given, found, key) for key in ("mu_zm", "theta_S_degC"))
+    made = []
+    for place, (part, step) in enumerate(zip(given.duty, steps, strict=True)):
+        of = float(part.hours), float(part.torque), float(part.speed)
+        mu, celsius = friction[place], sump[place]
+        if not (math.isfinite(mu) and math.isfinite(celsius)):
+            raise InputError(
+                f"part {place + 1} of the load has no friction or temperature by ISO/TR 14521, so "
+                "that its forces are not known: asperity rate tells why"
+            )
+        load = _load(given, *of, mu, celsius)
+        made.append(load._replace(rotation=step.rotation, lets_down=step.drives == "load"))
+    return tuple(made)
+
+
+def _each(given: Inputs, found: Sequence[Values], key: str) -> list[float]:
+    """Return a value of each part, whether they went through the formulas together or not."""
+    if given.together:
+        return [float(v) for v in np.broadcast_to(found[0][key], (len(given.duty),))]
+    return [float(own[key]) for own in found]
+
+
+def _load(
+    given: Inputs, hours: float, torque: float, speed: float, friction: float, celsius: float
+) -> Load:
+    wheel_force = float(wheel_tangential_force(torque, given.wheel_mean_diameter))
+    lead = float(given.lead_angle)
+    tangential = float(worm_tangential_force(wheel_force, lead, friction))
+    oil = given.operation.lubricant.kinematic_viscosity(celsius + 273.15)
+    return Load(
+        hours,
+        torque,
+        speed,
+        speed / float(given.gear_ratio),
+        tangential,
+        wheel_force,
+        float(separating_force(tangential, given.pressure_angle, lead, friction)),
+        wheel_force * math.tan(lead - math.atan(friction)),
+        1e6 * float(oil),
+    )
+
+
+def on_worm_shaft(at: float, force: Vector, pitch_diameter: float) -> PointLoad:
+    """Return the load of the teeth on the worm's shaft; they touch at y = -d_m1/2."""
+    return mesh_load(at, force, -pitch_diameter / 2.0)
+
+
+def on_wheel_shaft(at: float, force: Vector, mean_diameter: float) -> PointLoad:
+    """Return the load of the teeth on the wheel's shaft, in its axes.
+
+    Its x is the z of the worm, its y the same, and its z the worm's x turned round; what the teeth
+    put on the wheel is what they put on the worm, turned round.
+    """
+    fx, fy, fz = force
+    return mesh_load(at, (-fz, -fy, fx), mean_diameter / 2.0)

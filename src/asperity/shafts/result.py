@@ -1,0 +1,187 @@
+"""What the shafts of a gearset and their bearings come to."""
+
+import math
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from asperity.results import Result, quantity
+from asperity.results.table import Table
+from asperity.shafts.loads import Load
+from asperity.shafts.shaft import ShaftFound
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from asperity.rating.rows import Row
+
+
+class ShaftStudy(Result):
+    """Shafts and bearings of a worm gearset.
+
+    Attributes
+    ----------
+    name : str
+        Of the gearset.
+    found : mapping of str to ShaftFound
+        By ``worm_shaft`` and ``wheel_shaft``, those that are given.
+    loads : tuple of Load
+        Of the life.
+    life : float
+        That the bearings must reach, h.
+    """
+
+    title: ClassVar[str] = "Shafts and bearings"
+    stem: ClassVar[str] = "shafts"
+    drawings: ClassVar[Mapping[str, str]] = {"shafts": "asperity.shafts.plots:plot_shafts"}
+    captions: ClassVar[Mapping[str, str]] = {
+        "shafts": "Each shaft to scale with its bearings and what they carry, bending moment and "
+        "torque, and deflection, in the case that bends it most."
+    }
+    reported: ClassVar[bool] = True
+
+    name: str
+    found: Mapping[str, ShaftFound]
+    loads: tuple[Load, ...]
+    life: float = quantity("", "h", "life that the bearings must reach", key="asked_life_h")
+    worm_deflection: float | None = quantity(
+        "v_1", "um", "deflection of the worm at the mesh by bending", optional=True
+    )
+    worm_deflection_with_shear: float | None = quantity(
+        "", "um", "the same with shear", optional=True
+    )
+    iso_deflection: float | None = quantity(
+        "delta_m", "um", "deflection of the worm by the formula of ISO/TR 14521", optional=True
+    )
+    deflection_limit: float | None = quantity(
+        "delta_lim", "um", "deflection that may be, by ISO/TR 14521", optional=True
+    )
+    least_life: float | None = quantity(
+        "L_h", "h", "life of the weakest bearing", key="least_life_h", optional=True
+    )
+    least_static_safety: float | None = quantity(
+        "s_0", "", "static safety of the weakest bearing", optional=True
+    )
+    least_fatigue_safety: float | None = quantity(
+        "S_D", "", "fatigue safety of the weakest section by DIN 743, case 2", optional=True
+    )
+    least_yield_safety: float | None = quantity(
+        "S_F", "", "yield safety of the weakest section by DIN 743", optional=True
+    )
+
+    @classmethod
+    def of(
+        cls,
+        name: str,
+        found: Mapping[str, ShaftFound],
+        loads: tuple[Load, ...],
+        life: float,
+        iso: tuple[float, float] | None,
+    ) -> "ShaftStudy":
+        """Return the answer of shafts that are found; ISO's deflection and limit in mm."""
+        lives = [
+            each for shaft in found.values() for own in shaft.lives if own for each in own.values()
+        ]
+        sections = [each.judged for shaft in found.values() for each in shaft.sections]
+        worm = found.get("worm_shaft")
+        bent = None if worm is None else worm.worst.at_mesh
+        notes = [note for shaft in found.values() for note in shaft.model.notes]
+        for key, shaft in found.items():
+            if shaft.model.table.material is None:
+                notes.append(f"{key}.material is not given: its strength is not judged")
+            elif not shaft.model.details:
+                notes.append(f"{key} has no fillet and no notch: its strength is not judged")
+            if any(own is None for own in shaft.lives):
+                notes.append(f"{key}: a bearing without a name has loads and no life")
+            if any(each.outside for own in shaft.lives if own for each in own.values()):
+                notes.append(
+                    f"{key}: f_0 F_a/C_0 of a deep groove bearing is above 6.89, where its table "
+                    "ends; the last row is taken"
+                )
+            if any(each.detail.kind == "threads" for each in shaft.sections):
+                table = shaft.model.table
+                if "thread_notch_bending" not in table.model_fields_set:
+                    notes.append(
+                        f"the root of the threads is judged with notch factors of "
+                        f"{table.thread_notch_bending:g} and {table.thread_notch_torsion:g}, which "
+                        f"are assumed: no open standard has any; else give "
+                        f"{key}.thread_notch_bending and thread_notch_torsion"
+                    )
+        return cls(
+            name=name,
+            found=found,
+            loads=loads,
+            life=life,
+            worm_deflection=None if bent is None else bent[0],
+            worm_deflection_with_shear=None if bent is None else bent[1],
+            iso_deflection=None if iso is None or worm is None else 1e3 * iso[0],
+            deflection_limit=None if iso is None or worm is None else 1e3 * iso[1],
+            least_life=min((each.told for each in lives), default=None),
+            least_static_safety=min((each.static_safety for each in lives), default=None),
+            least_fatigue_safety=_finite(min((e.fatigue_2 for e in sections), default=None)),
+            least_yield_safety=_finite(min((e.yielding for e in sections), default=None)),
+            notes=tuple(notes),
+        )
+
+    @property
+    def rows(self) -> "tuple[Row, ...]":
+        """What each part comes to of what is asked."""
+        from asperity.shafts.rows import rows_of
+
+        return rows_of(self)
+
+    @property
+    def holds(self) -> bool:
+        """Whether everything does."""
+        return all(row.holds for row in self.rows)
+
+    def heading(self) -> str:
+        """Return the gearset's name."""
+        return self.name or "worm gearset"
+
+    def headline(self) -> tuple[str, ...]:
+        """Return whether all holds, and what fails."""
+        failing = [row.name for row in self.rows if not row.holds]
+        if not self.rows:
+            return ("nothing is judged: give bearings by name, and a material",)
+        if failing:
+            return (f"does not hold: {', '.join(failing)}",)
+        return ("shafts and bearings hold",)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return everything by key; the units are part of the keys."""
+        from asperity.shafts.told import shaft_json
+
+        return {
+            "name": self.name,
+            **super().to_json(),
+            "holds": self.holds,
+            "rows": [row.to_json() for row in self.rows],
+            "loads": [
+                {
+                    "hours_h": load.hours,
+                    "output_torque_Nm": load.torque,
+                    "worm_speed_rpm": load.speed,
+                }
+                for load in self.loads
+            ],
+            **{
+                key: shaft_json(self.found[key]) if key in self.found else None
+                for key in ("worm_shaft", "wheel_shaft")
+            },
+        }
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return what a person reads."""
+        from asperity.shafts.told import tables
+
+        return tables(self)
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the scalars, and the course of what is in each shaft in its worst case."""
+        from asperity.shafts.told import courses
+
+        return super().to_dataset().assign(courses(self.found))
+
+
+def _finite(value: float | None) -> float | None:
+    return value if value is not None and math.isfinite(value) else None

@@ -1,0 +1,1 @@
+"""Rolling bearings: equivalent loads, lives and static safety by ISO 281 and ISO 76."""

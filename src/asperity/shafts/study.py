@@ -1,0 +1,142 @@
+"""What ``asperity shafts`` does: both shafts of a gearset, by the tables of a case."""
+
+from typing import NamedTuple
+
+from asperity.casefile import Case, told
+from asperity.errors import InputError
+from asperity.gearset.parameters import Gearset
+from asperity.rating.bs721.tables import Tables
+from asperity.rating.by_standard import rate_by
+from asperity.rating.driven import driven
+from asperity.rating.inputs import Inputs, inputs, scaled
+from asperity.rating.parameters import RatingOptions
+from asperity.rating.result import Rating
+from asperity.rating.rows import Row
+from asperity.rating.standards import tables_of
+from asperity.rating.tables import operation_of
+from asperity.runs import Run
+from asperity.shafts.loads import (
+    Condition,
+    Load,
+    cases_of,
+    loads_of,
+    on_wheel_shaft,
+    on_worm_shaft,
+)
+from asperity.shafts.model import Model, model_of
+from asperity.shafts.options import BearingOptions
+from asperity.shafts.parameters import WheelShaft, WormShaft
+from asperity.shafts.result import ShaftStudy
+from asperity.shafts.rows import rows_of
+from asperity.shafts.shaft import ShaftFound, find_shaft
+from asperity.shafts.statics import PointLoad
+
+
+class Prepared(NamedTuple):
+    """What is solved."""
+
+    given: Inputs
+    tables: Tables
+    worm: Model | None
+    wheel: Model | None
+    options: BearingOptions
+
+
+def given_shafts(case: Case) -> bool:
+    """Whether a case has a shaft."""
+    return WormShaft.table in case or WheelShaft.table in case
+
+
+def prepare(case: Case) -> Prepared:
+    """Return the shafts of a case.
+
+    Raises
+    ------
+    InputError
+        It has none, or its gearset's numbers do not belong together.
+    """
+    gearset = case.require(Gearset)
+    if not given_shafts(case):
+        raise InputError(
+            f"{case.source}: the table [worm_shaft] is missing, and [wheel_shaft]; add one"
+        )
+    with told(case):
+        options = case.get(RatingOptions, RatingOptions())
+        operation = driven(gearset, operation_of(case), options)
+        gearset.require_consistent()
+        given = inputs(gearset, operation, options)
+        worm, wheel = case.get(WormShaft), case.get(WheelShaft)
+        return Prepared(
+            given,
+            tables_of(options, case.folder),
+            None if worm is None else model_of(worm, gearset.geometry),
+            None if wheel is None else model_of(wheel, gearset.geometry),
+            case.get(BearingOptions, BearingOptions()),
+        )
+
+
+def answer(problem: Prepared, _: Run) -> ShaftStudy:
+    """Find what both shafts and their bearings come to."""
+    iso = rate_by("iso14521", problem.given, problem.tables)
+    return study(problem, loads_of(problem.given, iso), iso)
+
+
+def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy:
+    """Return what both shafts come to under given loads, beside a rating by ISO/TR 14521."""
+    given, options = problem.given, problem.options
+    hand = 1.0 if given.gearset.hand == "right" else -1.0
+    cases = cases_of(loads, options.raises)
+
+    def on_worm(load: Load, case: Condition) -> PointLoad:
+        assert problem.worm is not None
+        force = load.on_worm(case, hand)
+        return on_worm_shaft(problem.worm.mesh, force, float(given.worm_pitch_diameter))
+
+    def on_wheel(load: Load, case: Condition) -> PointLoad:
+        assert problem.wheel is not None
+        force = load.on_worm(case, hand)
+        return on_wheel_shaft(problem.wheel.mesh, force, float(given.wheel_mean_diameter))
+
+    found: dict[str, ShaftFound] = {}
+    if problem.worm is not None:
+        found["worm_shaft"] = find_shaft(
+            problem.worm, loads, cases, options, on_worm, of_wheel=False
+        )
+    if problem.wheel is not None:
+        found["wheel_shaft"] = find_shaft(
+            problem.wheel, loads, cases, options, on_wheel, of_wheel=True
+        )
+    life = float(sum(load.hours for load in loads))
+    if options.life is not None:
+        life = scaled(options.life, 1.0 / 3600.0)
+    return ShaftStudy.of(
+        given.gearset.name,
+        found,
+        loads,
+        life,
+        (float(iso["delta_m_mm"]), float(iso["delta_lim_mm"])) if "delta_m_mm" in iso else None,
+    )
+
+
+def shaft_rows(
+    case: Case, loads: tuple[Load, ...] | None = None, iso: Rating | None = None
+) -> tuple[Row, ...]:
+    """Return a row for each shaft and bearing of a case, for the screen of a rating.
+
+    Parameters
+    ----------
+    case : Case
+        Without a shaft there is no row.
+    loads : tuple of Load, optional
+        Left out: those of the operation.
+    iso : Rating, optional
+        By ISO/TR 14521, where it is there already.
+    """
+    if not given_shafts(case):
+        return ()
+    problem = prepare(case)
+    with told(case):
+        rating = iso or rate_by("iso14521", problem.given, problem.tables)
+        if loads is None:
+            loads = loads_of(problem.given, rating)
+        return rows_of(study(problem, loads, rating))

@@ -1,0 +1,97 @@
+/** A screen as one file that works without server and network: what is shown, what it was made from, the case. */
+import { about } from "./api.js";
+import { download } from "./figure.js";
+
+const STYLES = ["style.css", "gear.css", "stage.css"];
+/** What of a screen is of use with a server only. */
+const OF_SERVER = ".controls, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav, .choice, canvas,"
+  + " .passing, .grip title";
+const POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
+const text = async (path) => (await fetch(path)).text();
+const safe = (said) => String(said ?? "").replace(/[&<>"]/g, (sign) =>
+  ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[sign]);
+/** JSON within a script: nothing in it ends the script. */
+const inScript = (value) => JSON.stringify(value).replaceAll("<", "\\u003c");
+
+/** A picture as text, twice as fine as it is seen. @param {HTMLImageElement} image */
+function drawn(image) {
+  const canvas = document.createElement("canvas");
+  const { width, height } = image.getBoundingClientRect();
+  [canvas.width, canvas.height] = [2 * width, 2 * height];
+  canvas.getContext("2d")?.drawImage(image, 0, 0, canvas.width, canvas.height);
+  return canvas.toDataURL();
+}
+
+/** What is seen of a screen, without what is of use with a server only. @param {Element} body */
+function seen(body) {
+  // In a document of its own, which loads nothing.
+  const copy = /** @type {HTMLElement} */ (document.implementation.createHTMLDocument("").importNode(body, true));
+  const images = [...body.querySelectorAll("img")];
+  copy.querySelectorAll("img").forEach((each, row) => each.setAttribute("src", drawn(images[row])));
+  copy.querySelectorAll(OF_SERVER).forEach((each) => each.remove());
+  copy.querySelectorAll(".num button, td button, th button").forEach((each) => {
+    const plain = copy.ownerDocument.createElement("span");
+    plain.append(...each.childNodes);
+    each.replaceWith(plain);
+  });
+  copy.querySelectorAll("button, .all, .stage .row > label").forEach((each) => each.remove());
+  copy.querySelectorAll("details").forEach((each) => each.setAttribute("open", ""));
+  copy.querySelectorAll(".fault:empty, section:empty").forEach((each) => each.remove());
+  return copy.innerHTML;
+}
+
+const rows = (entries) => entries.map(({ key, symbol, value, unit, meaning, equation, source }) =>
+  `<tr data-key="${safe(key)}" data-value="${safe(value)}">${[meaning || key, symbol, value, unit, equation, source]
+    .map((each) => `<td>${safe(each)}</td>`).join("")}</tr>`).join("");
+
+/** What moves in the file: the same drawing, played by the same functions. */
+const playing = (motion, { series, answer }) => `${motion.replaceAll("export ", "")}
+const picture = document.querySelector(".stage svg");
+const moving = motionOf(${inScript(series)}, ${Number(answer.static_drive_force_N)});
+const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+if (!still) requestAnimationFrame(function next(now) {
+  draw(picture, moving, now / 3000);
+  requestAnimationFrame(next);
+});`;
+
+/**
+ * Hand the screen over as a file.
+ * @param {string} title @param {any} told the answer as the server gives it, with command and toml
+ */
+export async function share(title, told) {
+  const shown = document.querySelector("main .body");
+  if (!shown) return;
+  const styles = (await Promise.all(STYLES.map(text))).join("\n");
+  const moves = shown.querySelector(".stage svg") && told.series;
+  const script = moves ? playing(await text("js/motion.js"), told) : "";
+  const day = new Date().toISOString().slice(0, 10);
+  const name = /^\w+ (\S+)/.exec(told.command?.replace(/^asperity /, "") ?? "")?.[1] ?? "case";
+  const file = `${name.replace(/\.toml$/i, "").replace(/[^\w.-]/g, "-")}.toml`;
+  const notes = told.notes?.length ? `<h2>Notes</h2><ul>${told.notes.map((each) => `<li>${safe(each)}</li>`).join("")}</ul>` : "";
+  const whole = `<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="${POLICY}"><meta name="color-scheme" content="light dark">
+<title>${safe(title)}: ${safe(name)}</title><style>${styles}
+body { display: block; max-width: 1100px; margin: 0 auto; padding: 1rem; }
+.columns { display: block; } td { overflow-wrap: anywhere; } pre { overflow: auto; }
+.drawn { max-width: 100%; height: auto; }</style></head>
+<body><main><h1>${safe(title)}: ${safe(name)}</h1>
+<p class="says">Made on ${day} by asperity ${safe(about.value?.version)}: <code>${safe(told.command)}</code></p>
+${seen(shown)}${notes}
+<details><summary>all ${told.entries?.length ?? 0} numbers</summary><div class="scroll whole"><table>
+<tr><th>what</th><th>symbol</th><th>value</th><th>unit</th><th>equation</th><th>source</th></tr>
+${rows(told.entries ?? [])}</table></div></details>
+<h2>The case</h2><p>Save it as <code>${safe(file)}</code>, and the command gives all of this again.
+<button type="button" id="take">save the case</button></p><pre id="case">${safe(told.toml)}</pre></main>
+<script type="application/json" id="answer">${inScript(told.answer ?? null)}</script>
+<script>document.getElementById("take").onclick = () => {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([document.getElementById("case").textContent]));
+  link.download = ${inScript(file)};
+  link.click();
+};
+${script}</script></body></html>
+`;
+  download(`${file.replace(/\.toml$/, "")}.html`, new Blob([whole], { type: "text/html" }));
+}

@@ -1,0 +1,78 @@
+"""What outlives a server: open tabs, bookmarks."""
+
+import os
+import re
+
+import pytest
+from apparatus.page import Served
+from playwright.sync_api import expect
+
+
+@pytest.fixture
+def served(tmp_path):
+    """A way to serve a folder of this test at an address of its own, once more each time."""
+    port, alive = ["0"], []
+
+    def begin(name="folder"):
+        for one in alive:
+            one.close()
+        alive[:] = [Served(tmp_path / name, dict(os.environ), "--port", port[0])]
+        port[0] = str(alive[0].port)
+        return alive[0]
+
+    yield begin
+    for one in alive:
+        one.close()
+
+
+def here(one, place):
+    return f"http://127.0.0.1:{one.port}/#/{place}"
+
+
+def test_a_restart_keeps_tabs_and_bookmarks(browser, served):
+    first = served()
+    context = browser.new_context()
+    tab = context.new_page()
+    tab.goto(here(first, f"slide?case=body-shaken-across&token={first.token}"))
+    expect(tab.locator("[data-key=ratio]").first).to_be_visible()
+    bookmark = tab.url
+    again = served()
+    assert again.token == first.token
+    tab.get_by_role("slider", name="mass", exact=True).press("ArrowRight")
+    expect(tab).to_have_url(re.compile("set.slider.mass"))
+    expect(tab.locator(".busy.on")).to_have_count(0)
+    expect(tab.locator(".fault")).to_have_count(0)
+    tab.close()
+    opened = context.new_page()
+    opened.goto(bookmark)
+    expect(opened.locator("[data-key=ratio]").first).to_be_visible()
+    expect(opened.locator("[role=alert].fault")).to_have_count(0)
+    context.close()
+
+
+def test_a_bookmark_of_one_folder_opens_after_another_was_served_there(browser, served):
+    context = browser.new_context()
+    for name in ("one", "other"):
+        one = served(name)
+        page = context.new_page()
+        page.goto(here(one, f"slide?case=body-shaken-across&token={one.token}"))
+        expect(page.locator("[data-key=ratio]").first).to_be_visible()
+        bookmark = page.url
+        page.close()
+    served("one")
+    page = context.new_page()
+    page.goto(bookmark)
+    expect(page.locator("[data-key=ratio]").first).to_be_visible()
+    context.close()
+
+
+def test_a_tab_whose_token_is_refused_takes_that_of_a_tab_at_the_printed_address(browser, served):
+    one = served()
+    context = browser.new_context()
+    old = context.new_page()
+    old.goto(here(one, f"slide?case=body-shaken-across&token={'x' * 32}"))
+    expect(old.get_by_role("alert").first).to_contain_text("token")
+    new = context.new_page()
+    new.goto(here(one, f"slide?case=body-shaken-across&token={one.token}"))
+    expect(old.locator("[data-key=ratio]").first).to_be_visible()
+    context.close()

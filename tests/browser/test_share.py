@@ -1,0 +1,76 @@
+"""A screen as one file: without server and network it shows what it was made from, and the case."""
+
+import json
+from pathlib import Path
+
+import pytest
+from apparatus.browser import answered, settled
+from playwright.sync_api import expect
+
+MOST_BYTES = 2_000_000
+
+
+@pytest.fixture
+def shared(seen, tmp_path):
+    """Share a screen; returns the file, and playwright's page of it, offline on a phone."""
+    contexts = []
+
+    def share(screen, **params):
+        page = seen.open(screen, **params)
+        button = page.get_by_role("button", name="share", exact=True)
+        expect(button).to_be_visible()
+        settled(page)
+        with page.expect_download() as download:
+            button.click()
+        path = tmp_path / download.value.suggested_filename
+        download.value.save_as(path)
+        phone = {"viewport": {"width": 360, "height": 740}, "offline": True}
+        contexts.append(seen.context.browser.new_context(**phone))
+        opened = contexts[-1].new_page()
+        opened.on("pageerror", lambda error: pytest.fail(str(error)))
+        opened.on("console", lambda said: pytest.fail(said.text))
+        opened.goto(path.as_uri())
+        return path, opened
+
+    yield share
+    for context in contexts:
+        context.close()
+
+
+def of_case(page, command, folder, tmp_path):
+    """Return what the command line says of the case that stands in a file."""
+    case = tmp_path / "again.toml"
+    case.write_text(page.locator("#case").inner_text())
+    return answered(["asperity", command, str(case), "--json"], folder)
+
+
+@pytest.mark.parametrize(
+    ("screen", "params", "command", "keys"),
+    [
+        ("slide", {"set.vibration.direction": "30 deg"}, "slide", ["ratio", "drive_force_N"]),
+        ("gear", {"case": "worm-15-to-1"}, "rate", ["iso14521"]),
+    ],
+)
+def test_a_shared_file_holds_the_numbers_and_the_case_that_gives_them(
+    shared, server, tmp_path, screen, params, command, keys
+):
+    path, page = shared(screen, **params)
+    assert path.stat().st_size < MOST_BYTES
+    told = json.loads(page.locator("#answer").text_content())
+    again = of_case(page, command, server.folder, tmp_path)
+    for key in keys:
+        assert again[key] == told[key]
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    expect(page.get_by_text("Made on")).to_contain_text(f"asperity {command}")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="save the case").click()
+    saved = Path(download.value.path()).read_text()
+    assert saved == page.locator("#case").text_content()
+
+
+def test_a_shared_body_moves_without_a_server(shared):
+    _, page = shared("slide", case="body-shaken-across")
+    dot = page.locator(".stage .dot")
+    before = dot.get_attribute("cy")
+    page.wait_for_timeout(400)
+    assert dot.get_attribute("cy") != before

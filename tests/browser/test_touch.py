@@ -1,0 +1,63 @@
+"""Fingers: what scrolls changes nothing, what drags scrolls nothing."""
+
+import pytest
+from apparatus.browser import settled
+from playwright.sync_api import expect
+
+PHONE = {"viewport": {"width": 360, "height": 740}, "has_touch": True, "is_mobile": True}
+STEPS = 12
+
+
+@pytest.fixture
+def phone(seen_as):
+    seen = seen_as(**PHONE)
+    page = seen.open("slide")
+    expect(page.locator("[data-key=ratio]").first).to_be_visible()
+    settled(page)
+    return page
+
+
+def swipe(page, start, end):
+    """A finger from a place to another, as the browser's own protocol has it."""
+    session = page.context.new_cdp_session(page)
+    (x0, y0), (x1, y1) = start, end
+    finger = {"x": x0, "y": y0}
+    session.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [finger]})
+    for n in range(1, STEPS + 1):
+        at = {"x": x0 + (x1 - x0) * n / STEPS, "y": y0 + (y1 - y0) * n / STEPS}
+        session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [at]})
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+    session.detach()
+
+
+def middle(slider, share=0.5):
+    box = slider.bounding_box()
+    return box["x"] + share * box["width"], box["y"] + box["height"] / 2
+
+
+def test_a_finger_that_scrolls_over_a_slider_changes_nothing(phone):
+    sliders = phone.locator("input[type=range]:visible").all()
+    assert len(sliders) > 6
+    for slider in sliders:
+        slider.evaluate("each => each.scrollIntoView({block: 'center'})")
+        values = [each.input_value() for each in sliders]
+        before = phone.evaluate("scrollY")
+        x, y = middle(slider, 0.3)
+        swipe(phone, (x, y), (x + 12, y - 200))
+        settled(phone)
+        assert [each.input_value() for each in sliders] == values
+        assert phone.evaluate("scrollY") > before
+    assert "set." not in phone.url.replace("set.solve.method", "")
+
+
+def test_a_finger_that_goes_along_a_slider_drags_it_and_scrolls_nothing(phone):
+    slider = phone.get_by_role("slider", name="mass", exact=True)
+    slider.evaluate("each => each.scrollIntoView({block: 'center'})")
+    before = float(slider.input_value())
+    (x, y), (to, _) = middle(slider, 0.3), middle(slider, 0.8)
+    swipe(phone, (x, y), (to, y + 6))
+    settled(phone)
+    assert float(slider.input_value()) > before + 20
+    # What stands above may have become longer: the slider stays under the finger.
+    assert abs(middle(slider)[1] - y) < 8
+    assert "set.slider.mass" in phone.url
