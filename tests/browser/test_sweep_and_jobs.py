@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from apparatus.browser import answered, copied, shown
+from apparatus.browser import answered, copied
 from playwright.sync_api import expect
 
 DONE = re.compile(r"done after")

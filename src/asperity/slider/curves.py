@@ -35,8 +35,8 @@ class Curve(NamedTuple):
     Attributes
     ----------
     x : ndarray, shape (n,)
-        Direction, elevation or phase of the normal part, deg, or peak velocity of the vibration over
-        that of the drive.
+        Direction, elevation or phase of the normal part, deg, or peak velocity of the vibration
+        over that of the drive.
     unit : str
         Of `x`.
     ratio : ndarray, shape (n,)

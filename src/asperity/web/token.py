@@ -1,4 +1,4 @@
-"""The token of a folder's page: the same each time, so that bookmarks and open tabs outlive a server."""
+"""The token of a folder's page: the same each time, so that bookmarks and tabs outlive a server."""
 
 import contextlib
 import hashlib

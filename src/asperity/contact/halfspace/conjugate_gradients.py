@@ -131,9 +131,7 @@ def _level(values: FloatArray, arm: FloatArray, free: BoolArray) -> float:
     return _dot(values[free], chosen) / max(_dot(chosen, chosen), 1e-300)
 
 
-def _loaded(
-    force: FloatArray, arm: FloatArray, moment: float, limit: FloatArray
-) -> FloatArray:
+def _loaded(force: FloatArray, arm: FloatArray, moment: float, limit: FloatArray) -> FloatArray:
     """Forces scaled to the load, those at their limit left there."""
     for _ in range(_SCALINGS):
         capped = force >= limit

@@ -44,9 +44,7 @@ def _corner(x: FloatArray, y: FloatArray) -> FloatArray:
     # x arsinh(y/|x|) = x ln((y + r)/|x|), of limit 0 on the axes.
     ax, ay = np.maximum(np.abs(x), 1e-300), np.maximum(np.abs(y), 1e-300)
     sign_x, sign_y = np.sign(x), np.sign(y)
-    return np.asarray(
-        x * sign_y * np.log((ay + far) / ax) + y * sign_x * np.log((ax + far) / ay)
-    )
+    return np.asarray(x * sign_y * np.log((ay + far) / ax) + y * sign_x * np.log((ax + far) / ay))
 
 
 class HalfSpace:

@@ -211,9 +211,7 @@ class _Teeth:
             out = contact.answer.normal[k, :count]
             pressed = contact.answer.pressure[k, :count] * contact.candidates.weights[k, :count]
             place = contact.candidates.places[k, :count]
-            moment += float(
-                pressed @ (place[:, 0] * out[:, 1] - place[:, 1] * out[:, 0])
-            )
+            moment += float(pressed @ (place[:, 0] * out[:, 1] - place[:, 1] * out[:, 0]))
             for values, friction in ((whole, False), (rubbing, True)):
                 force = contact.answer.force[k, :count].copy()
                 if friction:
@@ -319,9 +317,7 @@ class _Teeth:
             # Threads of BLAS cost more than they save here.
             moved = np.einsum("ij,j->i", smooth, nodal)
             out = np.empty_like(force)
-            for i, ((_, strip), part, space) in enumerate(
-                zip(some, parts, spaces, strict=True)
-            ):
+            for i, ((_, strip), part, space) in enumerate(zip(some, parts, spaces, strict=True)):
                 out[part] = space.deflection(force[part])
                 out[part] += strip.nodes @ moved[i * nodes : (i + 1) * nodes]
             return out

@@ -147,7 +147,9 @@ class ExactFlank:
         shape = count, len(self.sector.surface.positions)
         return sparse.csr_array((values.ravel(), columns.ravel(), starts), shape=shape)
 
-    def heights(self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray) -> Heights:
+    def heights(
+        self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray
+    ) -> Heights:
         """Return the flank's heights over a grid in a plane, by a polynomial through its points.
 
         Parameters
@@ -162,9 +164,9 @@ class ExactFlank:
         places = (self.grid[0] - origin) @ axes.T
         ends = np.array([[x[0], x[-1]], [y[0], y[-1]]])
         about = _ABOUT * np.ptp(ends, axis=1) + _BESIDE * self.least_reach
-        near = (np.abs(places[:, :2] - ends.mean(axis=1)) <= 0.5 * np.ptp(ends, axis=1) + about).all(
-            axis=1
-        )
+        near = (
+            np.abs(places[:, :2] - ends.mean(axis=1)) <= 0.5 * np.ptp(ends, axis=1) + about
+        ).all(axis=1)
         # Of the flank's other parts a plane may see the back.
         places = places[near & (self.grid[1] @ axes[2] > 0.0)]
         degree = min(_DEGREE, int(np.sqrt(len(places) / _POINTS)))

@@ -109,8 +109,7 @@ class Frame:
         reach = np.maximum(high - low, 1e-6)
         low, high = low - margin * reach, high + margin * reach
         x, y = (
-            a + (b - a) * (np.arange(n) + 0.5) / n
-            for a, b, n in zip(low, high, shape, strict=True)
+            a + (b - a) * (np.arange(n) + 0.5) / n for a, b, n in zip(low, high, shape, strict=True)
         )
         return cls(origin, axes, x, y)
 
