@@ -119,7 +119,7 @@ def test_claims_are_found_by_words_and_verdict_and_say_what_makes_them(seen, ser
     try:
         page = seen.open("thesis")
         rows = page.locator("tbody tr")
-        expect(page.get_by_text("69 of 69 claims")).to_be_visible()
+        expect(page.get_by_text("94 of 94 claims")).to_be_visible()
         page.get_by_role("searchbox").fill("oversize alone")
         expect(rows).to_have_count(1)
         # What another version made is not shown as this one's.

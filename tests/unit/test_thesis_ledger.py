@@ -12,7 +12,7 @@ from asperity import thesis
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES
 from asperity.thesis.products import VERDICTS, Finding
 from asperity.thesis.reproduce import page as report
-from asperity.thesis.said import findings, said_of, slips
+from asperity.thesis.said import disputed, findings, said_of, slips
 from asperity.thesis.sliding.bodies import Body, Sweep
 from asperity.thesis.sliding.claims import drive_stiffness
 
@@ -84,6 +84,12 @@ def test_another_number_in_the_text_is_not_the_quoted_one():
     assert plain("T_Bs = 33.9 Nm") != plain("T_Bs = 33.8 Nm")
 
 
+def test_what_is_disputed_is_of_claims_that_are_there():
+    numbers = [one.claim for one in disputed()]
+    assert len(numbers) == len(set(numbers))
+    assert set(numbers) <= set(CLAIMS)
+
+
 def test_what_a_claim_rests_on_and_where_to_see_it_is_there():
     shelves = {"claim": CLAIMS, "figure": FIGURES, "table": TABLES}
     resting = collections.Counter()
@@ -153,6 +159,7 @@ def test_no_reason_holds_a_number_that_is_typed_in():
 def test_what_is_told_once_and_could_fail_holds_no_number_either():
     texts = [one.text for one in findings().values()]
     texts += [said_of(number).fails_by for number in CLAIMS]
+    texts += [one.text for one in disputed()]
     for text in texts:
         assert not typed(text), text
 

@@ -72,6 +72,14 @@ class Lost:
     instead: str
 
 
+@dataclasses.dataclass(frozen=True)
+class Disputed:
+    """A verdict of which one may judge otherwise, and why it is what it is."""
+
+    claim: str
+    text: str
+
+
 @functools.cache
 def _read() -> Mapping[str, Any]:
     return tomllib.loads(_SAID.read_text("utf-8"))
@@ -105,3 +113,9 @@ def slips() -> tuple[Slip, ...]:
 def lost() -> tuple[Lost, ...]:
     """Return what is lost, chapter by chapter."""
     return tuple(Lost(**one) for one in _read()["lost"])
+
+
+@functools.cache
+def disputed() -> tuple[Disputed, ...]:
+    """Return the verdicts of which one may judge otherwise."""
+    return tuple(Disputed(**one) for one in _read()["disputed"])

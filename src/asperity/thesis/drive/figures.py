@@ -127,7 +127,7 @@ def _laws() -> Computed:
 
 
 @figure(
-    "7.10", "Input torque over time, simulation 33",
+    "7.10", "Input torque over time, simulation 33, from the start of the vibration",
     f"{_REDUCED}k_w = 20, 30 kHz, from the start of the vibration. Grey: no contact. Below: means "
     "from the start on, of the worm's torque over that without vibration and of what the mesh "
     "gives the wheel over its load. The thesis's 0.22 is passed on the way, as any other value is; "

@@ -63,7 +63,7 @@ LOADS = {
 
 
 @figure(
-    "2.9", "Contact pressure before and after lead angle correction and tip relief",
+    "2.9", "Contact pressure of a worm gearset before and after lead correction and tip relief",
     "Hertzian pressure along the contact lines at 24 angles of the worm, rated torque, by one "
     "stiffness per length of line: no finite elements as in Mao's figure, and a worm gearset with "
     "an identical hob instead of his helical gears. (a) The worm's axis stands 0.1 deg askew; "

@@ -16,7 +16,7 @@ from asperity.thesis.contents import Chapter, chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE
 from asperity.thesis.products import DIFFERS, VERDICTS, Cell
 from asperity.thesis.reproduce.files import Shown
-from asperity.thesis.said import READ_BY_A_MACHINE, findings, lost, slips
+from asperity.thesis.said import READ_BY_A_MACHINE, disputed, findings, lost, slips
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -87,6 +87,7 @@ def render(
             for name in findings()
         },
         lost=lost(),
+        disputed=disputed(),
         slips=slips(),
         letters=sorted({slip.line for slip in slips() if not slip.why}),
         read_by_a_machine=READ_BY_A_MACHINE,

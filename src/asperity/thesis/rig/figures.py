@@ -13,7 +13,12 @@ _LOADS = m.LOADS_LB * m.POUND_FORCE
 _TABLE = "Table 6.3, measured; its loads, printed in N, are kilograms and are drawn in N here."
 
 
-@figure("6.8", "Speeds and currents over the load, dry", _TABLE, drawings.speeds)
+@figure(
+    "6.8",
+    "Speeds and currents over the load, dry, the loads in N put right",
+    _TABLE,
+    drawings.speeds,
+)
 def _speeds() -> Computed:
     dataset = labelled(
         load=(("load",), _LOADS, "N", "normal load"),

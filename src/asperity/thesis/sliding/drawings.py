@@ -198,7 +198,7 @@ def drive_over_time(dataset: "xr.Dataset") -> "Figure":
     )  # fmt: skip
     for axes, title, label in (
         (upper, "From rest", "time (s)"),
-        (lower, "Enlarged", "time in the last millisecond (ms)"),
+        (lower, "The last millisecond, enlarged", "time in the last millisecond (ms)"),
     ):
         axes.set(xlabel=label, ylabel="drive force (N)", xmargin=0.0)
         axes.set_title(title, loc="left")
@@ -216,7 +216,7 @@ def friction_over_cycles(dataset: "xr.Dataset") -> "Figure":
     for axes, part in zip(all_axes, parts, strict=True):
         for index, (name, time, friction) in enumerate(_histories(dataset, "friction")):
             line(axes, index, time * 1e3, friction.sel(axis=part), _SERIES.get(name, name))
-        axes.set(xlabel="time (ms)", ylabel="friction (N)", xmargin=0.0)
+        axes.set(xlabel="time in the last cycles (ms)", ylabel="friction (N)", xmargin=0.0)
         axes.set_title(f"Friction {names[part]}", loc="left")
     legend(all_axes[0], loc="lower right", bbox_to_anchor=(1.0, 0.98), ncols=1)
     return figure
