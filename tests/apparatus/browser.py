@@ -66,8 +66,10 @@ class Seen:
         self.page.on("request", self._asked)
 
     def _heard(self, message):
-        # What the server refuses is told on the page; the browser notes it besides.
-        if message.type in ("error", "warning") and "Failed to load resource" not in message.text:
+        # What the server refuses is told on the page; the browser notes it besides, and what it
+        # costs to draw in space without a graphics card.
+        noted = ("Failed to load resource", "GL Driver Message")
+        if message.type in ("error", "warning") and not any(one in message.text for one in noted):
             self.complaints.append(message.text)
 
     def _asked(self, request):

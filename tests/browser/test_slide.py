@@ -95,7 +95,7 @@ def test_what_cannot_be_is_told_in_a_line_that_marks_its_field(slide):
     box.press("Enter")
     expect(slide.get_by_role("alert")).to_contain_text("slider.normal_force")
     expect(box).to_have_attribute("aria-invalid", "true")
-    slide.get_by_role("button", name="undo 1 change").click()
+    slide.get_by_role("button", name="as the case has it").click()
     expect(slide.locator(".fault")).to_have_count(0)
 
 
@@ -281,3 +281,29 @@ def test_the_best_elevation_of_a_pin_is_taken_by_a_click(seen):
     settled(page)
     assert shown(page, "ratio") < 0.2 * before
     expect(page.get_by_text("No other elevation leaves less.")).to_be_visible()
+
+
+def test_changes_are_undone_and_done_again_one_at_a_time(slide):
+    press(slide, "direction", "ArrowRight", 10)
+    settled(slide)
+    press(slide, "direction", "ArrowRight", 10)
+    settled(slide)
+    box = slide.get_by_label("direction, typed")
+    expect(box).to_have_value("20 deg")
+    slide.get_by_role("button", name="undo").click()
+    expect(box).to_have_value("10 deg")
+    slide.locator("h1").click()
+    slide.keyboard.press("Control+Z")
+    expect(box).to_have_value("0 deg")
+    slide.keyboard.press("Control+Shift+Z")
+    expect(box).to_have_value("10 deg")
+    slide.get_by_role("button", name="redo").click()
+    expect(box).to_have_value("20 deg")
+    expect(slide.get_by_role("button", name="redo")).to_be_disabled()
+
+
+def test_the_first_tab_leads_to_the_answer(slide):
+    slide.keyboard.press("Tab")
+    expect(slide.get_by_role("button", name="skip to the answer")).to_be_focused()
+    slide.keyboard.press("Enter")
+    assert slide.evaluate("document.activeElement.id") == "main"

@@ -2,7 +2,7 @@
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
-import { address, caseParams, fault, go, route, useCase } from "./state.js";
+import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
 import { share } from "./share.js";
 import { visited } from "./visited.js";
 
@@ -47,6 +47,7 @@ export function App({ screens, children }) {
       }}
       aria-current=${name === screen ? "page" : undefined}>${title}</a></li>`;
   return html`
+    <button type="button" class="skip" onClick=${() => document.getElementById("main")?.focus()}>skip to the answer</button>
     <nav aria-label="screens">
       <p class="brand"><img src="icon.svg" alt="" width="22" height="22" /> asperity</p>
       ${[...new Set(screens.map(({ group }) => group))].map((group) => html`
@@ -85,8 +86,11 @@ function CasePicker({ kinds, first, start = {} }) {
           ${these.map(option)}</optgroup>` : null;
       })}
     </select>
-    ${count ? html`<button type="button" class="quiet" onClick=${() => reset(name, start)}>
-      undo ${count} ${count === 1 ? "change" : "changes"}</button>` : null}
+    ${[["undo", "↶", undo], ["redo", "↷", redo]].map(([word, sign, act]) => html`<button type="button" class="quiet"
+      title=${word === "undo" ? "Ctrl-Z" : "Ctrl-Shift-Z"} disabled=${!undoable.value[word]} onClick=${act}>
+      <span aria-hidden="true">${sign}</span> ${word}</button>`)}
+    <button type="button" class="quiet" disabled=${!count} onClick=${() => reset(name, start)}
+      title=${count ? `${count} set` : ""}>as the case has it</button>
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
 }

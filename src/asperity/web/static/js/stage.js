@@ -42,6 +42,7 @@ function why({ side, pulls, asides, load, mean }, ratio) {
 /** The direction, and how strong, as a handle that is dragged. */
 function useHandle(k) {
   const { setAll } = useCase();
+  const taken = useRef({ value: NaN, unit: "", k: 0 });
   const direction = inUnit(useValue("vibration.direction").text, "deg") || 0;
   const forms = ["velocity_ratio", "velocity_amplitude", "displacement_amplitude"].map((key) => `vibration.${key}`);
   const texts = forms.map((path) => useValue(path).text);
@@ -60,11 +61,18 @@ function useHandle(k) {
     const angle = Math.round((Math.atan2(py, px) * 180) / Math.PI);
     const part = Math.min(1, Math.max(0, (Math.hypot(px, py) - NEAR) / (FAR - NEAR)));
     const wanted = LEAST * Math.exp(span * part);
-    const [value, unit] = split(texts[form]);
-    const strength = k && form >= 0 ? { [forms[form]]: `${digits((value * wanted) / k, 3)}${unit ? ` ${unit}` : ""}` } : {};
+    // In the form that is written, by what it was when the handle was taken: answers come later.
+    const { value, unit, k: before } = taken.current;
+    const strength = before && form >= 0
+      ? { [forms[form]]: `${digits((value * wanted) / before, 3)}${unit ? ` ${unit}` : ""}` } : {};
     setAll({ "vibration.direction": `${angle} deg`, ...strength });
   };
-  return { place, direction: folded, dragged };
+  const grasped = (event) => {
+    const [value, unit] = split(texts[form]);
+    taken.current = { value, unit, k };
+    event.currentTarget.setPointerCapture(event.pointerId);
+  };
+  return { place, direction: folded, dragged, grasped };
 }
 
 /** Advances the moment while the picture is seen and runs. */
@@ -101,7 +109,7 @@ export function Stage({ series, ratio, k, limit }) {
   const shaken = series?.base_velocity_across && k > 0 && limit > 0;
   const moving = useMemo(() => (shaken ? motionOf(series, limit) : null), [series, limit]);
   const frequency = inUnit(useValue("vibration.frequency").text, "Hz");
-  const { place, direction, dragged } = useHandle(k);
+  const { place, direction, dragged, grasped } = useHandle(k);
   useMotion(picture, moving, runs);
   if (!moving) return null;
   const { side } = moving;
@@ -138,7 +146,7 @@ export function Stage({ series, ratio, k, limit }) {
         <path class="lead" d=${`M${-REACH - 8} 84L${-Math.max(12, REACH * ratio * 0.6)} ${side ? 36 : 6}`} />
         ${side ? null : html`<path class="shaken" d=${`M${-place[0]} ${-place[1]}L${place[0]} ${place[1]}`} />
           <circle class="grip" cx=${place[0]} cy=${place[1]} r="13"
-            onPointerDown=${(event) => event.currentTarget.setPointerCapture(event.pointerId)}
+            onPointerDown=${grasped}
             onPointerMove=${dragged}><title>drag: which way it is shaken, and how strongly</title></circle>
           <text class="strong" x=${place[0] - 20} y=${place[1] + 5} text-anchor="end">${digits(direction, 3)}°, k ${digits(k, 3)}</text>`}
       </g>

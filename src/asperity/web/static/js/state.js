@@ -93,6 +93,31 @@ export const instead = new Map();
 /** The line that says what is wrong now, which a field looks for its own name in. */
 export const fault = signal("");
 
+/** Where this tab has been, in order, and where of it it is: what is undone and done again. */
+let trail = [location.hash];
+let at = 0;
+/** Whether the step before, or the next, is one of this screen. */
+export const undoable = signal({ undo: false, redo: false });
+
+const screenOf = (hash) => hash?.replace(/^#\/?/, "").split("?")[0];
+
+function look() {
+  const same = (hash) => hash !== undefined && screenOf(hash) === screenOf(trail[at]);
+  undoable.value = { undo: same(trail[at - 1]), redo: same(trail[at + 1]) };
+}
+
+/** Go a step of this screen back, or on again. */
+export const undo = () => undoable.peek().undo && history.back();
+export const redo = () => undoable.peek().redo && history.forward();
+
+addEventListener("keydown", (event) => {
+  const typing = /** @type {HTMLElement} */ (event.target).matches?.("input:not([type=range]), textarea, select");
+  if (typing || event.altKey || !(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "z") return;
+  event.preventDefault();
+  if (event.shiftKey) redo();
+  else undo();
+});
+
 let timer = 0;
 /** Whether a slider is held: what it passes is no step to go back to. */
 let held = false;
@@ -104,7 +129,11 @@ function write() {
   timer = held ? setTimeout(write, REST) : 0;
   if (held) return;
   const wanted = address(route.peek());
-  if (location.hash !== wanted) history.pushState(null, "", wanted);
+  if (location.hash === wanted) return;
+  history.pushState(null, "", wanted);
+  trail = [...trail.slice(0, at + 1), wanted];
+  at += 1;
+  look();
 }
 
 function change(params) {
@@ -117,6 +146,9 @@ addEventListener("popstate", () => {
   clearTimeout(timer);
   const before = token();
   route.value = read();
+  at = [at - 1, at + 1, at].find((each) => trail[each] === location.hash) ?? 0;
+  if (trail[at] !== location.hash) trail = [location.hash];
+  look();
   // With another token all that was refused is asked anew.
   if (token() !== before) location.reload();
 });
@@ -130,8 +162,9 @@ addEventListener("pagehide", () => timer && ((held = false), write()));
 export function go(screen, params = {}, here = false) {
   if (timer) write();
   route.value = { screen, params };
-  if (here) history.replaceState(null, "", address(route.value));
-  else write();
+  if (!here) return write();
+  trail[at] = address(route.value);
+  history.replaceState(null, "", trail[at]);
 }
 
 /** Set what belongs to the screen alone, such as an axis; an empty text forgets it. */
