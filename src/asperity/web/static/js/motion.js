@@ -77,7 +77,8 @@ export function draw(picture, moving, time) {
     : PLACES.map(([px, py]) => `M${px} ${py}l${dx} ${dy}`);
   put("bristles", { d: bristle.join(""), class: `bristles ${open ? "free" : slips ? "slips" : "holds"}` });
   if (!side) {
-    put("tips", { d: PLACES.map(([px, py]) => `M${px + dx - 2.5} ${py + dy}h5`).join(""), class: slips ? "slips" : "holds" });
+    const tips = PLACES.map(([px, py]) => `M${px + dx - 2.5} ${py + dy}h5`).join("");
+    put("tips", { d: tips, class: slips ? "slips" : "holds" });
   }
   put("now", { d: arrow(-REACH * pull, side ? 0 : REACH * aside) });
   put("dot", { cx: -REACH * pull, cy: side ? 0 : REACH * aside });

@@ -88,7 +88,10 @@ const COLUMNS = [
   ["value", (entry) => html`<${Num} entry=${entry} />`, "right"],
 ];
 
-/** All numbers of an answer, folded away; `of` tells them from others of the screen. @param {{entries: Entry[], of?: string}} props */
+/**
+ * All numbers of an answer, folded away; `of` tells them from others of the screen.
+ * @param {{entries: Entry[], of?: string}} props
+ */
 export function AllNumbers({ entries, of = "" }) {
   const [open, setOpen] = useState(false);
   const columns = () => ["key", "symbol", "value", "unit", "meaning", "equation", "source"].map((label) =>

@@ -4,8 +4,8 @@ import { download } from "./figure.js";
 
 const STYLES = ["style.css", "gear.css", "stage.css"];
 /** What of a screen is of use with a server only. */
-const OF_SERVER = ".controls, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav, .choice, canvas,"
-  + " .passing, .grip title";
+const OF_SERVER = ".controls, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav,"
+  + " .choice, canvas, .passing, .grip title";
 const POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 const text = async (path) => (await fetch(path)).text();
@@ -68,7 +68,8 @@ export async function share(title, told) {
   const day = new Date().toISOString().slice(0, 10);
   const name = /^\w+ (\S+)/.exec(told.command?.replace(/^asperity /, "") ?? "")?.[1] ?? "case";
   const file = `${name.replace(/\.toml$/i, "").replace(/[^\w.-]/g, "-")}.toml`;
-  const notes = told.notes?.length ? `<h2>Notes</h2><ul>${told.notes.map((each) => `<li>${safe(each)}</li>`).join("")}</ul>` : "";
+  const items = (told.notes ?? []).map((each) => `<li>${safe(each)}</li>`).join("");
+  const notes = items ? `<h2>Notes</h2><ul>${items}</ul>` : "";
   const whole = `<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="${POLICY}"><meta name="color-scheme" content="light dark">

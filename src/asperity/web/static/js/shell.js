@@ -35,7 +35,8 @@ export function App({ screens, children }) {
   }, [here]);
   useEffect(() => {
     // Not each place that a slider passes.
-    const timer = here && params.case ? setTimeout(() => visited(here.title, address({ screen, params }), params), 1500) : 0;
+    const note = () => visited(here.title, address({ screen, params }), params);
+    const timer = here && params.case ? setTimeout(note, 1500) : 0;
     return () => clearTimeout(timer);
   }, [screen, params]);
   const link = ({ name, title, kind }) => html`<li key=${name}>
@@ -47,7 +48,8 @@ export function App({ screens, children }) {
       }}
       aria-current=${name === screen ? "page" : undefined}>${title}</a></li>`;
   return html`
-    <button type="button" class="skip" onClick=${() => document.getElementById("main")?.focus()}>skip to the answer</button>
+    <button type="button" class="skip" onClick=${() => document.getElementById("main")?.focus()}>
+      skip to the answer</button>
     <nav aria-label="screens">
       <p class="brand"><img src="icon.svg" alt="" width="22" height="22" /> asperity</p>
       ${[...new Set(screens.map(({ group }) => group))].map((group) => html`

@@ -94,7 +94,9 @@ function useMotion(picture, moving, runs) {
     seen.observe(picture.current);
     return () => (seen.disconnect(), stop());
   }, [moving, runs]);
-  useLayoutEffect(() => (moving ? moment.subscribe((part) => draw(picture.current, moving, part)) : undefined), [moving]);
+  useLayoutEffect(() => {
+    if (moving) return moment.subscribe((time) => draw(picture.current, moving, time));
+  }, [moving]);
 }
 
 const slower = (frequency) => (frequency > 0 ? `${digits(frequency * SHOWN, 2)} times slower than it is` : "");
@@ -118,7 +120,9 @@ export function Stage({ series, ratio, k, limit }) {
   const words = why(moving, ratio);
   const marks = [];
   for (let px = -TILE; px <= WIDTH + TILE; px += TILE) {
-    for (let py = side ? Y + HALF_Y + 40 : -TILE; py <= HEIGHT + TILE; py += TILE) marks.push(`M${px - 4} ${py}h8M${px} ${py - 4}v8`);
+    for (let py = side ? Y + HALF_Y + 40 : -TILE; py <= HEIGHT + TILE; py += TILE) {
+      marks.push(`M${px - 4} ${py}h8M${px} ${py - 4}v8`);
+    }
   }
   const from = side ? "from the side" : "from above";
   return html`<section class="panel stage" aria-label="the body on its plate">
@@ -126,10 +130,12 @@ export function Stage({ series, ratio, k, limit }) {
       aria-label=${`A body that is pulled to the right over a shaken plate, ${from}. ${words}`}>
       <clipPath id="ground"><rect x="0" y=${side ? Y + HALF_Y - 10 : 0} width=${WIDTH} height=${HEIGHT} /></clipPath>
       <g clip-path="url(#ground)"><g data-of="plate">
-        <rect class="plate" x=${-2 * TILE} y=${side ? Y + HALF_Y + 22 : -2 * TILE} width=${WIDTH + 4 * TILE} height=${HEIGHT + 4 * TILE} />
+        <rect class="plate" x=${-2 * TILE} y=${side ? Y + HALF_Y + 22 : -2 * TILE} width=${WIDTH + 4 * TILE}
+          height=${HEIGHT + 4 * TILE} />
         <path class="marks" d=${marks.join("")} /></g></g>
       <g transform=${`translate(${X} ${Y})`}>
-        <g data-of="body"><rect class="body" x=${-HALF_X} y=${-HALF_Y} width=${2 * HALF_X} height=${2 * HALF_Y} rx="8" />
+        <g data-of="body">
+          <rect class="body" x=${-HALF_X} y=${-HALF_Y} width=${2 * HALF_X} height=${2 * HALF_Y} rx="8" />
           <path class="pull" d=${`M${HALF_X} 0l10 0l6 -8l10 16l10 -16l10 16l10 -16l6 8h60`} />
           <path class="pull" d=${arrow(36, 0)} transform=${`translate(${HALF_X + 128} 0)`} />
           <text class="of" x=${HALF_X + 74} y="-16">pulled</text></g>
@@ -148,14 +154,16 @@ export function Stage({ series, ratio, k, limit }) {
           <circle class="grip" cx=${place[0]} cy=${place[1]} r="13"
             onPointerDown=${grasped}
             onPointerMove=${dragged}><title>drag: which way it is shaken, and how strongly</title></circle>
-          <text class="strong" x=${place[0] - 20} y=${place[1] + 5} text-anchor="end">${digits(direction, 3)}°, k ${digits(k, 3)}</text>`}
+          <text class="strong" x=${place[0] - 20} y=${place[1] + 5} text-anchor="end">
+            ${digits(direction, 3)}°, k ${digits(k, 3)}</text>`}
       </g>
     </svg>
     <p class="why">${words}</p>
     <div class="row">
       <button type="button" onClick=${() => setRuns(!runs)}>${runs ? "stop the motion" : "let it move"}</button>
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
-        value=${Math.round(STEPS * (moment.peek() % 1))} onInput=${(event) => (moment.value = event.target.value / STEPS)} /></label>`}
+        value=${Math.round(STEPS * (moment.peek() % 1))}
+        onInput=${(event) => (moment.value = event.target.value / STEPS)} /></label>`}
       <span class="says">${slower(frequency)}, seen ${from}. ${side ? "" : "Drag the round handle."}
         <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
     </div>

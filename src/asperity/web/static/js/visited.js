@@ -19,6 +19,7 @@ export function lastOpened() {
 export function visited(title, hash, params) {
   const changes = Object.keys(caseParams(params)).length - 1;
   const says = [params.case, changes > 0 ? `${changes} set` : ""].filter(Boolean).join(", ");
-  const others = lastOpened().filter((each) => !(each.title === title && each.says.split(",")[0] === (params.case ?? "")));
+  const same = (each) => each.title === title && each.says.split(",")[0] === (params.case ?? "");
+  const others = lastOpened().filter((each) => !same(each));
   localStorage.setItem(KEY, JSON.stringify([{ title, says, hash }, ...others].slice(0, MOST)));
 }

@@ -155,7 +155,8 @@ export function Work({ work, label }) {
     : stale && job ? "something was set since; this is the answer to what was asked before"
     : job ? left(job) : "";
   return html`<div class="work">
-    <button type="button" class=${job?.state === "done" && !job.shipped && !stale ? "" : "main"} disabled=${running || asking || !can}
+    <button type="button" disabled=${running || asking || !can}
+      class=${job?.state === "done" && !job.shipped && !stale ? "" : "main"}
       onClick=${start}>${job?.state === "stopped" && !stale ? `go on: ${label}` : label}</button>
     ${running || asking ? html`<progress aria-label=${label} max=${job?.total || 1}
       value=${job?.total ? job.done : undefined}></progress>` : null}

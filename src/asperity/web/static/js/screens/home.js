@@ -28,14 +28,17 @@ const Body = () => html`<svg viewBox="0 0 240 150" aria-hidden="true">
 
 const Rig = () => html`<svg viewBox="0 0 240 150" aria-hidden="true">
   <g class="turns"><circle class="outline" cx="66" cy="52" r="38" /><path class="spoke" d="M66 14V90M28 52H104" /></g>
-  <g class="turns back"><circle class="outline" cx="142" cy="52" r="38" /><path class="spoke" d="M142 14V90M104 52H180" /></g>
+  <g class="turns back"><circle class="outline" cx="142" cy="52" r="38" />
+    <path class="spoke" d="M142 14V90M104 52H180" /></g>
   <path class="axis" d="M20 140H224" />
-  <path class="trace" pathLength="1" d="M20 112l8 2l7 -3l8 2l9 -1l8 2l8 -3l9 2l8 0l7 14l8 -1l8 2l8 -2l9 1l8 2l8 -3l7 2l8 1l8 -2l9 1l8 -1l8 2l8 -2" />
+  <path class="trace" pathLength="1" d="M20 112l8 2l7 -3l8 2l9 -1l8 2l8 -3l9 2l8 0l7 14l8 -1l8 2l8 -2l9 1
+    l8 2l8 -3l7 2l8 1l8 -2l9 1l8 -1l8 2l8 -2" />
   <text x="190" y="60">torque</text></svg>`;
 
 const QUESTIONS = [
   { ask: "Does my gear hold?", says: "A worm gear rated by three standards: what fails first, and what mends it.",
-    screen: "gear", picture: Gear, more: [["size", "begin with ratio and torque"], ["flanks", "see it mesh"], ["drive", "shake it"]] },
+    screen: "gear", picture: Gear,
+    more: [["size", "begin with ratio and torque"], ["flanks", "see it mesh"], ["drive", "shake it"]] },
   { ask: "Which way do I shake it?", says: "A body pulled over a shaken plate: how much easier it goes, and why.",
     screen: "slide", picture: Body, more: [["sweep", "over a grid"], ["block", "as an elastic body"]] },
   { ask: "What did my rig measure?", says: "From a recording to numbers with intervals, and to a friction law.",

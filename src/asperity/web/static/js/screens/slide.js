@@ -24,7 +24,8 @@ const OVER = {
 /** Angles that a curve goes over: their keys, and the angle of what is set. */
 const ANGLES = {
   // A body that is shaken from behind is shaken as from before.
-  direction: ["vibration.direction", (angle) => (Math.acos(Math.abs(Math.cos((angle * Math.PI) / 180))) * 180) / Math.PI],
+  direction: ["vibration.direction",
+    (angle) => (Math.acos(Math.abs(Math.cos((angle * Math.PI) / 180))) * 180) / Math.PI],
   elevation: ["vibration.elevation", (angle) => angle], phase: ["vibration.normal_phase", (angle) => angle],
 };
 /** So much less must be left elsewhere on a curve for it to be worth a word. */
@@ -150,7 +151,10 @@ const pinned = () => JSON.parse(route.value.params.pins ?? "[]");
 const put = (pins) => setParam("pins", pins.length ? JSON.stringify(pins) : "");
 
 /** Keys of what a curve goes over. */
-const OWN = { ...Object.fromEntries(Object.entries(ANGLES).map(([key, [path]]) => [key, [path]])), k: Object.keys(BOUNDS).map((key) => `vibration.${key}`) };
+const OWN = {
+  ...Object.fromEntries(Object.entries(ANGLES).map(([key, [path]]) => [key, [path]])),
+  k: Object.keys(BOUNDS).map((key) => `vibration.${key}`),
+};
 
 /** What a curve follows from: not from where on it the body is. */
 function curveBody({ name, settings }, over, k) {
