@@ -297,3 +297,9 @@ def test_the_radius_of_the_torque_is_told_of_next_to_no_friction():
     assert little == pytest.approx(much, abs=1e-6)
     marched = problem_of(*ONE_TOOTH, "drive.model=teeth", "friction.mu=1e-6")
     assert marched.point(none).worm_torque(366.0, 1e-6) == pytest.approx(24.4, abs=0.01)
+
+
+def test_a_worm_whose_tips_reach_into_the_wheel_is_refused_by_what_it_does():
+    settings = (*ONE_TOOTH, "drive.phases=1", "mount.centre_distance_error=-0.5 mm")
+    with pytest.raises(InputError, match=r"the worm's tips reach 111.1 um into the root"):
+        solve_static(problem_of(*settings, case="drive-screw", own=()), Run())

@@ -21,7 +21,10 @@ def test_of_few_phases_the_slope_is_taken_at_each_and_of_many_at_every_third(
         raise ToldError({one.every for one in asked if one.torque != 366.0})
 
     body = SimpleNamespace(body=SimpleNamespace(nodes=1))
-    model = SimpleNamespace(sector=body, contact=None, phases=range(phases), courses=courses)
+    model = SimpleNamespace(
+        sector=body, contact=None, phases=range(phases), courses=courses,
+        resolved=SimpleNamespace(flank=SimpleNamespace(nodes=1, sector=body)),
+    )  # fmt: skip
     monkeypatch.setattr(solve, "StaticModel", lambda *_: model)
     with pytest.raises(ToldError) as told:
         solve.solve_static(problem(), Run())
