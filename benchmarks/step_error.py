@@ -1,8 +1,7 @@
 """What it costs to tell the error of the step: each solution beside the same without the estimate.
 
 Run it with ``make bench``. The steps are such that nothing is solved again with finer ones. The two
-are run by turns; of their shortest times 1.15 is wanted. Of a state that is found in a third of a
-millisecond the estimate takes a fifth: half of that is what Python does around its kernel.
+are run by turns; of their shortest times at most 1.15 is wanted.
 """
 
 import contextlib

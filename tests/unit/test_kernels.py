@@ -37,6 +37,8 @@ ROOM_OF_THEIR_OWN = {
     "asperity.flanks.wheel.cutting.undercut.regularity_map",
     "asperity.slider.held_kernels.carry",
     "asperity.slider.kernels.march_stretches",
+    "asperity.slider.on_twice._moved",
+    "asperity.slider.on_twice._pairs",
     "asperity.slider.search_room.room_for",
     "asperity.slider.shooting.run",
     "asperity.slider.shooting.run_cycle",

@@ -10,7 +10,6 @@ from asperity.arrays import FloatArray
 from asperity.slider import kernels as k
 from asperity.slider.integrators import Pressed, integrator
 from asperity.slider.model import Model
-from asperity.slider.other_drives import in_longer_steps
 from asperity.slider.pressed import march_pressed
 from asperity.slider.shooting import ACCEPTED, differentiated, run, shoot
 from asperity.slider.unknowns import (
@@ -82,24 +81,6 @@ class Cycle:
         body.kept = {"state": body.kept["state"].copy(), "sums": body.no_sums()}
         body.sums["breakaway"] = -1.0
         other.springs = body.kept["springs"] = self.springs.copy()
-        return other
-
-    def twice(self) -> "Cycle":
-        """Return the map of the same body with steps twice as long; they are an even number."""
-        other = self.copied()
-        body, state = other.body, other.body.state
-        other.step, body.rate = 2.0 * self.step, 2.0 * body.rate
-        p = body.p = in_longer_steps(body.p, 2.0)
-        # Velocities are those of the half step that follows.
-        gained = 0.25 * p.mobility_x * (state["drive_force"] - state["friction_x"])
-        state["velocity_x"] = 2.0 * state["velocity_x"] + gained
-        state["velocity_y"] = 2.0 * state["velocity_y"] - 0.25 * p.mobility_y * state["friction_y"]
-        if self.q is not None:
-            mobility, damping = 4.0 * self.q.mobility, 0.5 * self.q.damping
-            other.q = self.q._replace(mobility=mobility, damping=damping)
-            state["rise"] *= 2.0
-        other.increments = _in_pairs(self.increments)
-        other.rises = other.increments if self.q is None else _in_pairs(self.rises)
         return other
 
     def repeat(self, times: int) -> None:
@@ -219,13 +200,6 @@ def _like(one: _Kind) -> _Kind:
     other = object.__new__(type(one))
     other.__dict__.update(one.__dict__)
     return other
-
-
-def _in_pairs(increments: FloatArray) -> FloatArray:
-    pairs = np.empty(increments.size // 2 + 1)
-    np.add(increments[:-1:2], increments[1::2], out=pairs[:-1])
-    pairs[-1] = pairs[0]
-    return pairs
 
 
 def _repeated(increments: FloatArray, times: int) -> FloatArray:

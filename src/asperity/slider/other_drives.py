@@ -3,7 +3,7 @@
 import math
 
 from asperity.compiled import kernel
-from asperity.slider.scaled import Parameters
+from asperity.slider.scaled import Parameters, Pressing
 
 
 @kernel
@@ -35,17 +35,25 @@ def damped(p):
     )
 
 
-def in_longer_steps(p: Parameters, longer: float) -> Parameters:
+@kernel
+def in_longer_steps(p, longer):
     """Return the body in steps that are longer, by the same unit of length."""
     mobility = longer * longer * p.mobility_x * 2.0 / (1.0 + p.retained)
     lost = 0.5 * mobility * p.damping / longer
-    return p._replace(
-        drive=longer * p.drive,
-        damping=p.damping / longer,
-        retained=(1.0 - lost) / (1.0 + lost),
-        mobility_x=mobility / (1.0 + lost),
-        mobility_y=longer * longer * p.mobility_y,
-        rate_damping=p.rate_damping / longer,
-        slip_damping=p.slip_damping / longer,
-        stribeck=longer * p.stribeck,
-    )
+    return Parameters(
+        longer * p.drive, p.pull, p.stiffness, p.damping / longer, (1.0 - lost) / (1.0 + lost),
+        mobility / (1.0 + lost), longer * longer * p.mobility_y, p.base_x, p.base_y, p.own_1,
+        p.own_2, p.exponent, p.rate_damping / longer, p.slip_damping / longer, p.static_ratio,
+        longer * p.stribeck, p.rigid, p.smooth, p.model, p.law,
+    )  # fmt: skip
+
+
+@kernel
+def pressed_in_longer_steps(q, longer):
+    """Return what is normal to the plane in steps that are longer; None where nothing is."""
+    if q is None:
+        return None
+    return Pressing(
+        q.law, q.reference, q.base, longer * longer * q.mobility, q.damping / longer,
+        q.load_power, q.keeps, q.heights, q.weights,
+    )  # fmt: skip

@@ -19,6 +19,7 @@ from asperity.errors import AsperityError
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.integrators import Integrator
 from asperity.slider.model import Model
+from asperity.slider.on_twice import close_on_twice, friction_on_twice
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import close, differentiated, run_cycle
@@ -88,7 +89,7 @@ def _noted(answer: SlideResult, advice: str) -> SlideResult:
 
 def allowed(answer: SlideResult) -> float:
     """Return the error of a ratio that a step may make unannounced."""
-    return float(allowed_of(np.array(answer.ratio)))
+    return WANTED * max(abs(answer.ratio), _LEAST_RATIO)
 
 
 def allowed_of(ratio: FloatArray) -> FloatArray:
@@ -106,7 +107,7 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
     ratio: float | None = _ratio(cycle)
     if fine is not cycle:
         ratio = _closed(fine, cycle.jacobian)
-    other = _closed(fine.twice(), cycle.jacobian)
+    other = _closed_on_twice(fine, cycle.jacobian)
     if ratio is None or other is None:
         return _cycles_again(fine, _CLOSING // 2)
     off = _off_corners(model, fine, steps, ratio - _ratio(cycle))
@@ -150,7 +151,7 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
             )  # fmt: skip
         fine = end.copied()
         one = _closed(fine, jacobian)
-        other = _closed(fine.twice(), jacobian)
+        other = _closed_on_twice(fine, jacobian)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
             off = _off_corners(model, fine, asked, one - ratio)
             return abs(other - one) / _of_the_error(model) + off
@@ -159,14 +160,16 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
 
 def _cycles_again(start: Cycle, cycles: int) -> float | None:
     """Return the error of the mean friction of so many cycles from a start."""
-    means = []
-    for trial in (start.copied(), start.twice()):
-        total = 0.0
-        for _ in range(cycles):
-            _run_once(trial)
-            total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
-        means.append(total / cycles)
-    error = abs(means[1] - means[0]) / _of_the_error(start.body.model)
+    trial, total = start.copied(), 0.0
+    for _ in range(cycles):
+        _run_once(trial)
+        total += float(trial.body.sums["friction_x"] / trial.body.sums["steps"])
+    kept = start.body.kept
+    other: float = friction_on_twice(
+        kept["state"], start.springs, start.body.p, start.q, start.increments, start.rises,
+        kept["sums"], cycles,
+    )  # fmt: skip
+    error = abs(other - total / cycles) / _of_the_error(start.body.model)
     return error if math.isfinite(error) else None
 
 
@@ -249,6 +252,16 @@ def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
         body.sums, np.ascontiguousarray(jacobian), _CLOSING,
     )  # fmt: skip
     ratio = _ratio(cycle)
+    return ratio if left <= _LEFT and math.isfinite(ratio) else None
+
+
+def _closed_on_twice(cycle: Cycle, jacobian: FloatArray) -> float | None:
+    """Return the ratio of that state on steps twice as long; the body stays where it is."""
+    kept = cycle.body.kept
+    left, ratio = close_on_twice(
+        kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
+        kept["sums"], np.ascontiguousarray(jacobian), _CLOSING,
+    )  # fmt: skip
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
