@@ -19,6 +19,8 @@ _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vib
 _ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be told
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
 _FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are together
+_MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
+_FITS = 3.0  # times better do speeds fit their supplies the other way round
 _MAP = "look at the cables and at the map of [channels]"
 
 
@@ -27,7 +29,8 @@ def findings(of: Material) -> Iterator[Finding]:
     if of.windows:
         yield from _signs(of)
         yield from _torques(of)
-        yield from _exchanged(of, "speed")
+        told = list(_exchanged(of, "speed"))
+        yield from told or _other_way_round(of)
         yield from _exchanged(of, "current")
         yield from _supplied(of)
 
@@ -146,6 +149,48 @@ def _exchanged(of: Material, what: str) -> Iterator[Finding]:
             f"{what}s are exchanged",
             f"{names[1]} answers the vibration by {1e3 * answers[1]:.2g} mV, {names[0]} by "
             f"{1e3 * answers[0]:.2g} mV",
+            _MAP, names, of.course(names[1]),
+        )  # fmt: skip
+
+
+def _other_way_round(of: Material) -> Iterator[Finding]:
+    """Yield speeds that fit both supplies on each other's channel, and not on their own.
+
+    Where vibration takes little off the torque, the steel disc's motor runs faster by less than
+    a pulse of the bronze disc's encoder is worth, so that no answer tells them apart. Levels do:
+    a motor's supply is its back voltage and what falls in it, V = k w + R i.
+    """
+    names, twin = ("speed_steel", "speed_bronze"), of.case.get(Twin)
+    if twin is None or not of.has(*names, "current_steel", "current_bronze"):
+        return
+    time = of.segments[of.windows[0][0]].start
+    supplies = [of.supply(disc, time) for disc in ("steel", "bronze")]
+    drops = [
+        twin.motor_resistance * max(_middle(of, f"current_{disc}")[0], 0.0)
+        for disc in ("steel", "bronze")
+    ]
+    speeds = [abs(_middle(of, name)[0]) for name in names]
+    lines = [of.blocks.lines[name] for name in names]
+    if min(supplies) <= 0.0 or any(
+        one < least_of(name) for one, name in zip(speeds, names, strict=True)
+    ):
+        return
+    gain = abs(lines[0].gain / lines[1].gain)
+    ways = speeds, [speeds[1] * gain, speeds[0] / gain]
+    volts = [
+        [twin.motor_constant * one + drop for one, drop in zip(way, drops, strict=True)]
+        for way in ways
+    ]
+    here, there = (
+        math.hypot(*(math.log(one / all_of) for one, all_of in zip(way, supplies, strict=True)))
+        for way in volts
+    )
+    if here > _MISFIT and here > _FITS * there:
+        yield Finding(
+            "speeds are exchanged",
+            f"with their currents and [twin] they are {volts[0][0]:.3g} V of {supplies[0]:g} V "
+            f"and {volts[0][1]:.3g} V of {supplies[1]:g} V, on each other's channel "
+            f"{volts[1][0]:.3g} V and {volts[1][1]:.3g} V",
             _MAP, names, of.course(names[1]),
         )  # fmt: skip
 
