@@ -80,7 +80,18 @@ def asked(name, lot):
 
 # They write recordings or a page of a folder's, of which `rig reduce` has the numbers, or take
 # minutes: tests of their own.
-ELSEWHERE = {"rig run", "rig look", "rig import", "rig report", "rig package", "optimise"}
+ELSEWHERE = {
+    *(
+        "rig run",
+        "rig look",
+        "rig import",
+        "rig report",
+        "rig package",
+        "optimise",
+        "rexs",
+        "shafts",
+    ),
+}
 QUICK = ("slide", "rig plan")
 
 

@@ -27,6 +27,9 @@ CHANGES = (
     ("slide oblique *", "json.thrust_N", "a vibration that drives the body tells its thrust"),
     ("cases", "json.cases", "three cases of vibration out of the plane have come"),
     ("check *", "json.refused.shafts", "a command of shafts has come"),
+    ("check *", "json.commands", "a command of REXS files has come"),
+    ("materials", "json.listed*.brinell_hardness", "the hardness caps the pressure of an edge"),
+    ("materials", "json.listed*.sources.brinell_hardness*", "where the hardness is from"),
     *(
         ("schema", f"json.properties.{table}*", "tables of shafts and bearings have come")
         for table in ("worm_shaft", "wheel_shaft", "bearings")

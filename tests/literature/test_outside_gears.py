@@ -193,7 +193,7 @@ def test_self_locking_by_bs_721_begins_where_its_efficiency_backwards_ends():
 def test_pins_tolerances_and_the_speed_factor_are_those_of_the_documents():
     # DIN 3977:1981, table 1, has no 0.5 to 0.9 mm; DIN 3967:1978, table 2, series 25.
     assert min(measures.SIZES) == 1.0
-    assert [measures._tolerance(d) for d in (1500.0, 2000.0, 4000.0, 6000.0, 9000.0)] == [
+    assert [measures.thickness_tolerance(d) for d in (1500.0, 2000.0, 4000.0, 6000.0, 9000.0)] == [
         0.1, 0.13, 0.16, 0.2, 0.25
     ]  # fmt: skip
     speed = read_tables().rotation_speed_factor

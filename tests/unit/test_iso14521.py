@@ -69,6 +69,15 @@ FORMULAS = {
     iso.thermal.heat_transfer_coefficient: (1440.0,),
     iso.thermal.cooling_area: (13.0, 132.0),
     iso.thermal.bulk_temperature: (60.0, 1300.0, 23000.0, 0.0017),
+    iso.balance.housing_area: (100.0,),
+    iso.balance.conductance: (15.0, 0.4, 0.2),
+    iso.balance.steady_rise: (419.1, 6.0),
+    iso.balance.time_constant: (9500.0, 6.0),
+    iso.balance.rise_after: (70.0, 900.0, 1587.0),
+    iso.balance.rise_in_cycles: (70.0, 0.15, 600.0, 1587.0, 2000.0),
+    iso.balance.rise_before_load: (12.0, 0.15, 600.0, 1587.0),
+    iso.balance.measured_idle_loss: (30.0, 1400.0, 1000.0),
+    iso.balance.measured_seal_loss: (8.0, 1400.0, 1000.0),
 }
 NAMES = [formula.__name__ for formula in FORMULAS]
 
