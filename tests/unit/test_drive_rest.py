@@ -46,6 +46,7 @@ def test_a_vibration_of_nothing_changes_nothing(law, way, shaft):
     assert one.settled
     assert one.torque_ratio == pytest.approx(1.0, abs=1e-6)
     assert one.energy_ratio == pytest.approx(1.0, abs=1e-6)
+    assert one.saved_per_actuator is None
 
 
 # Slowly, static friction shakes the drive by itself.

@@ -32,6 +32,7 @@ _CREEP = 0.1
 # Of the step, what a march that does not settle is tried with once more.
 _TRIED = 0.5
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
+_LEAST_ACTUATOR = 1e-6  # of the power without vibration: less of it is told by no balance
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 _ADVICE = "give a smaller solve.step"
 
@@ -242,7 +243,9 @@ def _summarise(
         advantage_max=float(rows["advantage_max"].max()) / unit if touched else None,
         ledger=ledger,
         energy_ratio=put_in / power if driven else None,
-        saved_per_actuator=saved / ledger.actuator if driven and ledger.actuator > 0.0 else None,
+        saved_per_actuator=saved / ledger.actuator
+        if driven and ledger.actuator > _LEAST_ACTUATOR * power
+        else None,
         actuator_electrical=None if taken is None else taken.electrical_power,
         actuator_apparent=None if taken is None else taken.apparent_power,
         system_efficiency=efficiency,
