@@ -16,7 +16,7 @@ from hatchling import build as _hatchling
 from hatchling.build import *  # noqa: F403
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-from asperity.building.compiler import hindrance
+from asperity.kernels.building.compiler import hindrance
 
 ROOT = Path(__file__).parent
 # What the modules of kernels import, and what compiles them.
@@ -52,7 +52,7 @@ class LibraryHook(BuildHookInterface):
         build_data["pure_python"] = False
         build_data["tag"] = "py3-none-linux_x86_64"
         for file in folder.iterdir():
-            build_data["force_include"][str(file)] = f"asperity/native/made/{file.name}"
+            build_data["force_include"][str(file)] = f"asperity/kernels/native/made/{file.name}"
 
     def finalize(self, version, build_data, artifact_path):
         """Remove what stands in the wheel now."""
@@ -68,7 +68,7 @@ def _library(folder):
     """Make the library in a folder; return why there is none, or None."""
     paths = [str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]
     done = subprocess.run(
-        [sys.executable, "-m", "asperity.building.library", str(folder)],
+        [sys.executable, "-m", "asperity.kernels.building.library", str(folder)],
         env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))},
         stderr=subprocess.PIPE,
         text=True,

@@ -11,7 +11,6 @@ from _common import best, finish
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.compiled import kernel
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.march import March
 from asperity.drive.protocols.setup import begin, system
@@ -19,9 +18,10 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.solve import prepare
 from asperity.errors import AsperityError
+from asperity.kernels.compiled import kernel
 from asperity.runs import Run
 from asperity.thesis.drive.simulations import of_set
-from asperity.waveform import displacement_at
+from asperity.vibration.waveform import displacement_at
 
 TEETH = (
     'drive.deflection=[["23 N m", "47.6 urad"], ["100 N m", "143 urad"], ["366 N m", "365 urad"], '

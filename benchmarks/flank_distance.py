@@ -12,11 +12,11 @@ import numpy as np
 from _common import best, finish, on_one_core
 from scipy.optimize import least_squares
 
-from asperity.compiled import kernel
 from asperity.flanks.worm.distance import distance, distance_only_each
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Geometry
+from asperity.kernels.compiled import kernel
 
 POINTS = 20_000
 MINIMISED = 200

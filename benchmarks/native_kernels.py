@@ -17,7 +17,7 @@ from unittest import mock
 from _common import finish, on_one_core
 
 from asperity.cli.main import main as command
-from asperity.compiled import _Lazy
+from asperity.kernels.compiled import _Lazy
 
 TESTS = Path(__file__).parents[1] / "tests"
 sys.path[:0] = [str(TESTS), str(TESTS / "answers")]

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from _common import finish, on_one_core
 
-from asperity.folders import cache_folder
+from asperity.files.folders import cache_folder
 from asperity.thesis import contents
 from asperity.thesis.reproduce.run import run
 

@@ -9,6 +9,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.casefile import read_case
 from asperity.commands import COMMANDS, case_tables
+from asperity.files.store import write_atomically
 from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, VERMILION, legend, panels
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, solve, solve_many
@@ -22,7 +23,6 @@ from asperity.slider.closed_forms import (
 )
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.plots import shade_flight
-from asperity.store import write_atomically
 from asperity.sweep.branches import answer, prepare
 from asperity.thesis.contents import FIGURES
 

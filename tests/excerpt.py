@@ -13,7 +13,7 @@ from pathlib import Path
 
 from apparatus.thesis_words import plain
 
-from asperity.store import write_text
+from asperity.files.store import write_text
 from asperity.thesis.contents import CLAIMS
 from asperity.thesis.said import said_of, slips
 

@@ -23,7 +23,7 @@ sys.path.insert(0, str(HERE / "answers"))
 
 from observe import command_lines  # noqa: E402
 
-from asperity.native import entries  # noqa: E402
+from asperity.kernels.native import entries  # noqa: E402
 
 # Command lines that call the kernels of a room, in the way of `answers/commands.toml`, beside
 # those that are recorded.
@@ -168,7 +168,7 @@ def seconds_of(name, types):
     """Return how long an entry is compiled, s of the processor, Numba's own start left out."""
     os.environ["ASPERITY_NATIVE"] = "0"
 
-    from asperity.building import lean, making
+    from asperity.kernels.building import lean, making
 
     making.began()
     entry = entries.Entry(0, name, types, 0.0)

@@ -13,7 +13,7 @@ def compile_kernels():
     if os.environ.get("ASPERITY_NATIVE") == "0":
         return
 
-    from asperity.native import entries, kept
+    from asperity.kernels.native import entries, kept
 
     kept.make(entries.listed().entries)
 

@@ -24,8 +24,8 @@ import numpy as np
 from pydantic import model_validator
 
 from asperity.casefile import Table
-from asperity.compiled import kernel
 from asperity.errors import InputError
+from asperity.kernels.compiled import kernel
 from asperity.units import Quantity
 
 LINEAR = 0

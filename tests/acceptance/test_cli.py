@@ -12,7 +12,7 @@ import pytest
 from apparatus.grid import slow
 
 from asperity.cli.main import main
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
 
 SHORT = ["--set", "solve.duration=20 ms", "--set", "vibration.start=2 ms"]
 # An overshoot of the limit that grows, below the bound of the linear stability.

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from asperity.contact.elastic import machine_memory
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
 
 SMALL = (
     "block", "block-longitudinal", "--set", "block.elements=[2, 2, 2]",

@@ -9,8 +9,8 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.files.store import read_dataset
 from asperity.runs import Interrupted, Run
-from asperity.store import read_dataset
 from asperity.sweep import branches
 from asperity.sweep.axes import parse_axes
 

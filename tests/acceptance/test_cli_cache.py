@@ -13,10 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from asperity.caches import KINDS
-from asperity.compiled import kernel
-from asperity.folders import cache_folder
-from asperity.leftovers import temporary_beside
+from asperity.files.caches import KINDS
+from asperity.files.folders import cache_folder
+from asperity.files.leftovers import temporary_beside
+from asperity.kernels.compiled import kernel
 from asperity.runs.cache import Cache
 from asperity.runs.rows import Rows
 from asperity.web.token import token_of

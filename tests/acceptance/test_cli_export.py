@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from asperity.shipped import shipped_cases
+from asperity.files.shipped import shipped_cases
 
 
 def test_abaqus_gets_a_deck_and_the_friction_subroutine(asperity, tmp_path):

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
 
 KEYS = {
     "ratio_mean_load", "normal_mean_N", "normal_min_N", "normal_max_N", "open_share",

@@ -11,8 +11,8 @@ import xarray
 from apparatus.heard_rig import SMALL, faulty
 from apparatus.rig_signals import NOISY, TORQUE, record, run_of
 
+from asperity.files.store import write_dataset
 from asperity.results import read
-from asperity.store import write_dataset
 from asperity.tribometer.recording import Recorder, Source
 from asperity.tribometer.reduction.result import SegmentResult
 from asperity.tribometer.reduction.study import repeats

@@ -7,9 +7,9 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.files.store import read_dataset
 from asperity.runs import Run
 from asperity.slider import static
-from asperity.store import read_dataset
 
 NORMAL = [
     "--set", "friction.law=vector", "--set", "vibration.elevation=90 deg",

@@ -65,7 +65,7 @@ main(sys.argv[2:])
         ("typer", "rate gearset-3"),
         slow("rich.panel", "--help"),
         slow("rich.panel", "rig --help"),
-        slow("asperity.store", "cases"),
+        slow("asperity.files.store", "cases"),
         ("asperity.casefile", "rig reduce run.nc"),
         slow("numpy", "rate gearset-3"),
     ],

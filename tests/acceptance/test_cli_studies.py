@@ -8,7 +8,7 @@ from apparatus.grid import slow
 
 from asperity.cli.main import main
 from asperity.errors import ConvergenceError
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
 from asperity.studies import methods
 
 COMMANDS = ["sensitivity", "methods", "optimise"]

@@ -23,8 +23,8 @@ from asperity.casefile import names_file
 from asperity.cli import show
 from asperity.cli.main import main
 from asperity.commands import case_tables
+from asperity.files.shipped import shipped_cases
 from asperity.runs import run
-from asperity.shipped import shipped_cases
 from asperity.units import quantity_of, split_unit
 
 pytestmark = pytest.mark.slow

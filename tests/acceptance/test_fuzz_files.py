@@ -20,7 +20,7 @@ from apparatus.rig_signals import record, run_of
 from scipy.io import wavfile
 
 from asperity.cli.main import main
-from asperity.shipped import shipped_cases
+from asperity.files.shipped import shipped_cases
 
 pytestmark = pytest.mark.slow
 

@@ -14,8 +14,8 @@ import pytest
 import scipy.io
 
 from asperity.errors import InputError, StorageError
-from asperity.processes import alone
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
+from asperity.processes.alone import alone
 from asperity.tribometer.importing.mat import read_mat
 from asperity.tribometer.recording.recording import Recording
 from asperity.web import guard, patience, serve

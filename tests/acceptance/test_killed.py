@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
 
 pytestmark = pytest.mark.slow
 

@@ -5,8 +5,8 @@ import json
 import pytest
 from harvest import lines, noted
 
-from asperity.native import entries, kept, load
-from asperity.native.target import FEATURES
+from asperity.kernels.native import entries, kept, load
+from asperity.kernels.native.target import FEATURES
 
 QUICK = (
     "slide table-4.1-L4",

@@ -10,7 +10,7 @@ import pytest
 
 from asperity.casefile.schema import keys_of
 from asperity.commands import GROUPS, case_tables
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
 from asperity.units import quantity_of
 
 ROOT = Path(__file__).parents[2]

@@ -11,7 +11,7 @@ from apparatus.forked_guardian import Dials
 from apparatus.fuse import Fuse
 from apparatus.standing_rig import Procedure, StandingRig
 
-from asperity.leftovers import remove_leftovers
+from asperity.files.leftovers import remove_leftovers
 from asperity.tribometer.guardian import switching
 from asperity.tribometer.recording import Recording
 

@@ -16,10 +16,10 @@ import numpy as np
 import pytest
 from apparatus.thesis_words import plain as plain_words
 
-from asperity import compiled
 from asperity.cli.application import app
 from asperity.cli.made import made as command_line
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
+from asperity.kernels import compiled
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything
 from asperity.thesis.products import VERDICTS as KINDS

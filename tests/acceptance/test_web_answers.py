@@ -8,7 +8,7 @@ import tomllib
 import pytest
 
 from asperity.commands import case_tables
-from asperity.shipped import shipped_cases
+from asperity.files.shipped import shipped_cases
 
 PERIODIC = {"solve.method": "periodic"}
 # What differs from run to run.

@@ -7,7 +7,7 @@ import sys
 import pytest
 from apparatus.page import Served
 
-from asperity.shipped import shipped_cases
+from asperity.files.shipped import shipped_cases
 
 
 @pytest.mark.slow

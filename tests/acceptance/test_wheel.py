@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from asperity.building.compiler import compiler, hindrance
-from asperity.native import entries, table
+from asperity.kernels.building.compiler import compiler, hindrance
+from asperity.kernels.native import entries, table
 
 pytest.importorskip("hatchling", reason="hatchling is not installed")
 
@@ -53,7 +53,7 @@ def sources(tmp_path_factory):
         shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("__pycache__"))
     short = [entry for entry in entries.listed().entries if entry.name in KERNELS]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(entries, "LIST", folder / "src/asperity/native/entries.json")
+        patch.setattr(entries, "LIST", folder / "src/asperity/kernels/native/entries.json")
         rows = [(entry.name, entry.arguments, entry.seconds) for entry in short]
         entries.write(rows, {"slide": range(len(rows))})
     return folder
@@ -123,7 +123,8 @@ def test_a_wheel_is_for_who_it_says(wheel):
     with zipfile.ZipFile(wheel) as files:
         names = files.namelist()
         told = files.read("asperity-0.1.0.dist-info/WHEEL").decode()
-    assert {f"asperity/native/made/{name}" for name in (table.LIBRARY, table.TABLE)} < {*names}
+    made = "asperity/kernels/native/made"
+    assert {f"{made}/{name}" for name in (table.LIBRARY, table.TABLE)} < {*names}
     assert not [name for name in names if name.endswith((".o", ".pyc"))]
     assert "Root-Is-Purelib: false" in told
     assert "Tag: py3-none-linux_x86_64" in told
@@ -163,7 +164,7 @@ def gone(folder):
     ],
 )
 def test_where_the_library_does_not_fit_answers_are_the_same(installed, damage, told):
-    damage(installed / "asperity/native/made")
+    damage(installed / "asperity/kernels/native/made")
     (listed, others, *_), said = called(installed)
     assert (listed, others) == (LISTED, OTHERS)
     assert (told in said, said.count("\n")) == (True, bool(told)), said

@@ -84,7 +84,7 @@ def observe(line, folder):
 
 def new_cache(folder):
     """Make a cache in a folder, with nothing but this machine's compiled kernels."""
-    from asperity.folders import cache_folder
+    from asperity.files.folders import cache_folder
 
     cache = folder / "cache" / "asperity"
     cache.mkdir(parents=True)

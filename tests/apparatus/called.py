@@ -5,10 +5,10 @@ import copy
 
 import numpy as np
 
-from asperity.compiled import _Lazy
-from asperity.native import kept, load
-from asperity.native.target import FEATURES
-from asperity.native.types import UnlistedTypeError, types_of
+from asperity.kernels.compiled import _Lazy
+from asperity.kernels.native import kept, load
+from asperity.kernels.native.target import FEATURES
+from asperity.kernels.native.types import UnlistedTypeError, types_of
 
 # How far a number is moved, of itself.
 SHARE = 1e-3

@@ -5,10 +5,10 @@ What a function does is told by the words that come back: which of the arguments
 
 import functools
 
-from asperity.native import gather
-from asperity.native.back import words_of
-from asperity.native.load import Library
-from asperity.native.plan import Plan
+from asperity.kernels.native import gather
+from asperity.kernels.native.back import words_of
+from asperity.kernels.native.load import Library
+from asperity.kernels.native.plan import Plan
 
 # Counts what is released and remembers the last.
 RELEASE = """

@@ -18,7 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 DAHL, LUGRE, COULOMB, SPRINGS = range(4)
 SPLIT, UNSPLIT, VECTOR = range(3)

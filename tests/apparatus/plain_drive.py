@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 COULOMB, DAHL, LUGRE = 0, 1, 2
 SINE, TRIANGLE, SQUARE = 0, 1, 2

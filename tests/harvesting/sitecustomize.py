@@ -11,8 +11,8 @@ import json
 import os
 import sys
 
-from asperity import compiled
-from asperity.native.types import UnlistedTypeError, types_of
+from asperity.kernels import compiled
+from asperity.kernels.native.types import UnlistedTypeError, types_of
 
 _plain = compiled._Lazy.__call__
 _seen = set()
@@ -42,6 +42,6 @@ def _ends():
 
 
 # What makes kernels needs compilers and calls none.
-if "HARVEST" in os.environ and "asperity.building.worker" not in sys.orig_argv:
+if "HARVEST" in os.environ and "asperity.kernels.building.worker" not in sys.orig_argv:
     compiled._Lazy.__call__ = _noted
     atexit.register(_ends)

@@ -15,7 +15,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
-from asperity.shipped import shipped_cases
+from asperity.files.shipped import shipped_cases
 from asperity.slider.march import march
 from asperity.thesis.contact.blocks import in_series
 from asperity.thesis.contact.elastic import LIGHT, ElasticBlock

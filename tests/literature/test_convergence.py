@@ -12,10 +12,10 @@ import pytest
 from apparatus.grid import slow
 from scipy.integrate import solve_ivp
 
-from asperity.compiled import kernel
 from asperity.friction import SPLIT, UNSPLIT, VECTOR, update
 from asperity.friction.loaded import STIFFNESS, advance_loaded
 from asperity.friction.two_phase import phases
+from asperity.kernels.compiled import kernel
 
 END = 6.0
 LAWS = {"split": SPLIT, "unsplit": UNSPLIT, "vector": VECTOR}

@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.friction.dahl import VECTOR, advance
 from asperity.friction.springs import (
@@ -23,6 +22,7 @@ from asperity.friction.springs import (
     spring_profile,
     stored_in_springs,
 )
+from asperity.kernels.compiled import kernel
 
 DAHL = {"linear": 0.0, "hertz": 1 / 3, "rough": 1.0}
 STEPS = 4000

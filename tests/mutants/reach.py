@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 import asperity
-from asperity.compiled import _Lazy
+from asperity.kernels.compiled import _Lazy
 
 PACKAGE = str(Path(asperity.__file__).parent) + os.sep
 _CALL = _Lazy.__call__.__code__

@@ -134,7 +134,7 @@ class Copy:
 
     def _new_cache(self):
         """Forget all but kernels, which are kept under what they follow from."""
-        from asperity.folders import cache_folder
+        from asperity.files.folders import cache_folder
 
         kernels = self._cache / "asperity" / "kernels"
         kernels.mkdir(parents=True, mode=0o700, exist_ok=True)
@@ -270,7 +270,7 @@ def main() -> None:
 
 def _compiled_anew(modules):
     """Bytes of the modules with kernels that follow from each of these modules, or 0."""
-    from asperity.closure import closure
+    from asperity.kernels.closure import closure
 
     package = sites.SOURCE / "asperity"
     sizes = dict.fromkeys(modules, 0)

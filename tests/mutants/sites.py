@@ -22,7 +22,7 @@ COUNT = 200
 KINDS = ("sign", "factor", "exponent", "index", "bound", "constant")
 
 COMPUTING = (
-    "slider/*", "friction/*", "normal.py", "vibration.py", "waveform.py", "rating/*", "drive/*",
+    "slider/*", "friction/*", "normal.py", "vibration/*", "rating/*", "drive/*",
     "flanks/*", "contact/*", "block/*", "gearset/*", "tribometer/reduction/*", "formulas/*",
     "results/ledger.py",
 )  # fmt: skip

@@ -14,8 +14,8 @@ from asperity.casefile.check import mistakes_of
 from asperity.casefile.schema import table_schema
 from asperity.commands import case_tables
 from asperity.errors import InputError
-from asperity.shipped import shipped_cases
-from asperity.store import read_toml
+from asperity.files.shipped import shipped_cases
+from asperity.files.store import read_toml
 from asperity.tribometer.tables import TABLES as RIG
 from asperity.units import Quantity
 

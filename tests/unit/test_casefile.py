@@ -10,7 +10,7 @@ import pytest
 
 from asperity.casefile import Table, read_case, told
 from asperity.errors import InputError
-from asperity.shipped import SPEAKING, describe, shipped_case, shipped_cases
+from asperity.files.shipped import SPEAKING, describe, shipped_case, shipped_cases
 from asperity.units import Quantity
 
 

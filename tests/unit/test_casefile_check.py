@@ -7,8 +7,8 @@ import pytest
 from asperity.casefile.check import check_case, lines_of, mistakes_of
 from asperity.casefile.schema import keys_of, schema
 from asperity.commands import case_tables
+from asperity.files.shipped import shipped_cases
 from asperity.gearset import Gearset
-from asperity.shipped import shipped_cases
 
 EIGHT = """\
 # A gearset with eight mistakes

@@ -13,10 +13,10 @@ import numba
 import numpy as np
 import pytest
 
-from asperity import kernel_folder
-from asperity.compiled import kernel, kernel_key
-from asperity.folders import cache_folder
+from asperity.files.folders import cache_folder
 from asperity.friction.tangent import update
+from asperity.kernels import folder as kernel_folder
+from asperity.kernels.compiled import kernel, kernel_key
 
 PROGRAM = """
 import json, sys
@@ -38,10 +38,10 @@ def package(tmp_path):
     folder.mkdir()
     (folder / "__init__.py").touch()
     (folder / "inner.py").write_text(
-        "from asperity.compiled import kernel\n@kernel\ndef inner(x):\n    return x + 1.0\n"
+        "from asperity.kernels.compiled import kernel\n@kernel\ndef inner(x):\n    return x + 1.0\n"
     )
     (folder / "outer.py").write_text(
-        "from asperity.compiled import kernel\nfrom fake.inner import inner\n"
+        "from asperity.kernels.compiled import kernel\nfrom fake.inner import inner\n"
         "@kernel\ndef outer(x):\n    return inner(x) * 10.0\n"
     )
     return folder
@@ -171,7 +171,7 @@ def test_declaring_a_kernel_loads_no_compiler_and_calling_one_does():
     code = (
         "import sys\nimport asperity.friction.dahl, asperity.slider.kernels\n"
         "assert not {'numba', 'llvmlite'} & set(sys.modules)\n"
-        "from asperity.compiled import machine\nmachine()\nassert 'numba' in sys.modules"
+        "from asperity.kernels.compiled import machine\nmachine()\nassert 'numba' in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 

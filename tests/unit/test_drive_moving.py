@@ -8,7 +8,7 @@ import pytest
 
 from asperity.drive.elastic.near import _travelled
 from asperity.drive.motion.kernels import move
-from asperity.waveform import NO_TABLE, SINE, Wave
+from asperity.vibration.waveform import NO_TABLE, SINE, Wave
 
 FREE = {"turn": "turns", "shift": "shifts", "roll": "rolls"}
 FREQUENCY, SPEED = 20e3, 150.0

@@ -10,7 +10,7 @@ from asperity.drive.protocols.setup import begin, corners_of, shakes, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.runs import Run
-from asperity.waveform import displacement_at
+from asperity.vibration.waveform import displacement_at
 
 
 def modelled(*settings):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from asperity.contact.candidates.inverse import decompose, substitute
 from asperity.contact.increment.coupling import mean_correction
-from asperity.elimination import eliminate
+from asperity.kernels.elimination import eliminate
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6))

@@ -10,6 +10,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import ConvergenceError, InputError
+from asperity.files.store import read_dataset, write_dataset
 from asperity.flanks.meshing.analysis import analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.contact_lines import contact_lines
@@ -27,7 +28,6 @@ from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
 from asperity.results.quantity import text_of
-from asperity.store import read_dataset, write_dataset
 
 CASE = read_case("gearset-3b", case_tables(), ())
 GEARSET = CASE.require(Gearset)

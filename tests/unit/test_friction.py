@@ -3,7 +3,6 @@ import math
 import numpy as np
 import pytest
 
-from asperity.compiled import kernel
 from asperity.contact.interface.friction import PointFriction
 from asperity.errors import InputError
 from asperity.friction import KEEPS, LAWS, SPLIT, UNSPLIT, VECTOR, Friction, update
@@ -15,6 +14,7 @@ from asperity.friction.dahl import (
     relaxation,
     relaxation_gain,
 )
+from asperity.kernels.compiled import kernel
 
 EXPONENTS = [0.0, 0.5, 1.0, 1.5, 2.0]
 NOTHING = (0.0, 0.0)

@@ -8,9 +8,9 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.files.shipped import describe, shipped_cases
 from asperity.gearset import Gearset
 from asperity.rating.parameters import Operation
-from asperity.shipped import describe, shipped_cases
 
 STEEL, BRONZE = "case-hardened steel", "CuAl10Fe5Ni5-C-GZ"
 MACRO = {

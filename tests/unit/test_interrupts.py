@@ -5,7 +5,7 @@ import sys
 
 CLEANED_UP = """
 import signal, time
-from asperity.interrupts import hear_again
+from asperity.processes.interrupts import hear_again
 
 hear_again()
 

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import asperity
-from asperity.dense import copy, multiply
+from asperity.kernels.dense import copy, multiply
 
 PACKAGE = Path(asperity.__file__).parent
 NUMBERS = {float, int, bool, "float", "int", "bool"}
@@ -155,7 +155,7 @@ def kinds_of(made):
 
 def test_kernels_are_found():
     assert len(kernels()) > 300
-    assert {"asperity.dense.copy", "asperity.slider.shooting.shoot"} <= {*kernels()}
+    assert {"asperity.kernels.dense.copy", "asperity.slider.shooting.shoot"} <= {*kernels()}
     entries = {*called_from_python()}
     assert {"asperity.slider.shooting.shoot", "asperity.contact.motion.march.march"} <= entries
     assert "asperity.slider.shooting._newton" not in entries

@@ -3,11 +3,11 @@ import math
 import numpy as np
 import pytest
 
-from asperity.compiled import kernel
 from asperity.friction import LAWS
 from asperity.friction.dahl import advance
 from asperity.friction.loaded import DEFLECTION, KEEPS, STIFFNESS, advance_loaded, friction_loss
 from asperity.friction.loaded_tangent import update_loaded
+from asperity.kernels.compiled import kernel
 
 EXPONENTS = [0.0, 1 / 3, 0.5, 1.0, 1.5, 2.0]
 # Differences of squares of numbers of order one, added up over a path.

@@ -18,9 +18,9 @@ import numpy as np
 import pytest
 from apparatus.native_library import addresses, echo, function, library, one, signature
 
-from asperity.native import layout
-from asperity.native.dtypes import described, read
-from asperity.native.plan import Plan, UnknownTypeError
+from asperity.kernels.native import layout
+from asperity.kernels.native.dtypes import described, read
+from asperity.kernels.native.plan import Plan, UnknownTypeError
 
 Pair = namedtuple("Pair", "first second")
 Other = namedtuple("Other", "first second")

@@ -8,9 +8,9 @@ import time
 
 import pytest
 
-from asperity.building import lean, link, making
-from asperity.native import kept, keys, table
-from asperity.native.entries import Entry, listed
+from asperity.kernels.building import lean, link, making
+from asperity.kernels.native import kept, keys, table
+from asperity.kernels.native.entries import Entry, listed
 
 
 class Doubled:
@@ -231,8 +231,9 @@ def test_sources_that_changed_while_it_was_made_leave_nothing(entry, tmp_path, m
 def test_an_entry_that_no_kernel_is_like_is_told_once(name, arguments, tmp_path):
     of_room = f"asperity.slider.pressed.{name}"
     program = (
-        "import sys; from pathlib import Path; from asperity.building import making\n"
-        "from asperity.native import keys; from asperity.native.entries import Entry\n"
+        "import sys; from pathlib import Path; from asperity.kernels.building import making\n"
+        "from asperity.kernels.native import keys\n"
+        "from asperity.kernels.native.entries import Entry\n"
         f"entry = Entry(0, {of_room!r}, {arguments!r}, 1.0)\n"
         "making.keep(Path(sys.argv[1]), entry, keys.key(entry), 1)\n"
     )

@@ -7,11 +7,11 @@ import textwrap
 
 import pytest
 
-from asperity.building import lean, library, link, making
-from asperity.building.compiler import hindrance
-from asperity.native import keys, load, table
-from asperity.native.entries import Entry, listed
-from asperity.native.kept import UNFIT
+from asperity.kernels.building import lean, library, link, making
+from asperity.kernels.building.compiler import hindrance
+from asperity.kernels.native import keys, load, table
+from asperity.kernels.native.entries import Entry, listed
+from asperity.kernels.native.kept import UNFIT
 
 needs_compiler = pytest.mark.skipif(hindrance() is not None, reason="no library is made here")
 
@@ -156,8 +156,8 @@ def test_what_cannot_be_made_is_named_and_the_rest_linked(entry, tmp_path, monke
     unfit.mkdir(parents=True)
     (unfit / UNFIT).write_text(f"{other.name}: it returns a record\n", "utf-8")
     program = (
-        "import sys; from pathlib import Path; from asperity.building import library\n"
-        "from asperity.native.entries import listed\n"
+        "import sys; from pathlib import Path; from asperity.kernels.building import library\n"
+        "from asperity.kernels.native.entries import listed\n"
         "library.kernel_folder.kernels = lambda: Path(sys.argv[1])\n"
         "entries = [listed().entries[int(n)] for n in sys.argv[3:]]\n"
         "library.build(Path(sys.argv[2]), entries, 2, print)\n"
@@ -190,12 +190,12 @@ def test_where_there_is_nothing_to_link_or_to_link_with_it_is_told(
 ):
     if entries:
         monkeypatch.setenv("CC", "no-such-compiler")
-    monkeypatch.setattr("asperity.building.compiler.platform_name", lambda: "x86_64-linux")
+    monkeypatch.setattr("asperity.kernels.building.compiler.platform_name", lambda: "x86_64-linux")
     with pytest.raises(library.NoLibraryError, match=why):
         library.build(tmp_path, entries, 1)
     assert not list(tmp_path.iterdir())
 
 
 def test_another_platform_is_told(monkeypatch):
-    monkeypatch.setattr("asperity.building.compiler.platform_name", lambda: "arm64-darwin")
+    monkeypatch.setattr("asperity.kernels.building.compiler.platform_name", lambda: "arm64-darwin")
     assert hindrance() == "it is made for x86_64-linux only, not for arm64-darwin"

@@ -14,9 +14,9 @@ import pytest
 from apparatus.native_library import function, object_files, signature
 
 import asperity
-from asperity import compiled
-from asperity.compiled import kernel
-from asperity.native import layout, load, table
+from asperity.kernels import compiled
+from asperity.kernels.compiled import kernel
+from asperity.kernels.native import layout, load, table
 
 SOURCE = "asperity/errors.py"
 NAME = "asperity.errors.half"
@@ -225,7 +225,7 @@ def test_a_kernel_that_no_library_has_goes_to_numba(here, made, monkeypatch):
 
 def test_kernels_called_from_a_library_do_not_load_numba(made):
     code = (
-        "import sys\nfrom pathlib import Path\nfrom asperity.native import load\n"
+        "import sys\nfrom pathlib import Path\nfrom asperity.kernels.native import load\n"
         f"load._SHIPPED = Path({str(made)!r})\n"
         f"assert load.entry({NAME!r})((0.5,)) == 0.5\n"
         "assert not {'numba', 'llvmlite'} & set(sys.modules)"

@@ -11,9 +11,9 @@ import numba
 import numpy as np
 import pytest
 
-from asperity.building.specs import UnknownTypeError, numba_type, spec
-from asperity.native.entries import likely, listed
-from asperity.native.types import UnlistedTypeError, types_of
+from asperity.kernels.building.specs import UnknownTypeError, numba_type, spec
+from asperity.kernels.native.entries import likely, listed
+from asperity.kernels.native.types import UnlistedTypeError, types_of
 
 Pair = namedtuple("Pair", "x y")
 
@@ -65,9 +65,9 @@ def test_what_commands_call_together_is_likely_wanted_together():
 PROGRAM = """
 import tempfile
 from pathlib import Path
-from asperity.building import lean, link, making
-from asperity.native.entries import listed
-from asperity.native import load
+from asperity.kernels.building import lean, link, making
+from asperity.kernels.native.entries import listed
+from asperity.kernels.native import load
 (entry,) = listed().named("asperity.slider.pressed.friction_limit")
 making.began()
 made = lean.make(making.kernel(entry), entry.arguments, link.symbol(entry))

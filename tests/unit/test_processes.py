@@ -5,9 +5,9 @@ import sys
 
 import pytest
 
-from asperity import processes
 from asperity.errors import InputError
-from asperity.processes import alone
+from asperity.processes import sessions
+from asperity.processes.alone import alone
 from asperity.web import jobs, live
 from asperity.web.folder import Folder
 
@@ -69,7 +69,7 @@ def test_a_worker_that_could_not_begin_is_begun_at_the_next_question(tmp_path, m
     async def asked_twice():
         desk = live.Live("desk", tmp_path)
         with monkeypatch.context() as patched:
-            patched.setattr(processes, "begun", cannot)
+            patched.setattr(sessions, "begun", cannot)
             first = await desk.ask("forms", b"{}", nobody)
         try:
             return first, await asyncio.wait_for(desk.ask("forms", b"{}", nobody), 60.0)

@@ -6,9 +6,9 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.files.shipped import shipped_cases
 from asperity.rating.rate import rate_case
 from asperity.rating.regime import Film
-from asperity.shipped import shipped_cases
 
 
 def test_lambda_is_the_film_over_the_root_mean_square_of_both_flanks():

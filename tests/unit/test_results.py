@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from asperity.errors import InputError, StorageError
+from asperity.files.store import write_dataset
 from asperity.results import Quantities, Result, labelled, part, quantity, read
 from asperity.results.table import table_of
 from asperity.results.terminal import rendered
-from asperity.store import write_dataset
 
 
 class Pull(Result):

@@ -14,7 +14,7 @@ from apparatus import rigs
 from apparatus.grid import slow
 
 from asperity.errors import InputError
-from asperity.processes import alone
+from asperity.processes.alone import alone
 from asperity.runs import Run
 from asperity.tribometer.guardian import journal as journals
 from asperity.tribometer.guardian.journal import Journal

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.files.store import read_dataset, write_dataset
 from asperity.slider import TABLES, Model, solve
-from asperity.store import read_dataset, write_dataset
 
 
 def solved(name, *settings, history=True):

@@ -8,7 +8,7 @@ import pytest
 import xarray
 
 from asperity.errors import InputError, StorageError
-from asperity.store import (
+from asperity.files.store import (
     harmless_cell,
     inputs_kept,
     output_folder,
@@ -120,7 +120,7 @@ def test_a_dataset_that_does_not_fit_is_one_line_and_leaves_nothing(tmp_path):
 import resource, signal, sys
 import numpy, xarray
 from asperity.errors import InputError, StorageError
-from asperity.store import write_dataset
+from asperity.files.store import write_dataset
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
 labels = {"units": "N", "long_name": "force"}
@@ -182,7 +182,7 @@ def test_the_next_run_removes_what_a_killed_one_left_and_nothing_else(tmp_path):
     code = """
 import os, sys
 from pathlib import Path
-from asperity.store import write_atomically
+from asperity.files.store import write_atomically
 def half(path):
     path.write_text("half")
     os.kill(os.getpid(), 9)

@@ -9,10 +9,10 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.files.store import read_dataset, write_dataset
 from asperity.gearset import Gearset
 from asperity.gearset.sizing import MODULES
 from asperity.rating import Operation, RatingOptions, rate
-from asperity.store import read_dataset, write_dataset
 from asperity.studies.catalogue import search
 from asperity.studies.design import Bounds
 

@@ -8,13 +8,13 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.errors import InputError
+from asperity.files.store import read_dataset, write_dataset
 from asperity.friction.parameters import Friction
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.tables import TABLES as RATING
 from asperity.slider.closed_forms import directed_ratio, vibration_power
 from asperity.slider.tables import TABLES as SLIDER
-from asperity.store import read_dataset, write_dataset
 from asperity.studies.methods import compare, compare_case
 from asperity.studies.plots import plot_comparison
 from asperity.studies.reported import more_methods, reported_methods

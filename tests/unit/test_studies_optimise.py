@@ -12,9 +12,9 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.files.store import read_dataset, write_dataset
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case
-from asperity.store import read_dataset, write_dataset
 from asperity.studies.climb import climb, spread
 from asperity.studies.design import VARIABLES, Bounds, Space
 from asperity.studies.optimise import optimise

@@ -9,10 +9,10 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.files.store import read_dataset, write_dataset
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.iso14521.film_failure import FilmParameterError
-from asperity.store import read_dataset, write_dataset
 from asperity.studies.sensitivity import sensitivity
 
 

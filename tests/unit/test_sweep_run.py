@@ -11,9 +11,9 @@ from observe import new_cache
 
 from asperity.casefile import read_case
 from asperity.errors import InputError, MissingExtraError
+from asperity.files.store import read_dataset
 from asperity.runs import Interrupted, Run
 from asperity.slider import TABLES, Model, solve
-from asperity.store import read_dataset
 from asperity.sweep import Axis, SweepResult, parse_axes, read_grid, run
 from asperity.sweep.grid import Grid
 from asperity.sweep.result import Answers

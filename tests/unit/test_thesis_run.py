@@ -14,8 +14,8 @@ from pathlib import Path
 import pytest
 from apparatus.grid import slow
 
-from asperity import closure
 from asperity.errors import InputError, StorageError
+from asperity.kernels import closure
 from asperity.runs import Interrupted, key, workers
 from asperity.runs.workers import Task, done
 from asperity.thesis import contents, exhibits

@@ -18,7 +18,7 @@ import pytest
 import xarray as xr
 
 from asperity.errors import StorageError
-from asperity.store import read_dataset
+from asperity.files.store import read_dataset
 from asperity.tribometer.recording import Recorder, Recording, Source, layout
 from asperity.tribometer.signals import SIGNALS
 

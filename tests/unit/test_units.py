@@ -10,9 +10,8 @@ import numpy as np
 import pydantic
 import pytest
 
-from asperity import measures
 from asperity.errors import InputError
-from asperity.units import Quantity, quantity_of, registry, split_unit, to_si, unit_of
+from asperity.units import Quantity, measures, quantity_of, registry, split_unit, to_si, unit_of
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.slider import Model, Slider, Solve
 from asperity.vibration import Vibration
-from asperity.waveform import displacement_at, fill_increments
+from asperity.vibration.waveform import displacement_at, fill_increments
 
 WAVES = {
     "sine": {"waveform": "sine", "frequency": 4000.0},

@@ -11,10 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, overload
 
-from asperity import store
 from asperity.casefile.table import Table, names_file, same_thing, trouble_with
 from asperity.errors import InputError, nearest, plain, shown
-from asperity.shipped import SPEAKING, case_file, shipped_cases
+from asperity.files import store
+from asperity.files.shipped import SPEAKING, case_file, shipped_cases
 from asperity.units import Quantity, quantity_of, split_unit
 
 Raw = dict[str, Any]

@@ -5,8 +5,8 @@ import io
 import re
 from pathlib import Path
 
-from asperity import store
 from asperity.errors import InputError, plain
+from asperity.files import store
 
 KEY = r"[A-Za-z_][\w-]*\.[A-Za-z_][\w-]*"
 UNIT = r"\s*(?:\[([^\]]*)\])?\s*"

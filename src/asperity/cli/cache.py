@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
-from asperity import caches
-from asperity.caches import Kept
 from asperity.cli import show
 from asperity.errors import plain
-from asperity.folders import cache_root
+from asperity.files import caches
+from asperity.files.caches import Kept
+from asperity.files.folders import cache_root
 
 _HEADS = ("kind", "files", "size", "oldest use", "what it is")
 

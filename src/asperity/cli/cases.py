@@ -1,7 +1,7 @@
 """What ``asperity cases`` does."""
 
 from asperity.cli import show
-from asperity.shipped import SPEAKING, case_text, describe, shipped_cases
+from asperity.files.shipped import SPEAKING, case_text, describe, shipped_cases
 
 
 def print_case(name: str, *, as_json: bool) -> None:

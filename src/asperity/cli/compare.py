@@ -6,10 +6,10 @@ from pathlib import Path
 from asperity.casefile.case import Case, read_case, told
 from asperity.cli import show
 from asperity.commands import Command, case_tables
+from asperity.files.store import output_folder
 from asperity.results import Result
 from asperity.runs import Run
 from asperity.start.compare import compare as side_by_side
-from asperity.store import output_folder
 
 
 def compare(

@@ -7,7 +7,7 @@ from asperity.casefile import Case, read_case, told
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, choices, suggestion
-from asperity.store import output_folder, write_atomically, write_text
+from asperity.files.store import output_folder, write_atomically, write_text
 
 _MOST_NODES = 2_000_000
 _DECKS = ("abaqus", "calculix")

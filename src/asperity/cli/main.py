@@ -4,7 +4,7 @@ import os
 import sys
 
 from asperity.cli import interrupt
-from asperity.interrupts import hear_again
+from asperity.processes.interrupts import hear_again
 
 _DIGITS = 4  # of a terminal's width
 TYPE_CHECKING = False  # as typing has it, which takes its time

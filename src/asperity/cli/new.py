@@ -8,13 +8,13 @@ from asperity.casefile.case import Case, apply
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, plain
+from asperity.files.store import output_folder, write_text
 from asperity.rating.parameters import Operation
 from asperity.start.bearing import KIND as BEARING
 from asperity.start.bearing import bearing_text
 from asperity.start.gear import MACRO, begun, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
-from asperity.store import output_folder, write_text
 from asperity.studies.proposals import Proposals
 
 

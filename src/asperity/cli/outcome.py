@@ -12,7 +12,7 @@ import typer
 
 from asperity.cli import interrupt
 from asperity.errors import AsperityError, ConvergenceError, plain, shown
-from asperity.store import reason
+from asperity.files.store import reason
 
 BROKEN_PIPE = 141
 
@@ -30,7 +30,7 @@ def reported(command: Callable[P, None]) -> Callable[P, None]:
         starting = interrupt.as_exception()
         try:
             # Loaded here, for the help does without.
-            from asperity.store import inputs_kept
+            from asperity.files.store import inputs_kept
 
             with inputs_kept():
                 command(*arguments, **options)

@@ -10,8 +10,8 @@ from asperity.casefile import Case
 from asperity.commands.command import Command
 from asperity.commands.listed import COMMANDS
 from asperity.errors import InputError, nearest, shown
+from asperity.files.store import stamp
 from asperity.runs.key import code_key, key
-from asperity.store import stamp
 
 Body = Mapping[str, Any]
 

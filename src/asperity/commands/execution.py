@@ -15,10 +15,10 @@ from asperity.casefile import told
 from asperity.casefile.project import Project
 from asperity.commands.command import Command
 from asperity.errors import ConvergenceError, InputError, StorageError, choices, plain, shown
+from asperity.files.store import output_folder, reason, write_text
 from asperity.results.files import picture_format
 from asperity.results.system import System, shown_in
 from asperity.runs import Run
-from asperity.store import output_folder, reason, write_text
 
 if TYPE_CHECKING:
     from asperity.casefile import Case

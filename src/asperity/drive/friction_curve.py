@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 
 class FrictionCurve(NamedTuple):

@@ -21,7 +21,7 @@ from asperity.rating.driven import driven
 from asperity.rating.tables import operation_of
 from asperity.slider.parameters import Solve
 from asperity.vibration import Vibration
-from asperity.waveform import Shape
+from asperity.vibration.waveform import Shape
 
 LARGEST_STEP = 0.5e-6
 _LARGEST_TORQUE = 1e9  # N m: above that of any gear that was made

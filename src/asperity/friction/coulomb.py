@@ -2,7 +2,7 @@
 
 import math
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 _SLIPS = 1.0 - 1e-9  # square of the share from which the contact slips
 # Steps in which friction stops a slip that is resolved in so many parts of one; from one step less

@@ -24,7 +24,7 @@ Deflections and slips of the kernels here are in units of :math:`s_{max}` unless
 
 import math
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 SPLIT = 0
 UNSPLIT = 1

@@ -17,7 +17,6 @@ force, :math:`F_N/F_{N,ref}` where friction is proportional to the load (its pow
 
 import math
 
-from asperity.compiled import kernel
 from asperity.friction.dahl import (
     SERIES_BOUND,
     TINY,
@@ -26,6 +25,7 @@ from asperity.friction.dahl import (
     relaxation,
     relaxation_gain,
 )
+from asperity.kernels.compiled import kernel
 
 STIFFNESS = 0
 DEFLECTION = 1

@@ -6,7 +6,6 @@ friction follows the pressure and not the other way about, so the tangent is not
 
 import math
 
-from asperity.compiled import kernel
 from asperity.friction.dahl import TINY, VECTOR
 from asperity.friction.loaded import (
     DEFLECTION,
@@ -17,6 +16,7 @@ from asperity.friction.loaded import (
     turning_rate,
 )
 from asperity.friction.tangent import limit_slope, update
+from asperity.kernels.compiled import kernel
 
 _NONE = (0.0, 0.0, 0.0, 0.0)
 

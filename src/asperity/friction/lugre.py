@@ -10,9 +10,9 @@ et al. 1995, and without a Stribeck velocity :math:`g = \mu F_N`.
 
 import math
 
-from asperity.compiled import kernel
 from asperity.friction.loaded import STIFFNESS
 from asperity.friction.loaded_tangent import update_loaded
+from asperity.kernels.compiled import kernel
 
 
 @kernel

@@ -7,7 +7,7 @@ sticks in this way: `asperity.friction.coulomb` sticks exactly, which has no tan
 
 import math
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 
 @kernel

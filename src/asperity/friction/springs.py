@@ -26,8 +26,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.compiled import kernel
 from asperity.errors import InputError
+from asperity.kernels.compiled import kernel
 
 #: Indentation at the reference load by normal law, over N_ref/k: N/N' of that law.
 REFERENCE_INDENTATION = {"linear": 1.0, "hertz": 1.5, "rough": 0.0}

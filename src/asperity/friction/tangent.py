@@ -6,7 +6,6 @@ finite element contact (which needs the derivative by the slip increments as wel
 
 import math
 
-from asperity.compiled import kernel
 from asperity.friction.dahl import (
     SPLIT,
     TINY,
@@ -18,6 +17,7 @@ from asperity.friction.dahl import (
     relaxation,
     saturation,
 )
+from asperity.kernels.compiled import kernel
 
 
 @kernel

@@ -14,7 +14,7 @@ which the exponential update shares:
 
 import math
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 
 @kernel

@@ -2,7 +2,7 @@ r"""The thesis's two-phase update of `asperity.friction.two_phase` with its deri
 
 import math
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 
 @kernel

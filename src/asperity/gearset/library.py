@@ -29,9 +29,9 @@ from typing import Annotated, Any, ClassVar, NamedTuple, TypeVar
 
 from pydantic import Field
 
-from asperity import store
 from asperity.casefile import Table
 from asperity.errors import InputError, nearest, shown, suggestion
+from asperity.files import store
 from asperity.sources import Source
 
 VARIABLE = "ASPERITY_MATERIALS"

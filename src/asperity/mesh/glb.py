@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from asperity.errors import InputError
+from asperity.files.store import write_atomically
 from asperity.mesh.surface import Surface
-from asperity.store import write_atomically
 
 # The numbers the glTF 2.0 specification gives its own and OpenGL's names.
 _FLOAT, _UNSIGNED_SHORT, _UNSIGNED_INT = 5126, 5123, 5125

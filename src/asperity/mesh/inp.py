@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity.errors import InputError, choices
+from asperity.files.store import write_text
 from asperity.mesh.hexmesh import HexMesh
-from asperity.store import write_text
 
 ELEMENTS = {"C3D8": 8, "C3D8I": 8, "C3D8R": 8, "C3D27": 27, "C3D27R": 27}
 """Element types by the number of their nodes."""

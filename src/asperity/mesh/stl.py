@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from asperity.files.store import write_atomically
 from asperity.mesh.surface import Surface
-from asperity.store import write_atomically
 
 
 def write_stl(path: str | os.PathLike[str], surface: Surface) -> Path:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity.errors import InputError
+from asperity.files.store import write_atomically, write_text
 from asperity.mesh.hexmesh import HexMesh
-from asperity.store import write_atomically, write_text
 
 Data = Mapping[str, ArrayLike]
 

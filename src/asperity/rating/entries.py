@@ -13,8 +13,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from asperity import store
 from asperity.errors import InputError
+from asperity.files import store
 from asperity.gearset.library import GIVEN
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
 from asperity.rating.inputs import Inputs, scaled

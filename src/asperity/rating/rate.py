@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.casefile import Case, told
 from asperity.errors import InputError, require_types
+from asperity.files.store import harmless_cell, write_text
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.backlash import Backlash
@@ -38,7 +39,6 @@ from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.results.system import shown_frame
 from asperity.results.table import Column, Table
-from asperity.store import harmless_cell, write_text
 
 if TYPE_CHECKING:
     from asperity.results.report import Heading, Section

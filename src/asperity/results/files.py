@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from asperity.errors import InputError, choices, suggestion
-from asperity.store import write_atomically, write_text
+from asperity.files.store import write_atomically, write_text
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

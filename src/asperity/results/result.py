@@ -199,7 +199,7 @@ class Result(Quantities):
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write everything as netCDF, whole or not at all; :func:`read` gives it back."""
-        from asperity.store import write_dataset
+        from asperity.files.store import write_dataset
 
         return write_dataset(self._with_answer(), path)
 
@@ -306,7 +306,7 @@ def read(path: str | os.PathLike[str]) -> Saved:
     StorageError
         The file cannot be read, is damaged, or holds no answer.
     """
-    from asperity.store import read_dataset
+    from asperity.files.store import read_dataset
 
     dataset = read_dataset(path)
     try:

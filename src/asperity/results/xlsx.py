@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 from xml.sax.saxutils import escape
 
 from asperity.errors import plain
+from asperity.files.store import write_atomically
 from asperity.results.system import US, system
-from asperity.store import write_atomically
 
 
 class Formula(NamedTuple):

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import StorageError
-from asperity.folders import cache_folder
+from asperity.files.folders import cache_folder
 from asperity.runs.tree import DamagedError, Tree, read_tree, write_tree
 
 KEPT_DAYS = 30

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import StorageError
+from asperity.files.store import reason
 from asperity.runs.cache import set_aside
 from asperity.runs.tree import DamagedError, Tree, read_tree, write_tree
-from asperity.store import reason
 
 # Between two times of keeping lie so many seconds, and so much of the time that takes.
 _PAUSE = 0.5

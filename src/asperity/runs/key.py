@@ -6,7 +6,7 @@ import hashlib
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.closure import source_key
+from asperity.kernels.closure import source_key
 
 
 @functools.cache
@@ -20,7 +20,7 @@ def code_key(*modules: str) -> str:
     *modules : str
         Full names of modules; all they import belongs to them, also inside functions.
     """
-    from asperity.processor import machine
+    from asperity.kernels.processor import machine
 
     return hashlib.sha256("\0".join((source_key(*modules), *machine())).encode()).hexdigest()
 

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Self
 
-from asperity.folders import cache_folder
+from asperity.files.folders import cache_folder
 from asperity.runs.cache import KEPT_DAYS, remove_old, set_aside
 
 Row = dict[str, float | str | None]

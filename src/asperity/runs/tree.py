@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from asperity.errors import StorageError
-from asperity.store import write_atomically
+from asperity.files.store import write_atomically
 
 Tree = dict[str, Any]
 T = TypeVar("T")

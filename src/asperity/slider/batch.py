@@ -35,7 +35,7 @@ from asperity.slider.scaled import (
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import energies, pressed_energies, summarise
 from asperity.slider.timetable import Timetable, march_notes, march_standing, ringing_notes
-from asperity.waveform import displacement_at
+from asperity.vibration.waveform import displacement_at
 
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
 _STRETCH = 16384 * BLOCK

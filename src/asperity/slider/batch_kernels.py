@@ -10,11 +10,11 @@ branch that depends on one, the exponential and the return to the limit are poly
 import math
 from typing import Any
 
-from asperity.compiled import kernel
 from asperity.friction.dahl import SPLIT, UNSPLIT, VECTOR, inverse_root, relaxation_gain
+from asperity.kernels.compiled import kernel
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_rows import WIDTH
-from asperity.waveform import Wave, fill_increments
+from asperity.vibration.waveform import Wave, fill_increments
 
 BLOCK = 64  # steps whose increments are made at a time: 16 kB, they stay in the first cache
 

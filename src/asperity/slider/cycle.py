@@ -6,7 +6,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.slider.history import History, PressedHistory
 from asperity.slider.model import Model
-from asperity.waveform import displacement_at
+from asperity.vibration.waveform import displacement_at
 
 _WIDTH = 1e-4  # of a cycle, for the slope of the waveform
 

@@ -18,7 +18,7 @@ from asperity.slider.unknowns import (
     unknown_scales,
     write_unknowns,
 )
-from asperity.waveform import cycle_of_wave
+from asperity.vibration.waveform import cycle_of_wave
 
 _Kind = TypeVar("_Kind")
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 from asperity.slider.shooting import run_cycle
 
 

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
+from asperity.kernels.compiled import kernel
 from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.results.settled import Standing
 from asperity.slider import homogenised_law as hl

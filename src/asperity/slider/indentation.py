@@ -4,10 +4,10 @@ It asks nothing of what happens in the plane, and so is known before the springs
 laid out to the depth they need.
 """
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 from asperity.normal import elastic_force, indentation
 from asperity.slider.pressed import node_load
-from asperity.waveform import displacement_at
+from asperity.vibration.waveform import displacement_at
 
 
 @kernel

@@ -20,7 +20,7 @@ from asperity.slider.scaled import (
 )
 from asperity.slider.summary import energies, pressed_energies
 from asperity.slider.two_phase import MEMORY, march_two_phase
-from asperity.waveform import fill_increments
+from asperity.vibration.waveform import fill_increments
 
 
 class Integrator:

@@ -14,12 +14,12 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.friction.coulomb import mean_share, project
 from asperity.friction.dahl import VECTOR, advance, rate_along
 from asperity.friction.lugre import stribeck_share
+from asperity.kernels.compiled import kernel
 from asperity.slider.scaled import COULOMB, DAHL, NODE
-from asperity.waveform import fill_increments
+from asperity.vibration.waveform import fill_increments
 
 _LEFT = 0.1  # of the drive velocity: a body that is as fast has left where it stuck
 

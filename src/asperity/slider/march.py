@@ -29,7 +29,7 @@ from asperity.slider.timetable import (
     march_standing,
     ringing_notes,
 )
-from asperity.waveform import AT_REST
+from asperity.vibration.waveform import AT_REST
 
 _RECORDS = 4000
 # Of the window, times that disturbances of steady sliding fade in half of it for the rest to tell

@@ -27,7 +27,7 @@ from asperity.slider.scaled import MODELS, Parameters, Pressing
 from asperity.slider.steps import parts_of
 from asperity.slider.wear import Wear
 from asperity.vibration import Vibration
-from asperity.waveform import AT_REST, SAMPLED, SINE, Shape, Wave
+from asperity.vibration.waveform import AT_REST, SAMPLED, SINE, Shape, Wave
 
 _STEPS_A_CYCLE = 500
 _WINDOW = 0.4

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from asperity.compiled import kernel
-from asperity.dense import copy
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import copy
 from asperity.slider.other_drives import in_longer_steps, pressed_in_longer_steps
 from asperity.slider.shooting import close, run_cycle
 

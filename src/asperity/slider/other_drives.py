@@ -2,7 +2,7 @@
 
 import math
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 from asperity.slider.scaled import Parameters, Pressing
 
 

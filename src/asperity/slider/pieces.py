@@ -3,7 +3,7 @@
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 
 @kernel

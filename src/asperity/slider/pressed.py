@@ -11,8 +11,6 @@ Heights are in units of the penetration's length (`asperity.normal`), loads in u
 
 import math
 
-from asperity.compiled import kernel
-from asperity.dense import copy
 from asperity.friction.coulomb import mean_share
 from asperity.friction.dahl import TINY
 from asperity.friction.loaded import STIFFNESS, advance_loaded, friction_loss
@@ -22,6 +20,8 @@ from asperity.friction.springs import (
     advance_springs_along,
     stored_in_springs,
 )
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import copy
 from asperity.normal import elastic_force, indentation
 from asperity.slider.kernels import (
     add_step,
@@ -33,7 +33,7 @@ from asperity.slider.kernels import (
     record,
 )
 from asperity.slider.scaled import COULOMB, DAHL, LUGRE, SPRINGS
-from asperity.waveform import displacement_at, fill_increments
+from asperity.vibration.waveform import displacement_at, fill_increments
 
 ROUNDING = 1e-12  # of the energies of a step
 

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 from asperity.slider.scaled import NODE, PRESSED_NODE
 from asperity.slider.unknowns import most_unknowns
 

@@ -13,11 +13,11 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
-from asperity.dense import copy
-from asperity.elimination import eliminate
 from asperity.friction.loaded import STIFFNESS
 from asperity.friction.lugre import stribeck_share
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import copy
+from asperity.kernels.elimination import eliminate
 from asperity.normal import elastic_force
 from asperity.slider.kernels import clear, march_block
 from asperity.slider.other_drives import carried, damped

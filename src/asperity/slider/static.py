@@ -16,7 +16,7 @@ from asperity.slider.held import Creep, HeldBody
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
 from asperity.slider.result import inputs
-from asperity.waveform import SINE
+from asperity.vibration.waveform import SINE
 
 # Of mu W: how near the limit is found, how far above it the creep is told, where it is sought.
 _RESOLUTION = 1e-5

@@ -9,7 +9,7 @@ from asperity.friction.dahl import VECTOR
 from asperity.normal import Normal, elastic_slope
 from asperity.slider.parameters import FAR_APART, Slider, Solve
 from asperity.slider.scaled import Pressing
-from asperity.waveform import SAMPLED, SINE, STEPS_A_TURN, Shape
+from asperity.vibration.waveform import SAMPLED, SINE, STEPS_A_TURN, Shape
 
 SLIP_BOUND = 0.5
 CHANGE_BOUND = 1.2e-3

@@ -13,10 +13,10 @@ close. Without the stored increment the coupled directions come out differently.
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.friction.two_phase import phases
+from asperity.kernels.compiled import kernel
 from asperity.slider.kernels import add_step, condense, record
-from asperity.waveform import fill_increments
+from asperity.vibration.waveform import fill_increments
 
 # What the scheme carries beside the state: the asperity's direction, and (42)'s stored increment.
 MEMORY = np.dtype([("cos", float), ("sin", float), ("base_x", float)])

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 from asperity.slider.scaled import COULOMB, SPRINGS
 
 

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from asperity import store
 from asperity.errors import InputError, nearest
-from asperity.shipped import shipped_cases
+from asperity.files import store
+from asperity.files.shipped import shipped_cases
 
 Values = dict[str, dict[str, Any]]
 

@@ -5,9 +5,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from asperity import store
 from asperity.errors import InputError, StorageError
-from asperity.shipped import SPEAKING, describe, shipped_case, shipped_cases
+from asperity.files import store
+from asperity.files.shipped import SPEAKING, describe, shipped_case, shipped_cases
 
 # What makes a case one of a kind, what asks for most first.
 _KINDS = (("rig", "rig"), ("drive", "drive"), ("block", "block"), ("gearset", "gear"))

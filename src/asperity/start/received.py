@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from asperity import store
 from asperity.casefile import Case
 from asperity.casefile.check import check_case
 from asperity.commands import case_tables
 from asperity.errors import InputError, StorageError
+from asperity.files import store
 from asperity.start.check import check
 
 _CASE, _RECORDING, _BINARY = ".toml", ".nc", (".mat", ".tdms", ".wav", ".sr", ".mf4")

@@ -9,7 +9,7 @@ from asperity.casefile.case import Case, read_raw
 from asperity.casefile.schema import Key, keys_of, table_schema
 from asperity.casefile.table import Table, same_thing
 from asperity.casefile.written import toml, written
-from asperity.shipped import describe
+from asperity.files.shipped import describe
 from asperity.start.kinds import Values
 
 _WIDTH = 98

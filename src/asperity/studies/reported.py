@@ -8,9 +8,9 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from pydantic import Field, SkipValidation
 
-from asperity import store
 from asperity.casefile import Table
 from asperity.errors import InputError, choices, nearest, shown, suggestion
+from asperity.files import store
 from asperity.gearset.materials import BaseOilName
 from asperity.sources import Source
 from asperity.units import Quantity

@@ -10,11 +10,11 @@ from decimal import Decimal
 from pathlib import Path
 from typing import NoReturn
 
-from asperity import store
 from asperity.casefile import Case, Table, bare_unit, names_file, read_case, same_thing
 from asperity.casefile.columns import HEADING, KEY, read_rows
 from asperity.errors import InputError, choices, nearest, shown
-from asperity.shipped import case_file, points_file
+from asperity.files import store
+from asperity.files.shipped import case_file, points_file
 from asperity.sweep.first import Reader, read_elsewhere
 from asperity.sweep.subject import Subject, subject_of
 from asperity.units import Quantity, quantity_of, split_unit, to_si

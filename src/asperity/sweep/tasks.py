@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity.closure import source_key
 from asperity.errors import AsperityError, ConvergenceError, InputError
-from asperity.processor import machine
+from asperity.kernels.closure import source_key
+from asperity.kernels.processor import machine
 from asperity.results import Result
 from asperity.runs.rows import Row
 from asperity.sweep.subject import Subject, named

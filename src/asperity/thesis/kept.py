@@ -22,10 +22,10 @@ def once(shipped: Shipped, of: type[T], module: str, solve: Callable[[], T]) -> 
     solve : callable
         Solves it.
     """
+    from asperity.files.shipped import shipped_cases
     from asperity.runs.cache import Cache
     from asperity.runs.key import code_key, key
     from asperity.runs.tree import from_tree, to_tree
-    from asperity.shipped import shipped_cases
 
     case = shipped_cases()[shipped.case].read_bytes()
     name = key(code_key(module), of.__name__, case, *shipped.settings)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, Protocol, get_args
 
 from asperity import __version__
-from asperity.store import write_atomically, write_dataset, write_text
+from asperity.files.store import write_atomically, write_dataset, write_text
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -15,8 +15,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from asperity.leftovers import temporary_beside
-from asperity.store import read_bytes
+from asperity.files.leftovers import temporary_beside
+from asperity.files.store import read_bytes
 from asperity.tribometer.guardian.stop import press
 from asperity.tribometer.journal_lines import ENDED, NAME, Line, last_lines
 from asperity.tribometer.signals import SIGNALS

@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 from asperity.errors import InputError, shown
-from asperity.shipped import shipped_case
-from asperity.store import portable, require_portable
+from asperity.files.shipped import shipped_case
+from asperity.files.store import portable, require_portable
 
 CASE = ".toml"
 ENDINGS = (

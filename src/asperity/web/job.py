@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from asperity.interrupts import hear_again
+from asperity.processes.interrupts import hear_again
 from asperity.runs.interrupt import stop_of, stop_with_input
 from asperity.web.folder import REQUEST, Folder
 

@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import AsperityError, StorageError
-from asperity.processes import begun, end, heard
-from asperity.store import read_bytes, read_text, reason, write_text
+from asperity.files.store import read_bytes, read_text, reason, write_text
+from asperity.processes.sessions import begun, end, heard
 from asperity.tribometer.live import stop
 from asperity.web.folder import ANSWER, REQUEST, STATE, Folder
 from asperity.web.guard import Refused

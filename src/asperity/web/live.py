@@ -10,7 +10,7 @@ import contextlib
 import json
 from pathlib import Path
 
-from asperity import processes
+from asperity.processes import sessions
 from asperity.web.verbs import VERBS, told
 
 _TRIES = 3
@@ -18,7 +18,7 @@ _SLOWEST_START = 600.0  # of the first of all, in which every kernel is compiled
 _PATIENCE = 1.0  # with an answer for which nobody waits: to begin anew takes longer
 
 Answer = tuple[int, bytes]
-Gone = processes.Gone
+Gone = sessions.Gone
 
 
 class Live:
@@ -51,14 +51,14 @@ class Live:
         self.ready.clear()
         self._frames = asyncio.Queue()
         try:
-            self._process = await processes.begun(*self._begin)
+            self._process = await sessions.begun(*self._begin)
         except OSError:
             return
         self._reader = asyncio.create_task(self._read(self._process, self._frames))
 
     def kill(self) -> None:
         """End the process at once."""
-        processes.end(self._process)
+        sessions.end(self._process)
 
     async def stop(self) -> None:
         """End the process and wait until it has."""
@@ -84,13 +84,13 @@ class Live:
                 )  # begun anew, it may be, while others had their turn
                 if await gone():
                     return _GONE
-                if processes.lives(self._process):
+                if sessions.lives(self._process):
                     return await self._answer(verb, body, asked.seconds, gone)
                 await self.start()
         return _line(500, f"the process that answers {verb} does not begin", 1)
 
     async def _warm(self, kernels: bool) -> None:
-        if processes.lives(self._process):
+        if sessions.lives(self._process):
             with contextlib.suppress(TimeoutError):
                 begun = self.ready if kernels else self.up
                 await asyncio.wait_for(begun.wait(), _SLOWEST_START)
@@ -104,9 +104,9 @@ class Live:
         try:
             process.stdin.write(head + b"\n" + body)
             async with asyncio.timeout(seconds):
-                if answer := await processes.wanted(self._frames.get(), gone, _PATIENCE):
+                if answer := await sessions.wanted(self._frames.get(), gone, _PATIENCE):
                     return answer
-        except processes.Unwanted:
+        except sessions.Unwanted:
             failed = _GONE
         except TimeoutError:
             line = f"{verb} took more than {seconds:g} s, longer than a page waits; ask for less"

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from asperity.store import write_text
+from asperity.files.store import write_text
 from asperity.web.folder import ANSWER, REQUEST, SO_FAR, STATE
 
 ENDED = ("stopped", "done", "failed")

@@ -12,9 +12,9 @@ from pathlib import Path
 from urllib.parse import urlencode
 
 from asperity.errors import InputError, StorageError
-from asperity.processes import alone
+from asperity.files.store import reason
+from asperity.processes.alone import alone
 from asperity.start.listed import opened
-from asperity.store import reason
 from asperity.web.folder import Folder
 from asperity.web.token import token_of
 

@@ -10,9 +10,9 @@ from asperity.casefile import Case
 from asperity.commands.asked import Asked
 from asperity.commands.execution import Teller
 from asperity.errors import ConvergenceError
+from asperity.files.store import write_text
 from asperity.results import Result
 from asperity.results.files import write_content
-from asperity.store import write_text
 from asperity.web.answer import answer_of
 from asperity.web.ask import confine
 from asperity.web.folder import ANSWER, SO_FAR, Folder

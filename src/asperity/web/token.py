@@ -8,8 +8,8 @@ import secrets
 import stat
 from pathlib import Path
 
-from asperity.folders import cache_folder, trouble_with
-from asperity.leftovers import temporary_beside
+from asperity.files.folders import cache_folder, trouble_with
+from asperity.files.leftovers import temporary_beside
 
 _TOKEN = re.compile(r"[\w-]{32}", re.ASCII)
 _OTHERS = 0o077

@@ -24,7 +24,7 @@ from importlib import resources
 
 from asperity.errors import InputError
 from asperity.slider.model import Model
-from asperity.waveform import SAMPLED, SINE
+from asperity.vibration.waveform import SAMPLED, SINE
 
 STATE_VARIABLES = 3
 # A time no analysis reaches: without vibration it never starts.

@@ -1,7 +1,7 @@
 """Which faces of a body are near its counter-surface."""
 
-from asperity.compiled import kernel
 from asperity.contact.interface.rigid import distance
+from asperity.kernels.compiled import kernel
 
 
 @kernel

@@ -7,7 +7,7 @@ places of an array that may have more.
 
 import math
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 _LEAST = 1e-14  # pivot of a matrix that counts as singular, of its largest entry
 

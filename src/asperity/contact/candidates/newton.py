@@ -14,7 +14,6 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.contact.candidates.tangent import (
     assemble,
     change,
@@ -26,6 +25,7 @@ from asperity.contact.candidates.tangent import (
 )
 from asperity.contact.interface.records import Committed, ContactPoints, Interface
 from asperity.contact.interface.tractions import augmented_tractions, tractions
+from asperity.kernels.compiled import kernel
 
 FULL = -1.0
 """Residual of a solve for which there was no room."""

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.compiled import kernel
 from asperity.contact.interface.records import Interface
 from asperity.contact.interface.surface import ContactSurface
+from asperity.kernels.compiled import kernel
 
 
 class Body(NamedTuple):

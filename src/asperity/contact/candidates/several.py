@@ -2,10 +2,10 @@
 
 import math
 
-from asperity.compiled import kernel
 from asperity.contact.candidates.newton import evaluate, solve, spread
 from asperity.contact.candidates.records import answer_of, candidates_of, kept_of
 from asperity.contact.interface.counter_motion import MotionNumbers
+from asperity.kernels.compiled import kernel
 
 _SWEEPS = 30
 

@@ -9,9 +9,9 @@ nodes move by :math:`\delta u = A \sum_q N_q^T \delta f_q`. Hence
 which has as many equations as there are nodes about the points, three each: fewer than points.
 """
 
-from asperity.compiled import kernel
 from asperity.contact.candidates.inverse import apply, decompose, invert, substitute
-from asperity.dense import copy
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import copy
 
 
 @kernel

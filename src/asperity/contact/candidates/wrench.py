@@ -1,8 +1,8 @@
 """Forces and moments of a solved contact, and how they change as the counter-surface moves."""
 
-from asperity.compiled import kernel
 from asperity.contact.candidates.inverse import decompose, substitute
 from asperity.contact.candidates.tangent import assemble, carry, expand, gather, stiffness_of
+from asperity.kernels.compiled import kernel
 
 
 @kernel

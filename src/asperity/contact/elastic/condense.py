@@ -12,7 +12,6 @@ from types import MappingProxyType
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.closure import source_key
 from asperity.contact.elastic.body import ElasticBody, elastic_body, freedoms_of
 from asperity.contact.elastic.condensed import CondensedBody
 from asperity.contact.elastic.loads import Load
@@ -21,6 +20,7 @@ from asperity.contact.elastic.modes import shapes_with_inertia
 from asperity.contact.elastic.solver import COLUMNS_AT_A_TIME, factor_bytes, installed_solver
 from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.errors import InputError
+from asperity.kernels.closure import source_key
 from asperity.mesh import HexMesh
 from asperity.runs.cache import Cache
 from asperity.runs.key import key

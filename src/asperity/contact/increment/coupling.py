@@ -18,11 +18,11 @@ taken with single precision, for it changes the number of iterations and not wha
 
 import math
 
-from asperity.compiled import kernel
 from asperity.contact.interface.friction import share_and_tangent
 from asperity.contact.interface.tractions import first_tangent
-from asperity.dense import multiply
-from asperity.elimination import eliminate
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import multiply
+from asperity.kernels.elimination import eliminate
 
 # Insertions: with one, a fourth evaluation of the contact in an increment is the rule.
 PASSES = 2

@@ -20,12 +20,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.contact.increment.coupling import couple, mean_correction, mean_tangent, ratios
 from asperity.contact.interface.active_set import stiffness_forces
 from asperity.contact.interface.tractions import tractions
-from asperity.dense import multiply
-from asperity.elimination import eliminate
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import multiply
+from asperity.kernels.elimination import eliminate
 
 if TYPE_CHECKING:
     from asperity.contact.increment.tangents import SingleArray, Tangent

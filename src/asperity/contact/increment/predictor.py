@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 # Increments that are looked back at: enough for constant, linear and quadratic extrapolation.
 DEPTH = 3

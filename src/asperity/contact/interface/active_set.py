@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.contact.interface.records import Interface
+from asperity.kernels.compiled import kernel
 
 
 @kernel

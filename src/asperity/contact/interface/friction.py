@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.friction import Friction, lugre_update, update
 from asperity.friction.dahl import SPLIT, TINY, advance
@@ -24,6 +23,7 @@ from asperity.friction.loaded_tangent import update_loaded
 from asperity.friction.lugre import lugre_loaded
 from asperity.friction.return_mapping import return_mapping
 from asperity.friction.two_phase_tangent import phases_and_tangent
+from asperity.kernels.compiled import kernel
 
 COULOMB = 0
 DAHL = 1

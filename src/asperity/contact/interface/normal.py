@@ -17,8 +17,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.errors import InputError, choices
+from asperity.kernels.compiled import kernel
 
 # A first stage softer than that is none, and what the last one needs is lost in its digits.
 _LEAST_INITIAL = 1e-6

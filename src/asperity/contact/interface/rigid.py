@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.flanks.worm import distance as worm
 from asperity.flanks.worm.curve import FORM, Thread
+from asperity.kernels.compiled import kernel
 
 if TYPE_CHECKING:
     # No kernel follows from it.

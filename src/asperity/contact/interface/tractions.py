@@ -16,7 +16,6 @@ laws do not depend on which two, so the derivative may carry them along without 
 
 import math
 
-from asperity.compiled import kernel
 from asperity.contact.interface.friction import (
     augmented_slip,
     share_and_tangent,
@@ -24,6 +23,7 @@ from asperity.contact.interface.friction import (
 )
 from asperity.contact.interface.normal import augmented_overclosure, pressure
 from asperity.contact.interface.rigid import distance
+from asperity.kernels.compiled import kernel
 
 
 @kernel

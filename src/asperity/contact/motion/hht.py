@@ -27,8 +27,8 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
-from asperity.compiled import kernel
 from asperity.errors import InputError
+from asperity.kernels.compiled import kernel
 
 ALPHA = -0.05
 

@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.contact.increment.iterations import CONVERGED, MANY, by_tangent, reach_of
 from asperity.contact.increment.iterations import Room as IncrementRoom
 from asperity.contact.increment.predictor import DEPTH, best_order, continued
@@ -34,8 +33,9 @@ from asperity.contact.motion.mechanism import (
 from asperity.contact.motion.sums import gather, over_step
 from asperity.contact.motion.works import Asperities, Resultants, resultants
 from asperity.friction.lugre import stribeck_share
+from asperity.kernels.compiled import kernel
 from asperity.slider.kernels import breaks_away_at
-from asperity.waveform import Wave, displacement_at
+from asperity.vibration.waveform import Wave, displacement_at
 
 if TYPE_CHECKING:
     from asperity.contact.increment.tangents import Tangent

@@ -27,7 +27,6 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
-from asperity.compiled import kernel
 from asperity.contact.motion.hht import (
     ALPHA,
     ROOM,
@@ -38,6 +37,7 @@ from asperity.contact.motion.hht import (
     step_operator,
 )
 from asperity.errors import InputError
+from asperity.kernels.compiled import kernel
 
 
 class Port(NamedTuple):

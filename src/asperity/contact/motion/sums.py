@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.contact.motion.works import works
+from asperity.kernels.compiled import kernel
 
 
 class Sums(NamedTuple):

@@ -22,7 +22,7 @@ from asperity.contact.motion.march import (
 )
 from asperity.contact.motion.mechanism import DriveState, Mechanism, MotionStep, motion_step
 from asperity.contact.motion.works import Asperities, Resultants
-from asperity.waveform import AT_REST, Shape
+from asperity.vibration.waveform import AT_REST, Shape
 
 # A mass thrown on a spring leaves it at its speed, in the root mean square over the moment of
 # touching, up to this angle of its oscillation in a step; at 3 it leaves 17 % faster.

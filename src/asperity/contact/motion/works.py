@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.contact.interface.normal import HARD, TWO_STAGE, pressure
+from asperity.kernels.compiled import kernel
 
 
 class Resultants(NamedTuple):

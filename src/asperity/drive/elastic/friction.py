@@ -8,11 +8,11 @@ import math
 from typing import NamedTuple
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.contact.candidates.records import Laws
 from asperity.contact.interface.friction import PointNumbers
 from asperity.contact.interface.records import Interface
 from asperity.drive.friction_curve import FrictionCurve, friction_at
+from asperity.kernels.compiled import kernel
 
 
 class Sliding(NamedTuple):

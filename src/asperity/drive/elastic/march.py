@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from asperity.compiled import kernel
-from asperity.dense import copy
 from asperity.drive.elastic.mesh import advance
 from asperity.drive.elastic.near import forget
 from asperity.drive.interface import AT, OUTS, POSES, SOLVED
 from asperity.drive.motion.kernels import arrive, clear, move, next_step
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import copy
 
 _LEAST = 1.0 / 64.0  # of a step that a tooth is not solved for
 

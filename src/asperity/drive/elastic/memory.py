@@ -2,11 +2,11 @@
 
 from typing import NamedTuple
 
-from asperity.compiled import kernel
 from asperity.contact.candidates.records import candidates_of
 from asperity.drive.elastic.records import Mesh
 from asperity.drive.elastic.rim import moved_by
 from asperity.drive.interface import POSES
+from asperity.kernels.compiled import kernel
 
 
 class _Tooth(NamedTuple):

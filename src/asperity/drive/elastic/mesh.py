@@ -17,7 +17,6 @@ Which faces are near is looked up anew before worm and tooth have come as close 
 
 import math
 
-from asperity.compiled import kernel
 from asperity.contact.candidates.newton import FULL, solve, spread
 from asperity.contact.candidates.records import (
     answer_of,
@@ -26,13 +25,14 @@ from asperity.contact.candidates.records import (
 )
 from asperity.contact.candidates.wrench import place_of, wrench
 from asperity.contact.interface.counter_motion import MotionNumbers
-from asperity.dense import copy
 from asperity.drive.elastic.friction import find_shares, laws_at
 from asperity.drive.elastic.memory import HEAD, POINT, TOOTH, block_of, bring, displace, points_at
 from asperity.drive.elastic.near import AHEAD, gathered_near, reach_of
 from asperity.drive.elastic.rim import answered, disagreement, moved_by, taken
 from asperity.drive.interface import AT, POSES
 from asperity.drive.teeth.placing import place_worm, to_space
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import copy
 
 _LOST = 1.0  # residual of a tooth of which too much touches
 

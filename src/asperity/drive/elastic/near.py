@@ -2,12 +2,12 @@
 
 import math
 
-from asperity.compiled import kernel
 from asperity.contact.candidates.faces import collect
 from asperity.contact.candidates.records import candidates_of
 from asperity.drive.elastic.memory import displace
 from asperity.drive.elastic.rim import way_of
 from asperity.drive.interface import POSES
+from asperity.kernels.compiled import kernel
 
 AHEAD = 4.0  # steps in which surfaces are about to touch
 _NEAR = 3e-6  # to the worm, within which faces are looked at, m

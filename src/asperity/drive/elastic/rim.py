@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 _SMALLEST = 1e-2  # singular value of a shape, over the largest
 

@@ -9,10 +9,10 @@ from.
 
 import math
 
-from asperity.compiled import kernel
 from asperity.drive.interface import AT
-from asperity.uncounted import uncounted
-from asperity.waveform import displacement_at
+from asperity.kernels.compiled import kernel
+from asperity.kernels.uncounted import uncounted
+from asperity.vibration.waveform import displacement_at
 
 _GROWTH = 2.0  # of a step over the last
 _WHOLE = 1.5  # rest of a stretch, in steps, that is left for a last one or two

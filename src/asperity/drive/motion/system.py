@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.waveform import Wave
+from asperity.vibration.waveform import Wave
 
 
 class System(NamedTuple):

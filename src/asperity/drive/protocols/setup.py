@@ -12,7 +12,15 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.shafts import Bending, MeshAction, bending_of, bends
 from asperity.errors import InputError
-from asperity.waveform import AT_REST, SAMPLED, SQUARE, TRIANGLE, Shape, Wave, displacement_at
+from asperity.vibration.waveform import (
+    AT_REST,
+    SAMPLED,
+    SQUARE,
+    TRIANGLE,
+    Shape,
+    Wave,
+    displacement_at,
+)
 
 _STABLE = 0.25  # of a step, times the highest natural frequency
 _STIFFER = 3.0  # that the normal contact may be than without vibration

@@ -8,11 +8,11 @@ one limit), else by Newton's method; friction keeps its stiffness while the load
 
 import math
 
-from asperity.compiled import kernel
 from asperity.friction.dahl import TINY, VECTOR
 from asperity.friction.loaded import STIFFNESS, relaxed_to_limit
 from asperity.friction.loaded_tangent import update_loaded
-from asperity.uncounted import uncounted
+from asperity.kernels.compiled import kernel
+from asperity.kernels.uncounted import uncounted
 
 _ITERATIONS = 60
 _CLOSE = 1e-9

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.drive.point import MeshPoint
-from asperity.uncounted import uncounted
+from asperity.kernels.compiled import kernel
+from asperity.kernels.uncounted import uncounted
 
 _CELLS = 2048
 _REACH = 100.0  # of the force at the reference load, up to which the law is tabulated

@@ -17,11 +17,11 @@ drive the slip on: a step that gained energy by it is taken without.
 import math
 from typing import NamedTuple
 
-from asperity.compiled import kernel
 from asperity.drive.reduced.in_series import ductile
 from asperity.friction.dahl import TINY
 from asperity.friction.lugre import stribeck_share
-from asperity.uncounted import uncounted
+from asperity.kernels.compiled import kernel
+from asperity.kernels.uncounted import uncounted
 
 _ITERATIONS = 80
 _CLOSE = 1e-12

@@ -2,10 +2,10 @@
 
 import math
 
-from asperity.compiled import kernel
 from asperity.drive.motion.kernels import arrive, clear, move, next_step
 from asperity.drive.reduced.mesh import advance
-from asperity.uncounted import uncounted
+from asperity.kernels.compiled import kernel
+from asperity.kernels.uncounted import uncounted
 
 
 @uncounted

@@ -12,13 +12,13 @@ import math
 from typing import NamedTuple
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import AT
 from asperity.drive.reduced.in_series import deflect
 from asperity.drive.reduced.law import force_and_energy
 from asperity.drive.reduced.lugre import LuGre, deflect_damped
-from asperity.uncounted import uncounted
+from asperity.kernels.compiled import kernel
+from asperity.kernels.uncounted import uncounted
 
 _AHEAD = 4.0  # steps in which surfaces are about to touch
 

@@ -8,7 +8,6 @@ from functools import cached_property
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.contact.candidates import newton
 from asperity.contact.candidates.faces import collect, least_gap
 from asperity.contact.candidates.newton import spread
@@ -31,6 +30,7 @@ from asperity.contact.interface.rigid import RigidSurface
 from asperity.drive.teeth.placing import Stand, place_worm, sliding, to_space, tooth_numbers
 from asperity.drive.teeth.sector import Sector
 from asperity.errors import ConvergenceError
+from asperity.kernels.compiled import kernel
 
 CONTACT_STIFFNESS = 5e14
 """Of the flanks' surfaces, Pa/m; from there to hard contact the torque moves by 0.2 %."""

@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.flanks.worm.setting import Pair
+from asperity.kernels.compiled import kernel
 
 _MILLIMETRES = 1e3
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.errors import AsperityError
+from asperity.files.store import write_text
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
 from asperity.flanks.measuring.drawing import Datum, csv_of, drawing_data
@@ -24,7 +25,6 @@ from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.dataset import to_dataset
 from asperity.results.quantity import Entry, Number, text_of
 from asperity.results.table import Column, Table, table_of
-from asperity.store import write_text
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import BoolArray, FloatArray, IntArray
-from asperity.compiled import Kernel
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
@@ -19,6 +18,7 @@ from asperity.flanks.wheel.refusal import refusal, widest_face
 from asperity.flanks.worm.curve import Thread
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair, Stand
+from asperity.kernels.compiled import Kernel
 from asperity.results import Quantities, quantity
 
 MAP = ("row", "column")

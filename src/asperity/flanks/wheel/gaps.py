@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.bracket import compiled_minimum
 from asperity.flanks.wheel.cutting.conjugate import to_axes, turned
 from asperity.flanks.worm.distance import distance_only
+from asperity.kernels.compiled import kernel
 
 if TYPE_CHECKING:
     # No kernel follows from them.

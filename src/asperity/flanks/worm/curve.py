@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.flanks.worm.profiles import SECTION, axial
+from asperity.kernels.compiled import kernel
 
 FORM = np.dtype(
     [

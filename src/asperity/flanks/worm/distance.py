@@ -23,9 +23,9 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.errors import InputError
 from asperity.flanks.worm.foot import on_arc, on_flank
+from asperity.kernels.compiled import kernel
 
 if TYPE_CHECKING:
     # No kernel follows from it.

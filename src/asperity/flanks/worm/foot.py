@@ -8,8 +8,8 @@ Newton's method with the surface's curvature, and without it where that would le
 
 import math
 
-from asperity.compiled import kernel
 from asperity.flanks.worm.curve import width
+from asperity.kernels.compiled import kernel
 
 MOST_ITERATIONS = 60
 # A step this small, as a part of the tip radius, leaves nothing after it but rounding.

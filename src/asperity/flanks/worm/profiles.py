@@ -26,7 +26,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.compiled import Kernel, kernel
+from asperity.kernels.compiled import Kernel, kernel
 
 SECTION = np.dtype(
     [(name, np.float64) for name in ("reduced_lead", "offset", "slope", "excess", "first", "step")]

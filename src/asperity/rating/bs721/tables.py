@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity import store
 from asperity.arrays import FloatArray, Real
 from asperity.errors import InputError, nearest
+from asperity.files import store
 from asperity.formulas import Bounds, Symbol, check, current_mask
 from asperity.sources import Source, weakest
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, get_args
 
-from asperity import store
 from asperity.errors import InputError, choices, suggestion
+from asperity.files import store
 from asperity.gearset.materials import BaseOilName, Family
 from asperity.sources import Source
 

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.friction.dahl import VECTOR
 from asperity.friction.loaded import STIFFNESS, advance_loaded
+from asperity.kernels.compiled import kernel
 
 
 class Subroutine(NamedTuple):

@@ -12,8 +12,8 @@ import time
 from collections.abc import Mapping
 from pathlib import Path
 
-from asperity.shipped import shipped_cases
-from asperity.store import write_text
+from asperity.files.shipped import shipped_cases
+from asperity.files.store import write_text
 from asperity.thesis.exhibits import CLAIM, Exhibit
 from asperity.thesis.products import Plain
 from asperity.thesis.said import said_of

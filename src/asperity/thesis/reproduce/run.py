@@ -12,9 +12,9 @@ from typing import Any
 
 from asperity import __version__
 from asperity.errors import AsperityError
+from asperity.files.store import output_folder, write_text
 from asperity.runs import Interrupted
 from asperity.runs.workers import Task, cores, done
-from asperity.store import output_folder, write_text
 from asperity.thesis import contents
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE, Exhibit
 from asperity.thesis.reproduce.files import Collection, Made, Shown, key_of, make

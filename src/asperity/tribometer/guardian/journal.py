@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import InputError, StorageError, plain
-from asperity.store import reason
+from asperity.files.store import reason
 from asperity.tribometer.journal_lines import NAME, Line, lines_of
 
 _SPARE = ".journal.spare"

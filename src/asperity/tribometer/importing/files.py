@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from asperity import store
 from asperity.errors import InputError, plain, shown
+from asperity.files import store
 from asperity.tribometer.importing.columns import Columns
 from asperity.tribometer.importing.heads import Told
 from asperity.tribometer.importing.join import joined, renamed

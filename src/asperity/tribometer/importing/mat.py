@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity import store
 from asperity.errors import InputError, plain
+from asperity.files import store
 from asperity.tribometer.importing.columns import Columns
 from asperity.tribometer.importing.heads import Told
 

@@ -64,7 +64,7 @@ class Imported(Result):
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the recording, whole or not at all."""
-        from asperity.store import write_atomically
+        from asperity.files.store import write_atomically
 
         return write_atomically(path, self._record)
 

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity import store
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, plain, shown
+from asperity.files import store
 from asperity.tribometer.importing.cells import (
     BLANK,
     INFINITY,

@@ -12,10 +12,10 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from asperity.files.store import write_atomically
 from asperity.results import Result
 from asperity.results.report import Heading
 from asperity.results.table import Table
-from asperity.store import write_atomically
 from asperity.tribometer.package.metadata import (
     CRATE,
     DATACITE,

@@ -7,7 +7,7 @@ from types import TracebackType
 from typing import Self
 
 from asperity.errors import StorageError
-from asperity.store import write_atomically
+from asperity.files.store import write_atomically
 from asperity.tribometer.recording.recorder import compressed
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.casefile import Case
 from asperity.errors import AsperityError, InputError, choices, plain, suggestion
-from asperity.processes import alone
+from asperity.processes.alone import alone
 from asperity.runs import Run
 from asperity.runs.interrupt import Signals
 from asperity.runs.key import key

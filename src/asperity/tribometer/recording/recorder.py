@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.errors import StorageError, plain
-from asperity.leftovers import temporary_beside
-from asperity.store import write_atomically
+from asperity.files.leftovers import temporary_beside
+from asperity.files.store import write_atomically
 from asperity.tribometer.recording import blocks, layout
 from asperity.tribometer.recording.blocks import Blocks, blocks_beside, recording_of
 

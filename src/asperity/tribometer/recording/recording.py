@@ -13,10 +13,10 @@ from typing import Any, Self
 
 import numpy as np
 
-from asperity import store
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError, StorageError, plain, shown
+from asperity.files import store
 from asperity.tribometer.recording import layout
 from asperity.tribometer.recording.blocks import blocks_beside
 from asperity.tribometer.recording.recorder import Counts, Source, joined

@@ -2,9 +2,9 @@
 
 from typing import Any
 
+from asperity.files.store import harmless_cell
 from asperity.results import Quantities
 from asperity.results.quantity import Entry
-from asperity.store import harmless_cell
 
 CI95 = "_ci95"
 """What the key of an interval ends in."""

@@ -8,7 +8,7 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 _FORGOTTEN = 1e-18  # of columns that are of size one
 

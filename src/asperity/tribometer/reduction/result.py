@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
+from asperity.files.store import write_text
 from asperity.results import Quantities, Result, quantity
 from asperity.results.quantity import plain
 from asperity.results.table import Table
-from asperity.store import write_text
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budgets
 from asperity.tribometer.reduction.cells import CI95, cell, declared, rounded, variable

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from asperity import store
 from asperity.errors import AsperityError
+from asperity.files import store
 from asperity.tribometer.journal_lines import NAME, Line, lines_of
 
 DISCS = "steel", "bronze"

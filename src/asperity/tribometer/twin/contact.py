@@ -12,10 +12,10 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
 from asperity.errors import ConvergenceError
 from asperity.friction import LAWS
 from asperity.friction.loaded import STIFFNESS, advance_loaded
+from asperity.kernels.compiled import kernel
 
 _SLOWEST, _FASTEST, _SPEEDS, _NEAR = 2e-5, 1.0, 56, 32
 _TOLERANCE = 2e-3

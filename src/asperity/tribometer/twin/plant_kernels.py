@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.compiled import kernel
+from asperity.kernels.compiled import kernel
 
 # Order of `asperity.tribometer.signals.SIGNALS`.
 SIGNALS = 9

@@ -11,10 +11,10 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import StorageError
+from asperity.files.store import write_atomically
 from asperity.flanks.export.cad.brep import Solid, solid
 from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.patch import Body
-from asperity.store import write_atomically
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from asperity.errors import InputError, plain, shown
-from asperity.store import read_bytes
+from asperity.files.store import read_bytes
 from asperity.units import to_si
 
 VERSION = "1.5"

@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from asperity.casefile import Case, told
 from asperity.errors import InputError
+from asperity.files.store import write_text
 from asperity.flanks.export.rexs.document import VERSION, Document
 from asperity.flanks.export.rexs.parts import Given
 from asperity.flanks.export.rexs.write import document
@@ -19,7 +20,6 @@ from asperity.rating.rate import run_of
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
-from asperity.store import write_text
 
 _APPLICATION = "asperity"
 

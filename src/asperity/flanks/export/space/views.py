@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
+from asperity.files.store import write_atomically
 from asperity.flanks.export.extras import require_view
 from asperity.flanks.export.tooth import centred_teeth
 from asperity.flanks.export.worm import mounted_worm
@@ -19,7 +20,6 @@ from asperity.flanks.wheel.frame import turned
 from asperity.mesh import HexMesh
 from asperity.mesh.glb import Node
 from asperity.mesh.surface import Surface
-from asperity.store import write_atomically
 
 STEEL, BRONZE, PAPER = "#AEB6BF", "#D9A860", "#FFFFFF"
 SIZE = (1600, 1200)

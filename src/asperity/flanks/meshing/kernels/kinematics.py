@@ -23,9 +23,9 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.conjugate import to_axes, turned
 from asperity.flanks.worm.distance import distance
+from asperity.kernels.compiled import kernel
 
 MEETING = np.dtype(
     [

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.bracket import compiled_minimum
 from asperity.flanks.wheel.gaps import gap_at
+from asperity.kernels.compiled import kernel
 
 _STEPS = 40
 # In parts of the step between places; what is left counts with its square.

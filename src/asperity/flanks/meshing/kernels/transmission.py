@@ -19,13 +19,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.bracket import compiled_minimum
 from asperity.flanks.wheel.cutting.conjugate import conjugate, to_axes
 from asperity.flanks.wheel.cutting.trim import NODE, NODES, REACHED, keep, locate
 from asperity.flanks.wheel.cutting.undercut import section
 from asperity.flanks.worm.curve import width
 from asperity.flanks.worm.distance import distance_only
+from asperity.kernels.compiled import kernel
 
 TURN = 0
 NEAR = 1

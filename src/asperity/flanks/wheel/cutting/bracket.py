@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from asperity.compiled import Kernel, kernel
+from asperity.kernels.compiled import Kernel, kernel
 
 _GOLDEN = 0.381966011250105
 

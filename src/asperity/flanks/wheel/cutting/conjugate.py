@@ -18,8 +18,8 @@ Lengths are in mm, angles in rad; the frame is that of the right-handed gearset.
 
 import math
 
-from asperity.compiled import kernel
 from asperity.flanks.worm.curve import curve
+from asperity.kernels.compiled import kernel
 
 
 @kernel

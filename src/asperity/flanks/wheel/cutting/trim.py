@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.conjugate import conjugate_rates
 from asperity.flanks.worm.curve import curve
+from asperity.kernels.compiled import kernel
 
 REACHED = 0
 SHORT = 1

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.trim import (
     LOST,
     NODE,
@@ -14,6 +13,7 @@ from asperity.flanks.wheel.cutting.trim import (
     locate,
 )
 from asperity.flanks.wheel.cutting.undercut import section
+from asperity.kernels.compiled import kernel
 
 
 @kernel

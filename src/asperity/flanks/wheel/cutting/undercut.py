@@ -11,7 +11,6 @@ import math
 
 import numpy as np
 
-from asperity.compiled import kernel
 from asperity.flanks.wheel.cutting.bracket import compiled_minimum
 from asperity.flanks.wheel.cutting.conjugate import conjugate
 from asperity.flanks.wheel.cutting.trim import (
@@ -29,6 +28,7 @@ from asperity.flanks.wheel.cutting.trim import (
     slide,
     trace,
 )
+from asperity.kernels.compiled import kernel
 
 DIP = 1.5
 # Of a chord; where on it the least lies does not matter beyond that.

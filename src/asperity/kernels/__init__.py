@@ -1,0 +1,1 @@
+"""Compiled functions: how they are declared, made, kept and called."""

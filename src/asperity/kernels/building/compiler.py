@@ -1,0 +1,31 @@
+"""What a library of kernels needs of a machine to be made there; known without Numba."""
+
+import os
+import shlex
+import shutil
+
+from asperity.kernels.native.target import platform_name
+
+TARGET = "x86_64-linux"
+"""What machine code is made for so far."""
+
+
+def compiler() -> list[str] | None:
+    """Return the command of the system's C compiler, which links; None where there is none.
+
+    It is what ``CC`` in the environment says, else the first of cc, gcc and clang.
+    """
+    said = shlex.split(os.environ.get("CC", ""))
+    for words in [said] if said else [["cc"], ["gcc"], ["clang"]]:
+        if shutil.which(words[0]) is not None:
+            return words
+    return None
+
+
+def hindrance() -> str | None:
+    """Return why no library can be made on this machine; None where it can."""
+    if platform_name() != TARGET:
+        return f"it is made for {TARGET} only, not for {platform_name()}"
+    if compiler() is None:
+        return "no C compiler is found (cc, gcc, clang, or what CC names)"
+    return None

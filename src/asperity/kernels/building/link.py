@@ -1,0 +1,142 @@
+"""Object files made into a library, and the table that stands beside it."""
+
+import hashlib
+import json
+import subprocess
+import tempfile
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from asperity.kernels.building import lean, runtime
+from asperity.kernels.building.compiler import compiler
+from asperity.kernels.native import gather, keys, table
+from asperity.kernels.native.entries import Entry
+from asperity.kernels.native.target import FEATURES, platform_name
+
+
+def support() -> bytes:
+    """Return the object file that each library holds once."""
+    return lean.support(gather.ir(), runtime.release())
+
+
+def symbol(entry: Entry) -> str:
+    """Return the name that an entry's machine code is called by."""
+    told = json.dumps([entry.name, entry.arguments])
+    return f"asperity_{hashlib.sha256(told.encode()).hexdigest()[:16]}"
+
+
+def write(folder: Path, made: Sequence[tuple[Entry, lean.Made]], common: bytes) -> None:
+    """Write a library of entries and its table into a folder.
+
+    Parameters
+    ----------
+    folder : path
+        It exists.
+    made : sequence
+        Entries with their machine code, called by `symbol`.
+    common : bytes
+        From `support`.
+
+    Raises
+    ------
+    OSError, subprocess.CalledProcessError
+        Nothing links.
+    """
+    held = _linked([*(one.code for _, one in made), common])
+    (folder / table.LIBRARY).write_bytes(held)
+    table.write(folder, _table(made, held))
+
+
+def keep(folder: Path, entry: Entry, made: lean.Made, common: bytes) -> None:
+    """Write an entry alone into a folder: a library, its table and the object file it is of.
+
+    Where nothing links there are object files, which LLVM loads.
+
+    Parameters
+    ----------
+    folder : path
+        It exists.
+    entry : Entry
+        What is kept.
+    made : Made
+        Its machine code, called by `symbol`.
+    common : bytes
+        From `support`.
+    """
+    code, other = (folder / name for name in table.OBJECTS)
+    code.write_bytes(made.code)
+    try:
+        held = _linked([made.code, common])
+        (folder / table.LIBRARY).write_bytes(held)
+    except (OSError, subprocess.CalledProcessError):
+        # There is no compiler, or it lacks what it links with.
+        other.write_bytes(common)
+        held = made.code + common
+    of_object = {"object": hashlib.sha256(made.code).hexdigest()}
+    table.write(folder, _table([(entry, made)], held) | of_object)
+
+
+def kept(folder: Path, entry: Entry) -> lean.Made | None:
+    """Return what `keep` wrote of an entry; None where it is damaged or of an earlier form."""
+    try:
+        rows = table.read(folder)
+        code = (folder / table.OBJECTS[0]).read_bytes()
+    except (OSError, table.DamagedError):
+        return None
+    if rows is None or rows.get("object") != hashlib.sha256(code).hexdigest():
+        return None
+    (row,) = rows["entries"][entry.name]["signatures"]
+    if row["symbol"] != symbol(entry):
+        return None
+    return lean.Made(code, row["returns"], tuple(row["words"]))
+
+
+def _linked(objects: Iterable[bytes]) -> bytes:
+    words = compiler()
+    if words is None:
+        raise FileNotFoundError("no C compiler")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        files = []
+        for number, content in enumerate(objects):
+            files.append(folder / f"{number}.o")
+            files[-1].write_bytes(content)
+        library = folder / table.LIBRARY
+        subprocess.run(
+            [*words, "-shared", "-s", "-o", library, *files, "-lm"],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
+        return library.read_bytes()
+
+
+def _table(made: Sequence[tuple[Entry, lean.Made]], held: bytes) -> dict[str, Any]:
+    entries: dict[str, Any] = {}
+    for entry, one in made:
+        row = entries.setdefault(
+            entry.name,
+            {
+                "closure": keys.closure_digest(entry.module),
+                "sources": keys.sources(entry.module),
+                "signatures": [],
+            },
+        )
+        row["signatures"].append(
+            {
+                "symbol": symbol(entry),
+                "arguments": entry.arguments,
+                "returns": one.returns,
+                "words": one.words,
+            }
+        )
+    return {
+        "format": table.FORMAT,
+        "target": platform_name(),
+        "features": FEATURES,
+        "versions": keys.versions(),
+        "library": hashlib.sha256(held).hexdigest(),
+        "sources": keys.digests({name for row in entries.values() for name in row["sources"]}),
+        "entries": entries,
+    }

@@ -1,0 +1,142 @@
+"""Compiled kernels: functions of floats and arrays that Numba compiles where they are called.
+
+Declaring one costs nothing. A call goes to a library of machine code (`native`) where there is one
+that has the kernel for such arguments, made from the sources as they are; else to Numba, which is
+loaded at the first such call of any. With ``ASPERITY_NATIVE=0`` in the environment all go to Numba.
+
+What Numba compiles is kept on disk under a name made from the sources it follows from. Numba
+recompiles a function when the file it stands in changes, but not when a function it calls from
+another file does: it would answer with yesterday's code. Here a change to a kernel's module or to
+any that it imports, to Numba or to NumPy leads to another cache folder, and nothing else does: not
+a change elsewhere, nor another place on the disk.
+"""
+
+import contextlib
+import functools
+import hashlib
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, overload
+
+from asperity.kernels.closure import closure, digest_of
+
+# Numba finds the types of a kernel at its first call; there is nothing to check before.
+Kernel = Callable[..., Any]
+
+_LOCK = threading.Lock()
+
+
+def kernel_key(module: str, file: Path) -> str:
+    """Return what machine code follows from: a module and its imports, Numba, NumPy, processor."""
+    sources = closure(module, file=file)
+    root = file.parents[module.count(".")] if "." in module else file.parent
+    parts = (digest_of(sources, root), *machine())
+    return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+@functools.cache
+def machine() -> tuple[str, ...]:
+    """Return versions of Numba and NumPy and the processor's name, on which last bits depend."""
+    import llvmlite.binding
+    import numba
+    import numpy as np
+
+    return numba.__version__, np.__version__, llvmlite.binding.get_host_cpu_name()
+
+
+class _Lazy:
+    """A function that Numba compiles once it is called, from Python or by another kernel."""
+
+    def __init__(self, function: Kernel, options: dict[str, Any]) -> None:
+        functools.update_wrapper(self, function)
+        self._function = function
+        self._options = options
+        self._compiled: Any = None
+        # Answers from a library of machine code, NotImplemented where that has no such call.
+        self._native: Callable[[tuple[Any, ...]], Any] = self._first
+
+    def __call__(self, *arguments: Any) -> Any:
+        answer = self._native(arguments)
+        if answer is NotImplemented:
+            return (self._compiled or self._dispatcher)(*arguments)
+        return answer
+
+    def _first(self, arguments: tuple[Any, ...]) -> Any:
+        from asperity.kernels.native import load
+
+        name = f"{self.__module__}.{self.__qualname__}"
+        self._native = load.entry(name) or _not_here
+        return self._native(arguments)
+
+    def __getattr__(self, name: str) -> Any:
+        # To Numba, which asks for its type and options, it is what it stands for.
+        if name.startswith("__"):
+            raise AttributeError(name)
+        return getattr(self._dispatcher, name)
+
+    def __reduce__(self) -> str:
+        name: str = self.__qualname__
+        return name
+
+    def _key(self) -> str:
+        file = Path(self._function.__code__.co_filename).absolute()
+        return kernel_key(self._function.__module__ or "", file)
+
+    @property
+    def _dispatcher(self) -> Any:
+        with _LOCK:
+            if self._compiled is None:
+                self._compiled = made(self._function, self._options, self._key)
+        return self._compiled
+
+
+def _not_here(arguments: tuple[Any, ...]) -> Any:
+    return NotImplemented
+
+
+def made(function: Kernel, options: dict[str, Any], key: Callable[[], str]) -> Any:
+    """Return a function that Numba compiles where it is called, kept on disk under a key."""
+    import numba
+
+    from asperity.kernels import machine_code
+
+    compiled = numba.njit(nogil=True, error_model="numpy", **options)(function)
+    if not numba.config.DISABLE_JIT:
+        # OSError: a function without a source file, as one typed at a prompt.
+        with contextlib.suppress(OSError):
+            machine_code.keep(compiled, key())
+    return compiled
+
+
+@overload
+def kernel(function: Kernel, /) -> Kernel: ...
+@overload
+def kernel(*, fastmath: bool | set[str] = ..., inline: str = ...) -> Callable[[Kernel], Kernel]: ...
+def kernel(
+    function: Kernel | None = None, /, *, fastmath: bool | set[str] = False, inline: str = "never"
+) -> Kernel | Callable[[Kernel], Kernel]:
+    """Compile a function of floats and arrays, without the interpreter's lock.
+
+    A division by zero follows the floating-point rules instead of raising.
+
+    Parameters
+    ----------
+    function : callable
+        The function; left out when the decorator is given options.
+    fastmath : bool or set of str
+        Floating-point rules that may be broken for speed, as in :func:`numba.njit`.
+    inline : {'never', 'always'}
+        Whether the function is copied into its callers, as in :func:`numba.njit`.
+
+    Returns
+    -------
+    callable
+        The compiled function, cached on disk where there is a writable folder.
+    """
+    options: dict[str, Any] = {"fastmath": fastmath, "inline": inline}
+
+    def decorate(plain: Kernel) -> Kernel:
+        return _Lazy(plain, options)
+
+    return decorate if function is None else decorate(function)

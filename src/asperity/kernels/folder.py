@@ -1,0 +1,55 @@
+"""The folder of the user's cache where machine code of kernels stands.
+
+Machine code is run, so it is read from a folder only that belongs to the user and that nobody else
+may write to.
+"""
+
+import contextlib
+import functools
+import os
+import re
+import shutil
+import time
+from pathlib import Path
+
+from asperity.files.folders import cache_folder, is_ours_alone
+
+_KEPT_DAYS = 30
+_INSTEAD = "kernels are compiled anew"
+
+
+def kernels() -> Path | None:
+    """Return the folder, or None where there is none that is the user's alone.
+
+    What has not been used for a month goes.
+    """
+    return _kernels(os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME"))
+
+
+@functools.cache
+def _kernels(base: str | None, xdg: str | None) -> Path | None:
+    # The arguments are what the answer depends on; they make it once per process and setting.
+    folder = cache_folder("kernels")
+    if folder is None or not is_ours_alone(folder, _INSTEAD):
+        return None
+    with contextlib.suppress(OSError):
+        _remove_old(folder)
+    # A process that makes something may outlive a link to the folder.
+    return folder.resolve()
+
+
+def is_kept(folder: Path) -> bool:
+    """Return whether one of the folders inside may be read from, and note that it is used."""
+    try:
+        os.utime(folder)
+        return is_ours_alone(folder, _INSTEAD)
+    except OSError:
+        return False
+
+
+def _remove_old(folder: Path) -> None:
+    oldest = time.time() - _KEPT_DAYS * 86400
+    for each in folder.iterdir():
+        is_ours = re.fullmatch(r"[0-9a-f]{16}|[0-9a-f]{32}|new-\w+", each.name)
+        if is_ours and each.stat().st_mtime < oldest:
+            shutil.rmtree(each, ignore_errors=True)

@@ -1,0 +1,293 @@
+"""Entries in the user's cache: found there, or made there by other processes while this one waits.
+
+A package without a library of its own, as one in a checkout, has its kernels made one by one, each
+as soon as it is called for, with what is likely to be called for next made beside it.
+"""
+
+import atexit
+import contextlib
+import functools
+import os
+import shutil
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from asperity.kernels import folder as kernel_folder
+from asperity.kernels.native import keys, load, table
+from asperity.kernels.native.entries import Entry, likely, listed
+from asperity.kernels.native.target import FEATURES
+from asperity.kernels.native.types import UnlistedTypeError, types_of
+
+UNFIT = "unfit"
+"""Stands in place of machine code where there can be none; says why."""
+
+_MADE_HERE = "x86_64-linux"
+_PATIENCE = 0.01
+_REMIND = 1.0
+_MOST = 8
+_MEMORY = 1 << 30
+"""Bytes of the machine for each process: several times what one needs."""
+
+Native = Callable[[tuple[Any, ...]], Any]
+
+
+class Kept:
+    """A kernel's entries, each loaded at the first call with its types.
+
+    Parameters
+    ----------
+    entries : sequence of Entry
+        Those of the kernel.
+    """
+
+    def __init__(self, entries: Sequence[Entry]) -> None:
+        self._others = list(entries)
+        self._natives: list[Native] = []
+        self._of_types: list[tuple[list[Any], Native | None]] = []
+        self._lock = threading.Lock()
+
+    def entry(self, name: str) -> Native:
+        """Return the kernel as a function of a tuple."""
+        return self._call
+
+    def _call(self, arguments: tuple[Any, ...]) -> Any:
+        # Asked before: another thread may load the last one while this one looks.
+        is_whole = not self._others
+        for native in self._natives:
+            answer = native(arguments)
+            if answer is not NotImplemented:
+                return answer
+        made = None if is_whole else self._made_for(arguments)
+        return NotImplemented if made is None else made(arguments)
+
+    def _made_for(self, arguments: tuple[Any, ...]) -> Native | None:
+        with self._lock:
+            try:
+                types = types_of(arguments)
+            except UnlistedTypeError:
+                return None
+            for found, native in self._of_types:
+                if found == types:
+                    return native
+            for entry in self._others:
+                if entry.arguments == types:
+                    library = _obtained(entry)
+                    native = library.entry(entry.name) if library is not None else None
+                    if native is not None:
+                        self._natives.append(native)
+                    # Not before: who interrupts the wait may call once more.
+                    self._of_types.append((types, native))
+                    self._others.remove(entry)
+                    return native
+        return None
+
+
+@functools.cache
+def library(name: str) -> Kept | None:
+    """Return what is kept of a kernel, or can be; None where that is nothing.
+
+    Parameters
+    ----------
+    name : str
+        Full name of the kernel.
+    """
+    if not load.is_for_here(_MADE_HERE, FEATURES):
+        return None
+    entries = listed().named(name)
+    return Kept(entries) if entries else None
+
+
+def make(entries: Iterable[Entry]) -> None:
+    """Have entries made that are not kept yet, the dearest first, on all cores.
+
+    Parameters
+    ----------
+    entries : iterable of Entry
+        Of the list.
+    """
+    kernels = kernel_folder.kernels()
+    if kernels is not None and load.is_for_here(_MADE_HERE, FEATURES):
+        makers = _Makers(kernels)
+        try:
+            makers.make(sorted(entries, key=lambda each: -each.seconds))
+        finally:
+            makers.leave()
+
+
+def _obtained(entry: Entry) -> load.Library | None:
+    kernels = kernel_folder.kernels()
+    if kernels is None:
+        return None
+    try:
+        folder = kernels / keys.key(entry)
+    except (OSError, LookupError, ImportError):
+        return None  # there are no sources, or nothing that tells of Numba
+    _ASKED.add(entry.number)
+    if not folder.exists():
+        _makers(kernels).make([entry])
+    if not folder.exists() or not kernel_folder.is_kept(folder) or (folder / UNFIT).exists():
+        return None
+    remedy = "it is made anew the next time"
+    files = [folder / table.LIBRARY]
+    if not files[0].exists():
+        files = [folder / name for name in table.OBJECTS]
+    rows = load.checked(folder, files, remedy)
+    if rows is None:
+        shutil.rmtree(folder, ignore_errors=True)
+        return None
+    if len(files) == 1:
+        return load.opened(rows, files[0])
+    from asperity.kernels.native import unlinked
+
+    return unlinked.opened(rows, files)
+
+
+_ASKED: set[int] = set()
+
+
+class _Maker:
+    """A process that makes entries, and says which one it is at."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self._process = process
+
+    def ask(self, line: str) -> None:
+        """Tell what is wanted; what it was told before no longer counts."""
+        assert self._process.stdin is not None
+        with contextlib.suppress(OSError, ValueError):
+            self._process.stdin.write(line)
+            self._process.stdin.flush()
+
+    def ended(self) -> tuple[int, str] | None:
+        """Return how it ended and the key of what it was at; None where it has not."""
+        code = self._process.poll()
+        if code is None:
+            return None
+        said = self._process.stdout.read() if self._process.stdout is not None else ""
+        self._close()
+        return code, said.rpartition("\n")[0].rpartition("\n")[2]
+
+    def leave(self) -> None:
+        """Let it end by itself, after what it is at."""
+        self._close()
+        # Or Python warns that it runs on.
+        self._process.returncode = self._process.poll() or 0
+
+    def _close(self) -> None:
+        for each in (self._process.stdin, self._process.stdout):
+            if each is not None:
+                with contextlib.suppress(OSError):
+                    each.close()
+
+
+class _Makers:
+    """Processes that make entries, and end when this one has.
+
+    One that is killed at an entry has perhaps asked for more memory than there is: that entry is
+    not waited for any more, and there is one process less, but for the last.
+    """
+
+    def __init__(self, kernels: Path) -> None:
+        self._kernels = kernels
+        self._running: list[_Maker] = []
+        self._waited_for: list[Entry] = []
+        self._lost: set[str] = set()
+        self._deaths = 0
+        self._begins = True
+        self._reminded = -_REMIND
+        self._lock = threading.Lock()
+
+    def make(self, entries: Sequence[Entry]) -> None:
+        """Wait until entries are made, or cannot be; the first first."""
+        missing = {keys.key(entry): entry for entry in entries}
+        with self._lock:
+            self._waited_for += missing.values()
+            self._reminded = -_REMIND
+        try:
+            while missing:
+                with self._lock:
+                    self._look()
+                    if time.monotonic() - self._reminded > _REMIND:
+                        self._reminded = time.monotonic()
+                        self._tell()
+                    for key in list(missing):
+                        if key in self._lost or (self._kernels / key).exists():
+                            self._waited_for.remove(missing.pop(key))
+                    if not self._running:
+                        return
+                if missing:
+                    time.sleep(_PATIENCE)
+        finally:
+            with self._lock:
+                for entry in missing.values():
+                    self._waited_for.remove(entry)
+
+    def _look(self) -> None:
+        for each in list(self._running):
+            if (ended := each.ended()) is None:
+                continue
+            self._running.remove(each)
+            code, key = ended
+            if key:
+                self._lost.add(key)
+                self._deaths += 1
+                self._reminded = -_REMIND
+            elif code:
+                # It cannot be begun, or the sources are others by now.
+                self._begins = False
+
+    def _tell(self) -> None:
+        wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED)])
+        missing = [key for key in map(keys.key, wanted) if key not in self._lost]
+        missing = [key for key in missing if not (self._kernels / key).exists()]
+        most = most_makers()
+        count = min(max(most - self._deaths, 1), len(missing))
+        if self._begins and self._deaths <= most:
+            try:
+                while len(self._running) < count:
+                    self._running.append(_Maker(_begun(self._kernels)))
+            except (OSError, ValueError):
+                self._begins = False
+        for each in self._running:
+            each.ask(" ".join(missing) + "\n")
+
+    def leave(self) -> None:
+        """Let the processes end by themselves, after what they are at."""
+        while self._running:
+            self._running.pop().leave()
+
+
+@functools.cache
+def _makers(kernels: Path) -> _Makers:
+    makers = _Makers(kernels)
+    atexit.register(makers.leave)
+    return makers
+
+
+def _begun(kernels: Path) -> subprocess.Popen[str]:
+    alone = "-I" if sys.flags.isolated else "-P"
+    # What is kept is for everybody: how Numba compiles for this one run is not.
+    environment = {name: os.environ[name] for name in os.environ if not name.startswith("NUMBA_")}
+    return subprocess.Popen(
+        [
+            *(sys.executable, alone, "-m", "asperity.kernels.building.worker"),
+            *(str(kernels), str(most_makers())),
+        ],
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+
+
+def most_makers() -> int:
+    """Return how many processes make entries at a time: as many as have cores and memory."""
+    cores = len(os.sched_getaffinity(0))
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return max(1, min(cores, _MOST, memory // _MEMORY))
