@@ -62,13 +62,13 @@ def wait_until(process, folder, pattern):
 STOPS_ITSELF = """
 import os, sys
 from asperity.cli.main import main
-from asperity.runs import keeper
+from asperity.runs import checkpoint_file
 number, keep = int(sys.argv.pop(1)), keeper.Keeper.keep
 def keep_and_stop(self, state):
     keep(self, state)
     keeper.Keeper.keep = keep
     os.kill(os.getpid(), number)
-keeper._PAUSE, keeper.Keeper.keep = 0.0, keep_and_stop
+checkpoint_file._PAUSE, keeper.Keeper.keep = 0.0, keep_and_stop
 main()
 """
 

@@ -33,7 +33,7 @@ def setup():
     contact = made.model.contact
     body = contact.sector.body
     contact.slots = 1
-    contact.candidates, contact.answer = Candidates.room(body, 1), Answer.room(body, 1)
+    contact.candidates, contact.answer = Candidates.workspace(body, 1), Answer.workspace(body, 1)
     return made
 
 

@@ -38,7 +38,7 @@ from asperity.drive.static.solve import (
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
-    Asked,
+    LoadCase,
     phases_of,
     sweep,
     touching_angles,
@@ -70,7 +70,7 @@ def model_of(*settings, phases=PHASES):
 
 def test_one_tooth_takes_the_torque_of_another_implementation():
     model = model_of(*ONE_TOOTH)
-    asked = [Asked(LOAD, sense) for sense in (1, FRICTIONLESS, REVERSED)]
+    asked = [LoadCase(LOAD, sense) for sense in (1, FRICTIONLESS, REVERSED)]
     found = [course.worm_torque.mean() for course in model.courses(asked)]
     assert found[0] == pytest.approx(34.73, abs=0.03)
     # Without friction no work is lost over a pitch.
@@ -82,7 +82,7 @@ def test_the_torque_is_that_of_an_involute_worm_at_the_radius_of_its_force():
     model = model_of(*ONE_TOOTH)
     means = []
     (course,) = model.courses(
-        [Asked(LOAD, look=lambda _, b: means.append(contact_means(b.contact, b)))]
+        [LoadCase(LOAD, evaluate=lambda _, b: means.append(contact_means(b.contact, b)))]
     )
     force, radius, way = np.array(means).T
     point = model.problem.point(float(force @ radius / force.sum()))
@@ -216,13 +216,13 @@ def test_a_sector_of_five_takes_the_torque_of_another_implementation():
 @pytest.mark.slow
 def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_stand_off():
     model = model_of("drive.teeth=5", phases=24)
-    (on_flank,) = model.courses([Asked(LOAD)])
+    (on_flank,) = model.courses([LoadCase(LOAD)])
     sector = model.sector
     faces = Body.of(sector.surface, sector.body.flexibility)
     contact = TeethContact(dataclasses.replace(sector, body=faces), model.friction, coupled=False)
     phases = phases_of(contact, 24)
     touching = touching_angles(contact, phases)
-    (course,) = sweep(Equilibrium(contact), phases, touching, [Asked(LOAD)])
+    (course,) = sweep(Equilibrium(contact), phases, touching, [LoadCase(LOAD)])
     pair = sector.wheel.pair
     exact = transmission(pair, sector.wheel.flank(1)).mean
     assert exact - course.error.mean() == pytest.approx(365e-6, abs=20e-6)
@@ -235,7 +235,7 @@ def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_sta
 @pytest.mark.parametrize(("density", "peak"), [("intermediate", 83.5e-6), ("fine", 77.5e-6)])
 def test_torque_deflection_and_transmission_error_agree_on_three_meshes(density, peak):
     coarse, finer = (model_of(f"drive.density={each}", phases=24) for each in ("coarse", density))
-    one, other = (model.courses([Asked(LOAD)])[0] for model in (coarse, finer))
+    one, other = (model.courses([LoadCase(LOAD)])[0] for model in (coarse, finer))
     assert one.worm_torque.mean() == pytest.approx(other.worm_torque.mean(), rel=1e-3)
     assert one.mean_deflection == pytest.approx(other.mean_deflection, rel=0.05)
     assert np.ptp(one.error) == pytest.approx(np.ptp(other.error), rel=0.15)
@@ -256,7 +256,7 @@ def test_gearset_2_locks_itself():
 def patterns_of(*settings):
     model = model_of(*ONE_TOOTH, *settings, phases=2)
     forward = Pattern(model.resolved)
-    model.courses([Asked(PATTERNS[-1] * LOAD, look=forward.look)])
+    model.courses([LoadCase(PATTERNS[-1] * LOAD, evaluate=forward.evaluate)])
     back = _back_patterns(model, 0, 2)
     return forward.largest, back
 

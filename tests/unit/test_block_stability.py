@@ -116,7 +116,7 @@ def linear_step(block, motion, state):
     size = len(motion.mass)
     place, velocity = np.empty((2, size))
     hht.predict(step, state, 0.0, np.zeros(size), np.empty((hht.ROOM, size)), place, velocity)
-    end = hht.Coordinates.room(size)
+    end = hht.Coordinates.workspace(size)
     end.place[:] = np.linalg.solve(np.eye(size) + step.compliance @ motion.stiffness, place)
     hht.complete(step, state, -motion.stiffness @ end.place, end)
     return end

@@ -8,7 +8,7 @@ from typing import Annotated, ClassVar, Literal
 import pydantic
 import pytest
 
-from asperity.casefile import Table, read_case, told
+from asperity.casefile import Table, naming_source, read_case
 from asperity.errors import InputError
 from asperity.files.shipped import SPEAKING, describe, shipped_case, shipped_cases
 from asperity.units import Quantity
@@ -239,7 +239,7 @@ def test_what_a_model_refuses_names_the_file_or_the_setting(case_file):
     case = read_case(case_file, TABLES, ["body.speed=2 mm/s"])
 
     def model(text):
-        with told(case), told(case):
+        with naming_source(case), naming_source(case):
             raise InputError(text)
 
     assert refusal(model, "body.speed is too high") == (

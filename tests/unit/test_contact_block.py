@@ -22,7 +22,7 @@ from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.system import System
 from asperity.errors import ConvergenceError, InputError
 from asperity.runs import Run
-from asperity.runs.keeper import Keeper
+from asperity.runs.checkpoint_file import CheckpointFile
 from asperity.runs.tree import read_tree, write_tree
 from asperity.slider.march import march as slide
 
@@ -422,7 +422,7 @@ def test_a_march_goes_on_from_what_is_kept_of_it_and_of_nothing_else(tmp_path):
     path = tmp_path / "run.interrupted.npz"
     assert not march().resume()
     first = march()
-    Keeper(path, march_key(first.problem), told.append).keep(first.state())
+    CheckpointFile(path, march_key(first.problem), told.append).save(first.state())
     again = march()
     assert again.resume()
     assert again.stepper.state.forces == first.stepper.state.forces
@@ -434,7 +434,7 @@ def test_a_march_goes_on_from_what_is_kept_of_it_and_of_nothing_else(tmp_path):
 def test_a_flipped_bit_in_what_is_kept_is_found_told_and_gone_on_without(tmp_path):
     path, told = tmp_path / "run.interrupted.npz", []
     march = stopped(problem(), 20, tmp_path / "kept.npz")
-    Keeper(path, march_key(march.problem), told.append).keep(march.state())
+    CheckpointFile(path, march_key(march.problem), told.append).save(march.state())
     whole = bytearray(path.read_bytes())
     whole[whole.find(march.stepper.state.coordinates.place.tobytes())] ^= 1
     path.write_bytes(whole)

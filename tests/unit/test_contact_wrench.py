@@ -19,7 +19,7 @@ def solved(flexibility):
         np.array([2, 6]), np.arange(2), np.arange(2), FACES, weights, places, np.arange(6),
         np.ones(6, np.int64),
     )  # fmt: skip
-    answer = Answer.room(body, 1).of(0)
+    answer = Answer.workspace(body, 1).of(0)
     answer.u[:] = 0.1 * rng.normal(size=18)
     answer.pressure[:] = [1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0, 4.0]
     touching = answer.pressure > 0.0
@@ -57,7 +57,7 @@ def test_its_slope_is_that_of_laws_which_turn_with_the_surface_on_a_body_that_gi
     forces = np.linalg.solve(np.eye(24) - laws @ gives, direct - laws @ ways)
     expected = ways.T @ forces
     found = np.zeros((6, 6))
-    assert wrench_slope._function(body, candidates, answer, Work.room(body, 8), found)
+    assert wrench_slope._function(body, candidates, answer, Work.workspace(body, 8), found)
     assert found == pytest.approx(expected, rel=1e-10, abs=1e-12)
 
 

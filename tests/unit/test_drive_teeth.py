@@ -30,7 +30,7 @@ from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.static.solve import StaticModel
-from asperity.drive.static.sweep import Asked
+from asperity.drive.static.sweep import LoadCase
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, TeethContact
 from asperity.drive.teeth.placing import place_worm
 from asperity.errors import ConvergenceError
@@ -289,7 +289,7 @@ def test_by_the_standard_s_friction_teeth_are_loaded_as_without_vibration():
     settings = ("drive.friction=iso14521", "drive.flanks=driving", "drive.phases=8")
     model = model_of(*settings, "vibration.displacement_amplitude=1e-6 um", "drive.window=1")
     static = StaticModel(model.problem, Run())
-    (course,) = static.courses([Asked(model.problem.load)])
+    (course,) = static.courses([LoadCase(model.problem.load)])
     assert static.friction == pytest.approx(model.friction, rel=0.01)
     wanted = float(course.worm_torque.mean())
     point = model.point
@@ -370,7 +370,7 @@ def test_an_open_tooth_tells_how_fast_it_comes_near_before_it_touches():
 def test_a_step_that_no_tooth_can_be_solved_for_ends_in_one_line(monkeypatch):
     model = model_of("drive.flanks=driving", "vibration.frequency=20 kHz")
     march = march_of(model)
-    narrow = model.teeth._replace(work=Work.room(model.sector.body, 2))
+    narrow = model.teeth._replace(work=Work.workspace(model.sector.body, 2))
     monkeypatch.setitem(model.__dict__, "teeth", narrow)
     with pytest.raises(ConvergenceError, match="the mesh are left with 1 of its forces"):
         march.stretches(1, 1e-6)

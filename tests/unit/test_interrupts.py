@@ -5,9 +5,9 @@ import sys
 
 CLEANED_UP = """
 import signal, time
-from asperity.processes.interrupts import hear_again
+from asperity.processes.interrupts import reraise_pending
 
-hear_again()
+reraise_pending()
 
 class Kept:
     def __del__(self):

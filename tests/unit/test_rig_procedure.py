@@ -260,7 +260,7 @@ def test_a_supply_that_gives_something_else_latches(tmp_path):
     assert not rig.on & {"steel", "bronze", "vibration"}
 
 
-class Asked:
+class LoadCase:
     """A person who notes what is on when they are sent to the rig."""
 
     def __init__(self, person, rig):
@@ -277,7 +277,7 @@ class Asked:
 def test_nobody_is_sent_to_a_rig_that_is_on(tmp_path):
     case = rigs.small_case()
     bench, rig = rigs.made_bench(case)
-    person = Asked(bench.person, rig)
+    person = LoadCase(bench.person, rig)
     answer = rigs.run(case, tmp_path, bench=dataclasses.replace(bench, person=person))
     assert answer.failure is None
     assert len(person.found) > 10
@@ -289,7 +289,7 @@ def test_what_is_not_read_back_to_be_off_keeps_a_person_from_the_rig(disc, tmp_p
     # No sample tells of it, since nothing is recorded between the cell and the person.
     case = rigs.small_case('plan.idle="0 s"', 'plan.frequencies=["750 Hz"]')
     bench, rig = rigs.made_bench(case)
-    person = Asked(bench.person, rig)
+    person = LoadCase(bench.person, rig)
     motors = dict(bench.motors)
     motors[disc] = rigs.StuckSupply(motors[disc])
     answer = rigs.run(
@@ -325,7 +325,7 @@ def test_a_drive_that_only_its_signal_tells_of_is_listened_to(begins_again, kind
 
         safe = begun
 
-    person = Asked(bench.person, rig)
+    person = LoadCase(bench.person, rig)
     parts = {one.name: getattr(bench, one.name) for one in dataclasses.fields(bench)}
     parts |= {"vibration": Mute(rig), "amplifier": None, "listener": None, "person": person}
     answer = rigs.run(case, tmp_path, bench=Heard(**parts))

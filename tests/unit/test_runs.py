@@ -108,7 +108,7 @@ def work(run, steps, press_at=None):
     kept = run.resume(KEY)
     state = kept or {"total": 0.0, "done": 0}
     first = state["done"]
-    with run.going_on():
+    with run.interruptible():
         while state["done"] < steps:
             state["done"] += 1
             state["total"] += state["done"]
@@ -132,8 +132,8 @@ def test_an_interrupted_work_goes_on_where_it_was(tmp_path):
 def test_what_was_kept_before_is_told_where_nothing_is_kept_now(tmp_path):
     run = Run(folder=tmp_path)
     run.resume(KEY)
-    with run.going_on():
-        run._keeper.keep({"done": 3})
+    with run.interruptible():
+        run._file.save({"done": 3})
         os.kill(os.getpid(), signal.SIGINT)
         with pytest.raises(
             Interrupted, match=r"after 3 of 9 cycles; the same command goes on from"
@@ -186,7 +186,7 @@ def test_a_work_without_a_folder_is_interrupted_without_a_trace(tmp_path):
 
 def test_a_work_that_keeps_nothing_is_interrupted_at_its_next_step(tmp_path):
     run = Run(folder=tmp_path)
-    with run.going_on():
+    with run.interruptible():
         run.checkpoint(3, 9, what="pulls")
         signal.raise_signal(signal.SIGINT)
         with pytest.raises(Interrupted, match=r"^interrupted after 4 of 9 pulls$"):

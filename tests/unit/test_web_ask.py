@@ -8,7 +8,7 @@ import pytest
 from asperity.casefile import Case, names_file
 from asperity.commands import COMMANDS, case_tables
 from asperity.errors import InputError
-from asperity.web.ask import asked_of, confine
+from asperity.web.ask import confine, request_of
 from asperity.web.folder import Folder
 
 FILES = [
@@ -66,24 +66,24 @@ def test_every_command_can_be_asked_and_says_how_on_a_terminal(folder, command):
     body = {"command": command.name, "arguments": arguments, "options": options}
     if command.case:
         body["case"] = "table-4.3"
-    asked = asked_of(body, folder)
+    asked = request_of(body, folder)
     assert asked.given == arguments | options
     words = shlex.split(asked.line)
     assert words[: 1 + len(command.name.split())] == ["asperity", *command.name.split()]
     assert {f"--{name}" for name in options} <= {*words}
     with pytest.raises(InputError, match="none of the options"):
-        asked_of({**body, "options": {**options, "no-such": "x"}}, folder)
+        request_of({**body, "options": {**options, "no-such": "x"}}, folder)
     for name, option in ((o.name, o) for o in command.options if o.name in options):
         with pytest.raises(InputError, match=f"{name} is 5"):
-            asked_of({**body, "options": {**options, name: 5}}, folder)
+            request_of({**body, "options": {**options, name: 5}}, folder)
         if option.default is None:
             left = {key: value for key, value in options.items() if key != name}
             with pytest.raises(InputError, match=f"needs {name}"):
-                asked_of({**body, "options": left}, folder)
+                request_of({**body, "options": left}, folder)
 
 
 def asked_key(folder, command, **body):
-    return asked_of({"command": command, **body}, folder).key(None)
+    return request_of({"command": command, **body}, folder).key(None)
 
 
 def test_what_lies_beside_recordings_is_part_of_what_is_asked(folder):

@@ -42,7 +42,7 @@ def answer(problem: BlockProblem, run: Run) -> BlockResult | SettledBlock:
         _ = march.stepper
         if march.flutter is not None:
             run.notify(flutter_note(problem, march.flutter))
-        with run.going_on():
+        with run.interruptible():
             return march.run()
     except (ConvergenceError, KeyboardInterrupt) as error:
         why = str(error)

@@ -94,7 +94,7 @@ class Case:
         for setting in listed(settings):
             given[apply(raw, setting, self.known)] = " ".join(setting.split())
         case = dataclasses.replace(self, tables={}, raw=raw, settings=given)
-        with told(case):
+        with naming_source(case):
             for name, entries in raw.items():
                 model = _known_table(name, self.known)
                 case.tables[name] = model.model_validate(entries, context=_TEXT_ONLY)
@@ -110,7 +110,7 @@ class Case:
         raw = dict(self.raw)
         for path, value in values.items():
             name, _, key = path.partition(".")
-            with told(self):
+            with naming_source(self):
                 model = _known_table(name, self.known)
             if name not in changed:
                 old = self.tables.get(name)
@@ -126,7 +126,7 @@ class Case:
                     entries[key] = entry
         tables = dict(self.tables)
         for name, entries in changed.items():
-            with told(self):
+            with naming_source(self):
                 tables[name] = self.known[name].model_validate(entries)
         return dataclasses.replace(self, tables=tables, raw=raw)
 
@@ -167,7 +167,7 @@ def _paths(value: object) -> Iterator[Path]:
 
 
 @contextlib.contextmanager
-def told(case: Case, *others: str) -> Iterator[None]:
+def naming_source(case: Case, *others: str) -> Iterator[None]:
     """Let what is refused of a case name the file or the setting that gave it.
 
     Parameters

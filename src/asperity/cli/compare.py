@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from asperity.casefile.case import Case, read_case, told
+from asperity.casefile.case import Case, naming_source, read_case
 from asperity.cli import show
 from asperity.commands import Command, case_tables
 from asperity.files.store import output_folder
@@ -29,7 +29,7 @@ def compare(
 
 
 def _answered(command: Command, case: Case) -> Result:
-    with told(case), show.progress_bar(command.counts) as progress:
+    with naming_source(case), show.progress_bar(command.counts) as progress:
         options = {option.name: option.default for option in command.options}
         problem = command.prepared(case, **options)
         return command.solved(problem, Run(progress=progress, notify=show.note))

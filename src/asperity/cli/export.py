@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from asperity.casefile import Case, read_case, told
+from asperity.casefile import Case, naming_source, read_case
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, choices, suggestion
@@ -90,7 +90,7 @@ def _law(name: str, program: str, settings: Sequence[str], over: str) -> Files:
         values = sorted(value for value in axis.values if not isinstance(value, str))
         if len(values) < 2:
             raise InputError(f"--over {over}: a map is over two numbers or more")
-    with told(case), show.progress_bar("laws") as progress:
+    with naming_source(case), show.progress_bar("laws") as progress:
         wanted: list[dict[str, object]] = [{key: value} if key else {} for value in values]
         models = [
             prepare(case.replace_values({"solve.method": "homogenised", **one})) for one in wanted

@@ -4,7 +4,7 @@ import os
 import sys
 
 from asperity.cli import interrupt
-from asperity.processes.interrupts import hear_again
+from asperity.processes.interrupts import reraise_pending
 
 _DIGITS = 4  # of a terminal's width
 TYPE_CHECKING = False  # as typing has it, which takes its time
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def main(arguments: list[str] | None = None) -> "NoReturn":
     """Run the command line and leave with its exit code."""
     interrupt.at_once()
-    hear_again()
+    reraise_pending()
     columns = os.environ.get("COLUMNS", "")
     if columns and not columns.strip("0"):
         # No width at all, in which nothing would be printed: as if it were not set.

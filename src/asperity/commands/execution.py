@@ -11,7 +11,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, get_args
 
-from asperity.casefile import told
+from asperity.casefile import naming_source
 from asperity.casefile.project import Project
 from asperity.commands.command import Command
 from asperity.errors import ConvergenceError, InputError, StorageError, choices, plain, shown
@@ -96,7 +96,7 @@ def execute(
     found = command.case_of(case, settings, **options)
     given = [options[argument.name] for argument in command.arguments if not argument.many]
     teller.read(found)
-    with told(found, *given):
+    with naming_source(found, *given):
         problem = command.prepared(found, **options)
     if out is None and command.into:
         out = Path(options[command.into])
@@ -108,7 +108,7 @@ def execute(
             watch=teller.so_far,
         )  # fmt: skip
         try:
-            with told(found, *given):
+            with naming_source(found, *given):
                 result = command.solved(problem, run)
         except ConvergenceError as error:
             teller.unsolved(error)

@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.drive.friction_curve import FrictionCurve
 from asperity.drive.lugre import static_ratio
 from asperity.drive.parameters import Drive
@@ -51,7 +51,7 @@ def rating_inputs(case: Case) -> Inputs:
         The case has no ``[gearset]`` or ``[operation]``, or prescribes the friction, which then
         does not depend on the speed.
     """
-    with told(case):
+    with naming_source(case):
         options = case.get(RatingOptions, RatingOptions())
         gearset = case.require(Gearset)
         given = inputs(gearset, driven(gearset, operation_of(case), options), options)

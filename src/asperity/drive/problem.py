@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Self
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.drive.friction import check_friction, mesh_friction
 from asperity.drive.lacking import FREE_WORM, moved, require_all
 from asperity.drive.parameters import Actuator, Drive, Shaft
@@ -98,7 +98,7 @@ class DriveProblem:
             They do not make a gearset's drive.
         """
         require_all(case, shaken=shaken)
-        with told(case):
+        with naming_source(case):
             run = operation_of(case)
             operation = driven(case.require(Gearset), run, case.get(RatingOptions))
             vibration = shape = None

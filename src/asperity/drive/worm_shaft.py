@@ -1,6 +1,6 @@
 """What the table `[shaft]` of a drive lacks, from the worm's shaft where a case describes it."""
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.drive.parameters import STEEL_MODULUS, Shaft
 from asperity.gearset.parameters import Gearset
 from asperity.shafts.give import plain_shaft
@@ -16,7 +16,7 @@ def shaft_of(case: Case) -> Shaft:
     shaft = case.get(Shaft, Shaft())
     if WormShaft.table not in case or Gearset.table not in case:
         return shaft
-    with told(case):
+    with naming_source(case):
         geometry = case.require(Gearset).require_consistent().geometry
         plain = plain_shaft(case.require(WormShaft), geometry, STEEL_MODULUS, shaft.span)
     lacking = {

@@ -8,7 +8,7 @@ import threading
 _SOON = 0.02
 
 
-def hear_again() -> None:
+def reraise_pending() -> None:
     """Let a Ctrl-C that came where nothing can be raised be heard a moment later.
 
     Python drops what is raised while something is being cleaned up, a Ctrl-C with it, and prints

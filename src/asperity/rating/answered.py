@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.library import find
 from asperity.gearset.lubricants import Lubricant
@@ -34,7 +34,7 @@ def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
     gearset, operation = case.require(Gearset), run_of(case)
     options = case.get(RatingOptions, RatingOptions())
     wanted = STANDARDS if standard == ALL else (standard,)
-    with told(case):
+    with naming_source(case):
         operation = driven(gearset, operation, options)
     require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
     return case, wanted

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.errors import InputError, require_types
 from asperity.files.store import harmless_cell, write_text
 from asperity.gearset.geometry import Geometry
@@ -373,14 +373,14 @@ def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
     """Rate the worm gearset of a case file; as `rate`."""
     options = case.get(RatingOptions)
     gearset, operation = case.require(Gearset), run_of(case)
-    with told(case):
+    with naming_source(case):
         off, folder = case.get(Tolerances), case.folder
         return rate(gearset, operation, options, standards, folder=folder, tolerances=off)
 
 
 def run_of(case: Case) -> Operation:
     """Return how the gearset of a case is run; what is refused names the case."""
-    with told(case):
+    with naming_source(case):
         return operation_of(case)
 
 

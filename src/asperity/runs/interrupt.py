@@ -26,7 +26,7 @@ class Stopped(Exception):  # noqa: N818 - being told to stop is no error
     """A work was told to stop before it was done, from another thread."""
 
 
-class Ears:
+class SignalFlag:
     """Notes Ctrl-C instead of stopping in the middle of something; a second one stops at once.
 
     Attributes

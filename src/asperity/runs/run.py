@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from asperity.errors import StorageError
-from asperity.runs.interrupt import Ears, Interrupted
-from asperity.runs.keeper import Keeper
+from asperity.runs.checkpoint_file import CheckpointFile
+from asperity.runs.interrupt import Interrupted, SignalFlag
 from asperity.runs.tree import Tree
 
 Progress = Callable[[int, int], None]
@@ -39,8 +39,8 @@ class Run:
     """How a work is run; as it stands, in silence and without a trace.
 
     A solver that takes long calls :meth:`resume` before its first step, works inside
-    :meth:`going_on`, and calls :meth:`checkpoint` between two steps, with its state as a tree of
-    arrays.
+    :meth:`interruptible`, and calls :meth:`checkpoint` between two steps, with its state as a
+    tree of arrays.
 
     Parameters
     ----------
@@ -79,8 +79,8 @@ class Run:
         self.folder = folder
         self.detailed = folder is not None
         self._path = None if folder is None else folder / f"{stem}.interrupted.npz"
-        self._keeper: Keeper | None = None
-        self._ears = Ears()
+        self._file: CheckpointFile | None = None
+        self._signals = SignalFlag()
 
     def watch(self, made: Callable[[], Any]) -> None:
         """Let what is there of an answer be looked at; a full disk costs the look and no more."""
@@ -129,13 +129,13 @@ class Run:
         """Return the state in which this very work was left, None where it begins anew."""
         if self._path is None:
             return None
-        self._keeper = Keeper(self._path, key, self.notify)
-        return self._keeper.restore()
+        self._file = CheckpointFile(self._path, key, self.notify)
+        return self._file.restore()
 
     @contextlib.contextmanager
-    def going_on(self) -> Iterator[None]:
+    def interruptible(self) -> Iterator[None]:
         """Hear Ctrl-C at the next checkpoint instead of anywhere; a second one stops at once."""
-        with self._ears.listening():
+        with self._signals.listening():
             yield
 
     def checkpoint(
@@ -162,17 +162,17 @@ class Run:
             Ctrl-C was pressed; what is kept is said.
         """
         self._tell(done, total)
-        keeper = self._keeper
-        if self._ears.heard:
+        file = self._file
+        if self._signals.heard:
             line = f"interrupted after {done} of {total} {what}"
-            if keeper is not None and state is not None and done:
+            if file is not None and state is not None and done:
                 with contextlib.suppress(StorageError):
-                    keeper.keep(state())
-            if keeper is not None and keeper.kept:
-                line += f"; the same command goes on from {keeper.path}"
+                    file.save(state())
+            if file is not None and file.saved:
+                line += f"; the same command goes on from {file.path}"
             raise Interrupted(line)
-        if keeper is not None and state is not None:
-            keeper.now_and_then(state)
+        if file is not None and state is not None:
+            file.now_and_then(state)
 
     def finished(self) -> None:
         """Remove what was kept, when the files of the answer are written."""

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.bs721.tables import Tables
@@ -60,7 +60,7 @@ def prepare(case: Case) -> Prepared:
         raise InputError(
             f"{case.source}: the table [worm_shaft] is missing, and [wheel_shaft]; add one"
         )
-    with told(case):
+    with naming_source(case):
         options = case.get(RatingOptions, RatingOptions())
         operation = driven(gearset, operation_of(case), options)
         gearset.require_consistent()
@@ -135,7 +135,7 @@ def shaft_rows(
     if not given_shafts(case):
         return ()
     problem = prepare(case)
-    with told(case):
+    with naming_source(case):
         rating = iso or rate_by("iso14521", problem.given, problem.tables)
         if loads is None:
             loads = loads_of(problem.given, rating)

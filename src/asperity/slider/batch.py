@@ -29,8 +29,8 @@ from asperity.slider.scaled import (
     PRESSED_SUMS,
     STATE,
     SUMS,
+    NormalLoading,
     Parameters,
-    Pressing,
 )
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import energies, pressed_energies, summarise
@@ -91,7 +91,7 @@ class _Body(NamedTuple):
     model: Model
     table: Timetable
     p: Parameters
-    q: Pressing | None
+    q: NormalLoading | None
 
 
 def solve_many(

@@ -92,12 +92,12 @@ def _make_block(law: int, window: bool, wait: bool) -> Any:
                 if law == VECTOR:
                     rate = math.sqrt(dx * dx + dy * dy)
                 else:
-                    dy1 = own_1 * wy
-                    dy2 = own_2 * wy - uy
+                    slip_body = own_1 * wy
+                    slip_base = own_2 * wy - uy
                     hx = sx + 0.5 * dx
                     hy = sy + 0.5 * dy
                     if law == SPLIT:
-                        rate = abs(hx * dx + hy * dy1) + abs(hy * dy2)
+                        rate = abs(hx * dx + hy * slip_body) + abs(hy * slip_base)
                     else:
                         rate = abs(hx * dx + hy * dy)
                     rate = rate / math.sqrt(hx * hx + hy * hy + _TINY)

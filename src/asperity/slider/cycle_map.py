@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.slider import kernels as k
-from asperity.slider.integrators import Pressed, integrator
+from asperity.slider.integrators import LoadedIntegrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.pressed import march_pressed
 from asperity.slider.shooting import ACCEPTED, differentiated, run, shoot
@@ -62,7 +62,7 @@ class Cycle:
         self.rises = still
         self.springs = np.zeros((2, 0))
         self.q = None
-        if isinstance(self.body, Pressed):
+        if isinstance(self.body, LoadedIntegrator):
             self.q, self.springs = self.body.q, self.body.kept["springs"]
             if shaken:
                 lead = phase + model.normal_lead

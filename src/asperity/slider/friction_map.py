@@ -98,7 +98,7 @@ def tabulate(
     doing = Run() if run is None else run
     doing.forecast(sum(map(estimate, models)), f"{len(models)} laws")
     laws = []
-    with doing.going_on():
+    with doing.interruptible():
         for done, model in enumerate(models):
             doing.checkpoint(done, len(models), what="laws")
             laws.append(homogenise(model))

@@ -17,7 +17,7 @@ from asperity.friction.parameters import Friction
 from asperity.normal import elastic_force, indentation
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.held_kernels import carry
-from asperity.slider.integrators import Pressed
+from asperity.slider.integrators import LoadedIntegrator
 from asperity.slider.model import Model
 from asperity.slider.periodic import cycle_steps, settle
 from asperity.slider.pressed import friction_limit
@@ -87,7 +87,7 @@ class HeldBody:
         self.multiplier: float | None = None
         self.sums: np.void | None = None
         self.notes: tuple[str, ...] = ()
-        if isinstance(cycle.body, Pressed):
+        if isinstance(cycle.body, LoadedIntegrator):
             self._press(cycle, steps)
         self.standing = cycle.body.kept["state"].copy()
         self._cycle = cycle

@@ -118,12 +118,12 @@ class TwoPhase(Integrator):
         )  # fmt: skip
 
 
-class Pressed(Integrator):
+class LoadedIntegrator(Integrator):
     """A body with a normal freedom, or under a machine that presses it.
 
     Attributes
     ----------
-    q : Pressing
+    q : NormalLoading
         The numbers of what is normal to the plane.
     """
 
@@ -175,7 +175,7 @@ def _nodes(count: int, kind: np.dtype[np.void]) -> tuple[npt.NDArray[np.void], F
 def integrator(model: Model, step: float) -> Integrator:
     """Return what marches a body."""
     if model.normal is not None:
-        return Pressed(model, step)
+        return LoadedIntegrator(model, step)
     if model.solve.scheme == "two-phase":
         return TwoPhase(model, step)
     return Integrator(model, step)

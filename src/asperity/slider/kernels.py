@@ -250,9 +250,9 @@ def march_block(state, sums, p, increments, steps, nodes):
         stretch += drive - wx
         y += wy
         dx = wx - ux
-        dy1 = own_1 * wy
-        dy2 = own_2 * wy - uy
-        dy = dy1 + dy2
+        slip_body = own_1 * wy
+        slip_base = own_2 * wy - uy
+        dy = slip_body + slip_base
         last_fx = fx
         last_fy = fy
         last_fd = fd
@@ -261,7 +261,7 @@ def march_block(state, sums, p, increments, steps, nodes):
         wx1 = wx
         wy1 = wy
         if model == DAHL:
-            sx, sy = advance(sx, sy, dx, dy1, 0.0, dy2, exponent, law)
+            sx, sy = advance(sx, sy, dx, slip_body, 0.0, slip_base, exponent, law)
             fx = sx
             fy = sy
             wx1 = retained * wx + mobility_x * (free - fx)
@@ -281,7 +281,14 @@ def march_block(state, sums, p, increments, steps, nodes):
             limit = stribeck_share(speed, p.static_ratio, p.stribeck)
             held = breaks_away_at(limit, wx, p)
             sx, sy = advance(
-                sx / limit, sy / limit, dx / limit, dy1 / limit, 0.0, dy2 / limit, 1.0, law
+                sx / limit,
+                sy / limit,
+                dx / limit,
+                slip_body / limit,
+                0.0,
+                slip_base / limit,
+                1.0,
+                law,
             )
             sx *= limit
             sy *= limit

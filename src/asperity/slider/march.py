@@ -320,7 +320,7 @@ def march(
         if kept is not None and kept["finer"] == finer.finer:
             body.restore(kept)
             kept = None
-        with run.going_on():
+        with run.interruptible():
             return body.run()
 
     first = None

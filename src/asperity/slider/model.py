@@ -23,7 +23,7 @@ from asperity.slider.parameters import (
     in_proportion,
     unit_vector,
 )
-from asperity.slider.scaled import MODELS, Parameters, Pressing
+from asperity.slider.scaled import MODELS, NormalLoading, Parameters
 from asperity.slider.steps import parts_of
 from asperity.slider.wear import Wear
 from asperity.vibration import Vibration
@@ -303,7 +303,7 @@ class Model:
             raise InputError(FAR_APART)
         return scaled
 
-    def pressing(self, step: float) -> Pressing:
+    def pressing(self, step: float) -> NormalLoading:
         """Return what the kernels are given of the normal direction for a time step in s."""
         scaled = self.rigid_pressing(step)
         if self.friction.model != "springs" or self.normal is None:
@@ -327,7 +327,7 @@ class Model:
         return _DEEPER * float(greatest_indentation(q, wave, rate, steps))
 
     @in_proportion()
-    def rigid_pressing(self, step: float) -> Pressing:
+    def rigid_pressing(self, step: float) -> NormalLoading:
         """Numbers of the normal direction without springs."""
         if self.normal is None:
             raise InputError("the normal force of this body is a constant")
@@ -336,7 +336,7 @@ class Model:
         dead = self.normal.control == "force" and mass is not None
         reference = REFERENCE_INDENTATION[self.normal.law]
         base = (-1.0 if self.on_body else 1.0) * self.amplitude * self.unit_direction[2] / length
-        scaled = Pressing(
+        scaled = NormalLoading(
             law=self.normal.code,
             reference=reference,
             base=base,

@@ -3,7 +3,7 @@
 import math
 
 from asperity.kernels.compiled import kernel
-from asperity.slider.scaled import Parameters, Pressing
+from asperity.slider.scaled import NormalLoading, Parameters
 
 
 @kernel
@@ -53,7 +53,7 @@ def pressed_in_longer_steps(q, longer):
     """Return what is normal to the plane in steps that are longer; None where nothing is."""
     if q is None:
         return None
-    return Pressing(
+    return NormalLoading(
         q.law, q.reference, q.base, longer * longer * q.mobility, q.damping / longer,
         q.load_power, q.keeps, q.heights, q.weights,
     )  # fmt: skip

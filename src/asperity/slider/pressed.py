@@ -161,9 +161,9 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
         state.lateral += wy
         state.height += rise
         dx = wx - ux
-        dy1 = p.own_1 * wy
-        dy2 = p.own_2 * wy - uy
-        dy = dy1 + dy2
+        slip_body = p.own_1 * wy
+        slip_base = p.own_2 * wy - uy
+        dy = slip_body + slip_base
         last_fx = fx
         last_fy = fy
         last_fd = fd
@@ -187,7 +187,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             last_sx = sx
             last_sy = sy
             sx, sy, fx, fy = advance_loaded(
-                sx, sy, dx, dy1, 0.0, dy2, last_limit, limit, p.exponent, p.law, q.keeps
+                sx, sy, dx, slip_body, 0.0, slip_base, last_limit, limit, p.exponent, p.law, q.keeps
             )
             gain = -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps)
             if gain > 0.0:
@@ -236,7 +236,7 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             if q.keeps == STIFFNESS:
                 share, before, after = 1.0, last_limit * level, limit * level
             sx, sy, fx, fy = advance_loaded(
-                sx, sy, dx, dy1, 0.0, dy2, before, after, 1.0, p.law, STIFFNESS
+                sx, sy, dx, slip_body, 0.0, slip_base, before, after, 1.0, p.law, STIFFNESS
             )
             gain = -friction_loss(last_sx, last_sy, sx, sy, dx, dy, last_limit, limit, q.keeps)
             if gain > 0.0:

@@ -72,7 +72,7 @@ class Parameters(NamedTuple):
     law: int
 
 
-class Pressing(NamedTuple):
+class NormalLoading(NamedTuple):
     """Numbers of what is normal to the plane, for a given time step.
 
     Attributes

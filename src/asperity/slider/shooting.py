@@ -268,7 +268,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         Deflections of the springs.
     p : Parameters
         The body.
-    q : Pressing or None
+    q : NormalLoading or None
         What is normal to the plane.
     increments, rises : ndarray
         Of the unit vibration in the plane and normal to it over the steps of a cycle (or of

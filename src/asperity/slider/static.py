@@ -159,7 +159,7 @@ def _limit(body: HeldBody, run: Run) -> tuple[float, tuple[str, ...]]:
         low, high = high, 2.0 * high
         _bounded(high)
     halvings = math.ceil(math.log2((high - low) / _RESOLUTION))
-    # Not within `going_on`: nothing is kept, so that Ctrl-C may end a pull in its middle.
+    # Not within `interruptible`: nothing is kept, so that Ctrl-C may end a pull in its middle.
     for done in range(halvings):
         middle = 0.5 * (low + high)
         if body.creep(middle).velocity > 0.0:

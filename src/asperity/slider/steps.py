@@ -8,7 +8,7 @@ from asperity.friction import Friction
 from asperity.friction.dahl import VECTOR
 from asperity.normal import Normal, elastic_slope
 from asperity.slider.parameters import FAR_APART, Slider, Solve
-from asperity.slider.scaled import Pressing
+from asperity.slider.scaled import NormalLoading
 from asperity.vibration.waveform import SAMPLED, SINE, STEPS_A_TURN, Shape
 
 SLIP_BOUND = 0.5
@@ -55,7 +55,7 @@ class _Body(Protocol):
     def normal_length(self) -> float: ...
     @property
     def unit_direction(self) -> tuple[float, float, float]: ...
-    def rigid_pressing(self, step: float) -> Pressing:
+    def rigid_pressing(self, step: float) -> NormalLoading:
         """Return the numbers of the normal direction without springs."""
 
 

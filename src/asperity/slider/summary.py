@@ -14,7 +14,15 @@ from asperity.slider.history import History, PressedHistory
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
 from asperity.slider.result import SlideResult
-from asperity.slider.scaled import DAHL, LUGRE, NODE, PRESSED_NODE, SPRINGS, Parameters, Pressing
+from asperity.slider.scaled import (
+    DAHL,
+    LUGRE,
+    NODE,
+    PRESSED_NODE,
+    SPRINGS,
+    NormalLoading,
+    Parameters,
+)
 from asperity.slider.space import IN_FLIGHT, normal_motion, remarks
 from asperity.slider.wear import wear_and_heat
 
@@ -46,7 +54,7 @@ def energies(state: np.void, p: Parameters, *, elastic: bool) -> tuple[float, fl
 
 
 def pressed_energies(
-    state: np.void, springs: FloatArray, p: Parameters, q: Pressing, unit: float
+    state: np.void, springs: FloatArray, p: Parameters, q: NormalLoading, unit: float
 ) -> tuple[float, float]:
     r"""Mechanical and elastic energy of a body that is pressed, as `energies`.
 

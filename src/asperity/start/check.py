@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from asperity.casefile.case import Case, told
+from asperity.casefile.case import Case, naming_source
 from asperity.casefile.check import Mistake, check_case, missing
 from asperity.commands import COMMANDS, Command, case_tables
 from asperity.errors import AsperityError, InputError
@@ -70,7 +70,7 @@ def check(name: str, settings: Sequence[str]) -> Checked:
     asked = [command for command in able if _takes_no_more(command)]
     for command in asked:
         try:
-            with told(case):
+            with naming_source(case):
                 command.prepared(case, **command.defaults)
         except AsperityError as error:
             refusals[command.name] = str(error)

@@ -4,7 +4,7 @@ import dataclasses
 from pathlib import Path
 from typing import Self
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.gearset import Gearset
 from asperity.rating.driven import driven
 from asperity.rating.parameters import Operation, RatingOptions
@@ -34,6 +34,6 @@ class Gears:
         """Return the tables of a case; raises InputError where one is missing."""
         options = case.get(RatingOptions)
         gearset = case.require(Gearset)
-        with told(case):
+        with naming_source(case):
             operation = driven(gearset, operation_of(case), options)
         return cls(gearset, operation, options, case.folder)

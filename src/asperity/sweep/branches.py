@@ -206,7 +206,7 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         rows += kept["rows"]
         notes += kept["notes"]
         walk.restore(bodies[len(rows) - 1], kept["walk"])
-    with run.going_on():
+    with run.interruptible():
         run.forecast(sum(time_of_cycles(body, _CYCLES) for body in bodies), f"{len(bodies)} states")
         for body in bodies[len(rows) :]:
             state = walk.to(body)

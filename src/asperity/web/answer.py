@@ -2,17 +2,17 @@
 
 from typing import Any
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.casefile.check import check_case
 from asperity.commands import case_tables
-from asperity.commands.asked import Asked, Body, mapping, settings
+from asperity.commands.request import Body, CommandRequest, mapping, settings
 from asperity.errors import InputError
 from asperity.results import Result
-from asperity.results.told import told as told_of
+from asperity.results.payload import as_payload
 from asperity.results.variables import variables
 from asperity.runs import Run
 from asperity.start.write import as_set, as_written
-from asperity.web.ask import asked_of, case_of, confine
+from asperity.web.ask import case_of, confine, request_of
 from asperity.web.folder import SO_FAR, Folder
 
 _MOST_POINTS = 400
@@ -20,19 +20,19 @@ _MOST_POINTS = 400
 
 def solved(folder: Folder, body: Body) -> dict[str, Any]:
     """Answer a command that takes milliseconds."""
-    asked = asked_of({**body, "command": body["verb"]}, folder)
-    case = case_of(asked, folder)
+    request = request_of({**body, "command": body["verb"]}, folder)
+    case = case_of(request, folder)
     run = Run()
     # Its history is drawn.
     run.detailed = True
-    with told(case):
-        result = asked.command.solved(asked.command.prepared(case, **asked.options), run)
-    return answer_of(asked, case, result)
+    with naming_source(case):
+        result = request.command.solved(request.command.prepared(case, **request.options), run)
+    return answer_of(request, case, result)
 
 
-def answer_of(asked: Asked, case: Case, result: Result) -> dict[str, Any]:
+def answer_of(request: CommandRequest, case: Case, result: Result) -> dict[str, Any]:
     """Return everything that is told of a result, and how to get it again."""
-    return {**told_of(result), "command": asked.line, "toml": as_set(case)}
+    return {**as_payload(result), "command": request.line, "toml": as_set(case)}
 
 
 def curve(folder: Folder, body: Body) -> dict[str, Any]:
@@ -40,10 +40,10 @@ def curve(folder: Folder, body: Body) -> dict[str, Any]:
     from asperity.slider.curves import curve
     from asperity.slider.methods import prepare
 
-    case = case_of(asked_of({**body, "command": "slide", "options": {}}, folder), folder)
+    case = case_of(request_of({**body, "command": "slide", "options": {}}, folder), folder)
     options = mapping(body, "options")
     chosen = {name: options[name] for name in ("over", "points") if name in options}
-    with told(case):
+    with naming_source(case):
         return {"answer": chosen, "series": curve(prepare(case), **chosen).to_json()}
 
 
@@ -70,11 +70,11 @@ def check(folder: Folder, body: Body) -> dict[str, Any]:
     """Return all mistakes of a case; and the case with its settings as a file, if it is read."""
     from asperity.start.check import check
 
-    asked = asked_of({**body, "command": "slide"}, folder)
-    confine(check_case(folder.case_name(asked.name), case_tables(), asked.settings)[0], folder)
-    found = check(folder.case_name(asked.name), asked.settings)
+    request = request_of({**body, "command": "slide"}, folder)
+    confine(check_case(folder.case_name(request.name), case_tables(), request.settings)[0], folder)
+    found = check(folder.case_name(request.name), request.settings)
     try:
-        text = as_set(case_of(asked, folder))
+        text = as_set(case_of(request, folder))
     except InputError:
         text = None
     return {"answer": found.to_json(), "toml": text}
@@ -84,13 +84,13 @@ def signals(folder: Folder, body: Body) -> dict[str, Any]:
     """Return a recording's signals over time and the windows that are taken from it."""
     from asperity.tribometer.reduction.overview import overview
 
-    asked = asked_of({**body, "command": "rig reduce"}, folder)
-    recordings: Any = getattr(case_of(asked, folder), "reducible", ())
+    request = request_of({**body, "command": "rig reduce"}, folder)
+    recordings: Any = getattr(case_of(request, folder), "reducible", ())
     if len(recordings) != 1:
         raise InputError("signals are shown of one recording; name it")
-    given = case_of(asked_of({**body, "command": "rig plan", "arguments": {}}, folder), folder)
+    given = case_of(request_of({**body, "command": "rig plan", "arguments": {}}, folder), folder)
     shown = overview(recordings[0], _MOST_POINTS)
-    return {"answer": shown, "command": asked.line, "toml": as_set(given)}
+    return {"answer": shown, "command": request.line, "toml": as_set(given)}
 
 
 def forms(folder: Folder, body: Body) -> dict[str, Any]:
@@ -137,6 +137,6 @@ def received(folder: Folder, body: Body) -> dict[str, Any]:
 
 def named(folder: Folder, body: Body) -> dict[str, Any]:
     """Return the name of a job: a key of all that its answer follows from."""
-    asked = asked_of(body, folder)
-    case = case_of(asked, folder) if asked.name else None
-    return {"id": asked.key(case), "line": asked.line}
+    request = request_of(body, folder)
+    case = case_of(request, folder) if request.name else None
+    return {"id": request.key(case), "line": request.line}

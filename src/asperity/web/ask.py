@@ -5,25 +5,25 @@ or an option names lies in the folder.
 """
 
 from asperity.casefile import Case
-from asperity.commands.asked import Asked, Body
+from asperity.commands.request import Body, CommandRequest
 from asperity.web.folder import Folder
 
 
-def asked_of(body: Body, folder: Folder) -> Asked:
+def request_of(body: Body, folder: Folder) -> CommandRequest:
     """Read what a page sent; raises InputError for what it may not ask."""
-    asked = Asked.of(body)
-    if asked.command.case:
-        folder.case(asked.name)
-    for text in asked.texts():
+    request = CommandRequest.of(body)
+    if request.command.case:
+        folder.case(request.name)
+    for text in request.texts():
         # Whatever it is taken for.
         for part in {text, *text.rpartition("=")[2].split(",")}:
             folder.inside(part.strip())
-    return asked
+    return request
 
 
-def case_of(asked: Asked, folder: Folder) -> Case:
+def case_of(request: CommandRequest, folder: Folder) -> Case:
     """Return the case that is asked for, confined to the folder."""
-    case = asked.case(folder.case_name(asked.name) if asked.name else "")
+    case = request.case(folder.case_name(request.name) if request.name else "")
     confine(case, folder)
     return case
 

@@ -12,7 +12,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from asperity.processes.interrupts import hear_again
+from asperity.processes.interrupts import reraise_pending
 from asperity.runs.interrupt import stop_of, stop_with_input
 from asperity.web.folder import REQUEST, Folder
 
@@ -29,7 +29,7 @@ def main(folder: str, identity: str) -> int:
             output.write(json.dumps(told) + "\n")
             output.flush()
 
-    hear_again()
+    reraise_pending()
     stop_with_input(_GRACE)
     try:
         return _done(Folder(Path(folder)), identity, say)
@@ -46,14 +46,14 @@ def _done(folder: Folder, identity: str, say: Any) -> int:
     from asperity.commands.execution import execute
     from asperity.errors import AsperityError, ConvergenceError
     from asperity.results.quantity import plain
-    from asperity.web.ask import asked_of
+    from asperity.web.ask import request_of
     from asperity.web.teller import JobTeller
 
     # A name of a file begins here, as on the command line.
     os.chdir(folder.path)
     home = folder.job(identity)
     try:
-        asked = asked_of(json.loads((home / REQUEST).read_text("utf-8")), folder)
+        asked = request_of(json.loads((home / REQUEST).read_text("utf-8")), folder)
         command, options = asked.command, dict(asked.options)
         source = folder.case_name(asked.name) if asked.name else ""
         if "resume" in options and (home / "journal.jsonl").exists():

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from asperity.casefile import Case
-from asperity.commands.asked import Asked
 from asperity.commands.execution import Teller
+from asperity.commands.request import CommandRequest
 from asperity.errors import ConvergenceError
 from asperity.files.store import write_text
 from asperity.results import Result
@@ -23,8 +23,10 @@ _OFTEN = 0.1
 class JobTeller(Teller):
     """Tells the server, and leaves the answer in the job's folder."""
 
-    def __init__(self, asked: Asked, folder: Folder, home: Path, say: Callable[..., None]) -> None:
-        self._asked = asked
+    def __init__(
+        self, request: CommandRequest, folder: Folder, home: Path, say: Callable[..., None]
+    ) -> None:
+        self._request = request
         self._folder = folder
         self._home = home
         self._say = say
@@ -64,7 +66,7 @@ class JobTeller(Teller):
 
     def show(self, source: str, case: Case, result: Result) -> None:
         """Keep the answer with what goes with it."""
-        answer = json.dumps(answer_of(self._asked, case, result), allow_nan=False)
+        answer = json.dumps(answer_of(self._request, case, result), allow_nan=False)
         write_text(self._home / ANSWER, answer)
         for name, content in result.attached().items():
             write_content(self._home / name, content)

@@ -159,7 +159,7 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
             expected += _WINDOWS * length * STEPS
         run.checkpoint(taken, expected, what="increments")
 
-    with run.going_on():
+    with run.interruptible():
         body = (system, rest_under_load(system, problem.loads))
         reading = read_settled([body], slider, slope_over_velocity(problem.model), between)
     ratios = reading.windows[0]

@@ -60,7 +60,7 @@ class Candidates(NamedTuple):
     seen: IntArray  #: (n,): 1 for them
 
     @classmethod
-    def room(cls, body: Body, slots: int) -> Candidates:
+    def workspace(cls, body: Body, slots: int) -> Candidates:
         """Return room for the candidates of so many bodies; there are none yet."""
         k, n = len(body.faces), body.nodes
         return cls(
@@ -111,7 +111,7 @@ class Answer(NamedTuple):
     stiffness: FloatArray  #: (4k, 3, 3): Derivative of the tractions by the displacement, Pa/m
 
     @classmethod
-    def room(cls, body: Body, slots: int) -> Answer:
+    def workspace(cls, body: Body, slots: int) -> Answer:
         """Return room for the contacts of so many bodies."""
         q, n = len(body.weights), body.nodes
         at = (slots, q)
@@ -153,7 +153,7 @@ class Work(NamedTuple):
     nothing: FloatArray  #: (3, 3): Zeros
 
     @classmethod
-    def room(cls, body: Body, most: int) -> Work:
+    def workspace(cls, body: Body, most: int) -> Work:
         """Return room for contacts in which so many points touch at most."""
         q, n = len(body.weights), body.nodes
         most = min(most, q)
@@ -176,7 +176,7 @@ class Kept(NamedTuple):
     inverse: FloatArray  #: (9mm,): Of the nodes about them, without gaps
 
     @classmethod
-    def room(cls, body: Body, slots: int, most: int) -> Kept:
+    def workspace(cls, body: Body, slots: int, most: int) -> Kept:
         """Return room for inverses of so many points at most."""
         most = min(most, len(body.weights))
         return cls(

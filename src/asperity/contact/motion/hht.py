@@ -50,7 +50,7 @@ class Coordinates(NamedTuple):
         return cls(**dict.fromkeys(cls._fields, np.zeros(size)) | given)
 
     @classmethod
-    def room(cls, size: int) -> Coordinates:
+    def workspace(cls, size: int) -> Coordinates:
         """Return room for a state, to be written by a kernel."""
         return cls(*np.empty((len(cls._fields), size)))
 

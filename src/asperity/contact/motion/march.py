@@ -135,7 +135,7 @@ class Room(NamedTuple):
         m, n = standing.coordinates.place.size, standing.force.size
         q = standing.points.pressure.size
         return cls(
-            (Coordinates.room(m), Coordinates.room(m)),
+            (Coordinates.workspace(m), Coordinates.workspace(m)),
             (ContactPoints.empty(q), ContactPoints.empty(q)),
             np.empty((DEPTH + 1, n)), np.empty((DEPTH + 1, n)), np.empty(len(DriveState._fields)),
             np.empty(len(Resultants._fields)), np.empty(m), np.empty(m), np.empty(n), np.empty(n),

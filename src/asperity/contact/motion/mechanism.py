@@ -145,7 +145,7 @@ class MotionStep(NamedTuple):
     #: (3 n,): Displacement of the contact nodes by a unit drive force within the step, m/N
     lift: FloatArray
     drop: FloatArray  #: (3 n,): What contact forces take off the drive force
-    yielding: float  #: What the drive's own give divides its force by
+    compliance_factor: float  #: What the drive's own give divides its force by
 
 
 @kernel
@@ -164,7 +164,7 @@ def approach(moving, state, drive, imposed, work, place, velocity, free):
         way += along[c] * place[c]
     lag = imposed.speed - pace + drive.strain / moving.operator.step
     pull = held.stiffness * (imposed.reach - way) + held.damping * lag
-    force = pull / moving.yielding
+    force = pull / moving.compliance_factor
     for i in range(free.shape[0]):
         moved = 0.0
         for c in range(place.shape[0]):
@@ -227,7 +227,7 @@ def settled(
     forces: FloatArray,
 ) -> tuple[Coordinates, Settled]:  # fmt: skip
     """Return what a step ends with, the contact forces on the body, N, being known."""
-    end, work = Coordinates.room(state.place.size), np.empty((ROOM, state.place.size))
+    end, work = Coordinates.workspace(state.place.size), np.empty((ROOM, state.place.size))
     return end, settle(moving, state, drive, imposed, start, forces, work, end)
 
 
@@ -253,7 +253,8 @@ def motion_step(
     )
     compliance = mechanism.flexibility + shapes @ operator.compliance @ shapes.T
     nothing = Port(np.zeros(mechanism.size), np.zeros(len(shapes)))
-    drive, lift, drop, yielding = Drive(nothing, 0.0), nothing.response, nothing.response, 1.0
+    drive, compliance_factor = Drive(nothing, 0.0), 1.0
+    lift, drop = nothing.response, nothing.response
     if mechanism.drive is not None:
         drive, port = mechanism.drive, mechanism.drive.port
         if not (drive.stiffness > 0.0 and drive.damping >= 0.0):
@@ -266,10 +267,10 @@ def motion_step(
         onward = drive.stiffness + drive.damping * operator.pace
         inward = drive.stiffness + drive.damping / step
         moved = operator.compliance @ port.generalised
-        yielding = 1.0 + onward * float(port.generalised @ moved) + inward * port.own
+        compliance_factor = 1.0 + onward * float(port.generalised @ moved) + inward * port.own
         through = shapes @ moved
         lift = through + port.response
-        drop = (onward * through + inward * port.response) / yielding
+        drop = (onward * through + inward * port.response) / compliance_factor
         compliance -= np.outer(lift, drop)
     return MotionStep(
         operator,
@@ -279,7 +280,7 @@ def motion_step(
         _plain(mechanism.load or nothing),
         lift,
         drop,
-        yielding,
+        compliance_factor,
     )
 
 

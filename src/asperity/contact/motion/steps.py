@@ -226,7 +226,7 @@ class Stepper:
         result = solver.solve(start.free, surface_motion, state.contact.state)
         if system.friction.model == TWO_PHASE:
             _refuse_overshoot(state.contact, result)
-        body = Coordinates.room(system.mechanism.size)
+        body = Coordinates.workspace(system.mechanism.size)
         work = np.empty((ROOM, system.mechanism.size))
         now = at_end(moving, numbers, before, start, imposed, result.force, work, body)
         after = Standing(

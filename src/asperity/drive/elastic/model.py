@@ -25,7 +25,14 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.solve import condensed
-from asperity.drive.static.sweep import REVERSED, Asked, Course, phases_of, sweep, touching_angles
+from asperity.drive.static.sweep import (
+    REVERSED,
+    Course,
+    LoadCase,
+    phases_of,
+    sweep,
+    touching_angles,
+)
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, KEPT, TeethContact
 from asperity.drive.teeth.mode import lowest_mode
 from asperity.drive.teeth.sector import Sector
@@ -85,14 +92,14 @@ class TeethModel(ReducedModel):
         touching = touching_angles(contact, phases)
         sums = np.zeros(2)
 
-        def look(_number: int, _balance: object) -> None:
+        def evaluate(_number: int, _balance: object) -> None:
             for k in range(contact.slots):
                 n = 4 * int(contact.candidates.counts[k, 0])
                 pressure, area = contact.answer.pressure[k, :n], contact.candidates.weights[k, :n]
                 sums[:] += pressure @ area, area[pressure > 0.0].sum()
 
         load = self.problem.load
-        asked = [Asked(load, look=look), Asked(load, REVERSED)]
+        asked = [LoadCase(load, evaluate=evaluate), LoadCase(load, REVERSED)]
         forward, back = sweep(Equilibrium(contact), phases, touching, asked)
         return forward, back, float(sums[0] / sums[1])
 
@@ -108,7 +115,7 @@ class TeethModel(ReducedModel):
         places = (np.arange(count) + 0.5) / count
         phases = np.asarray(first + (last - first) * places, np.float64)
         touching = touching_angles(contact, phases)
-        (course,) = sweep(Equilibrium(contact), phases, touching, [Asked(self.problem.load)])
+        (course,) = sweep(Equilibrium(contact), phases, touching, [LoadCase(self.problem.load)])
         return float(course.worm_torque.mean())
 
     @property
@@ -150,12 +157,12 @@ class TeethModel(ReducedModel):
             sliding=self._sliding,
             friction_stiffness=self.friction * pressure / limit,
             stiffness=CONTACT_STIFFNESS,
-            candidates=Candidates.room(body, places),
-            answer=Answer.room(body, places),
-            kept=Kept.room(body, places, KEPT),
+            candidates=Candidates.workspace(body, places),
+            answer=Answer.workspace(body, places),
+            kept=Kept.workspace(body, places, KEPT),
             history=History.none(body),
             earlier=np.zeros((len(body.weights), 3)),
-            work=Work.room(body, len(body.weights)),
+            work=Work.workspace(body, len(body.weights)),
             gathered=gathered,
             shape=np.zeros((places, 3 * body.nodes)),
             rotation=np.zeros((2, 3, 3)),

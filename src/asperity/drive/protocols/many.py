@@ -77,7 +77,7 @@ def solve_many(
 
     pool = cf.ThreadPoolExecutor(cores())
     try:
-        with run.going_on():
+        with run.interruptible():
             waiting = {pool.submit(one, *problems[n]): n for n in missing}
             found: dict[int, DriveResult | AsperityError] = {}
             left = set(waiting)

@@ -69,7 +69,7 @@ def solve_shaken(
             rest = at_rest(problem, model, march.system, stop)
     window = problem.drive.window
     power = rest.torque * problem.worm_speed
-    with run.going_on():
+    with run.interruptible():
         shown: Records | None = None
         if problem.drive.protocol == "window":
             # Of what is no state that lasts, no step makes the error.

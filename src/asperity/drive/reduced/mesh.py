@@ -48,7 +48,7 @@ class Mesh(NamedTuple):
         Deflection of the asperities at full friction under it.
     exponent : float
         Dahl's.
-    yielding : float
+    compliance_ratio : float
         What the teeth bend along the flank over what the asperities do.
     curve : FrictionCurve
         Coefficient of friction over the sliding speed; of one value where it is constant.
@@ -71,7 +71,7 @@ class Mesh(NamedTuple):
     reference: float
     limit: float
     exponent: float
-    yielding: float
+    compliance_ratio: float
     curve: FrictionCurve
     friction: float
     lugre: LuGre
@@ -137,7 +137,7 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
         rx = committed[at + _KEPT.rate_along]
         ry = committed[at + _KEPT.rate_across]
         wx, wy, hx, hy, tx, ty, share, off = deflect_damped(
-            mesh.lugre, mesh.yielding, sx, sy, rx, ry, dx, dy, limit_0, limit_1,
+            mesh.lugre, mesh.compliance_ratio, sx, sy, rx, ry, dx, dy, limit_0, limit_1,
             load / mesh.reference, committed[at + _KEPT.stribeck], mesh.limit / dt, dt,
         )  # fmt: skip
         trial[at + _KEPT.rate_along] = hx
@@ -147,10 +147,12 @@ def _touch(mesh, committed, trial, at, d, rate, along, across, dt, out):
         fy = wy + hy
         lost = (sx + wx) * (tx - (wx - sx)) + (sy + wy) * (ty - (wy - sy))
         lost += (rx + hx) * tx + (ry + hy) * ty
-        bent = 0.5 * unit * (wx * wx + wy * wy + mesh.yielding * (fx * fx + fy * fy))
+        bent = 0.5 * unit * (wx * wx + wy * wy + mesh.compliance_ratio * (fx * fx + fy * fy))
     else:
-        wx, wy, off = deflect(mesh.exponent, mesh.yielding, sx, sy, dx, dy, limit_0, limit_1)
-        stiff = 1.0 + mesh.yielding
+        wx, wy, off = deflect(
+            mesh.exponent, mesh.compliance_ratio, sx, sy, dx, dy, limit_0, limit_1
+        )
+        stiff = 1.0 + mesh.compliance_ratio
         lost = (sx + wx) * (dx - stiff * (wx - sx)) + (sy + wy) * (dy - stiff * (wy - sy))
         bent = 0.5 * stiff * unit * (wx * wx + wy * wy)
         fx = wx

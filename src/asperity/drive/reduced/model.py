@@ -137,11 +137,11 @@ class ReducedModel:
         """Numbers for the kernels."""
         problem, point = self.problem, self.point
         cell, rows = self.law.table(self.normal_force)
-        limit, exponent, yielding = self.elastic_slip, 0.0, 0.0
+        limit, exponent, compliance_ratio = self.elastic_slip, 0.0, 0.0
         if problem.friction.model != "coulomb":
             limit = problem.friction.deflection_limit(self.normal_force)
             exponent = problem.friction.exponent
-            yielding = self.elastic_slip / limit - 1.0
+            compliance_ratio = self.elastic_slip / limit - 1.0
         return Mesh(
             lead=point.lead,
             radius=point.radius,
@@ -156,7 +156,7 @@ class ReducedModel:
             reference=self.normal_force,
             limit=limit,
             exponent=exponent,
-            yielding=yielding,
+            compliance_ratio=compliance_ratio,
             curve=self.curve,
             friction=self.kinetic,
             lugre=self.lugre,
@@ -200,8 +200,8 @@ class ReducedModel:
         asperities, dampings, _ = self._shares(share)
         bent, damped = (each * force / mesh.reference for each in (asperities, dampings))
         unit = mesh.friction * mesh.reference * mesh.limit
-        teeth = mesh.yielding * damped * (2.0 * bent + damped)
-        return float(energy + 0.5 * unit * ((1.0 + mesh.yielding) * bent * bent + teeth))
+        teeth = mesh.compliance_ratio * damped * (2.0 * bent + damped)
+        return float(energy + 0.5 * unit * ((1.0 + mesh.compliance_ratio) * bent * bent + teeth))
 
     def _shares(self, share: float) -> tuple[float, float, float]:
         """A share of full friction over the kinetic one: of asperities, dampings, and Stribeck's.

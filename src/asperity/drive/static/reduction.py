@@ -12,7 +12,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.seen import contact_means
 from asperity.drive.static.solve import StaticModel
-from asperity.drive.static.sweep import Asked
+from asperity.drive.static.sweep import LoadCase
 from asperity.drive.teeth.contact import TeethContact
 from asperity.drive.teeth.mode import lowest_mode
 from asperity.errors import InputError
@@ -51,21 +51,21 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
     load = problem.load
     give: list[tuple[float, float, float, float]] = []
 
-    def look(_number: int, balance: Balance) -> None:
+    def evaluate(_number: int, balance: Balance) -> None:
         force, radius, _ = contact_means(balance.contact, balance)
         give.append((force, force * radius, *_along(balance.contact)))
 
-    upto = [Asked(share * load) for share in SHARES[:-1]]
-    upto[-1] = upto[-1]._replace(look=look)
+    upto = [LoadCase(share * load) for share in SHARES[:-1]]
+    upto[-1] = upto[-1]._replace(evaluate=evaluate)
     # Of little friction the torque says next to nothing of the radius that it acts at.
     much = max(model.friction, _TELLING)
     courses = model.courses(upto)
     # Beyond the load as far as the teeth carry.
     with contextlib.suppress(InputError):
-        courses += model.courses([Asked(SHARES[-1] * load)])
+        courses += model.courses([LoadCase(SHARES[-1] * load)])
     torque = float(courses[len(upto) - 1].worm_torque.mean())
     if much > model.friction:
-        torque = float(model.rubbing(much).courses([Asked(load)])[0].worm_torque.mean())
+        torque = float(model.rubbing(much).courses([LoadCase(load)])[0].worm_torque.mean())
     whole, moment, work, friction = np.array(give).sum(axis=0)
     compliance = work / friction if friction > 0.0 else 0.0
     return TeethReduced(

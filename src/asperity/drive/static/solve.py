@@ -28,8 +28,8 @@ from asperity.drive.static.seen import Pattern, Seen, contact_means
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
-    Asked,
     Course,
+    LoadCase,
     phases_of,
     sweep,
     touching_angles,
@@ -168,7 +168,7 @@ class StaticModel:
             return self.problem.point(drive.effective_radius).sliding_speed(speed)
         means: list[tuple[float, float, float]] = []
 
-        def look(_number: int, balance: Balance) -> None:
+        def evaluate(_number: int, balance: Balance) -> None:
             means.append(contact_means(balance.contact, balance))
 
         every = max(1, len(self.phases) // 4)
@@ -176,7 +176,7 @@ class StaticModel:
         try:
             sweep(
                 self.equilibrium, phases, touching,
-                [Asked(self.problem.load, FRICTIONLESS, look=look)],
+                [LoadCase(self.problem.load, FRICTIONLESS, evaluate=evaluate)],
             )  # fmt: skip
         except TooDeepError:
             raise too_much(self.problem) from None
@@ -193,7 +193,7 @@ class StaticModel:
         return other
 
     def courses(
-        self, asked: Sequence[Asked], step: Callable[[int], None] = lambda _number: None
+        self, asked: Sequence[LoadCase], step: Callable[[int], None] = lambda _number: None
     ) -> list[Course]:
         """Return the balances over a pitch; refuses torques that teeth cannot carry.
 
@@ -222,19 +222,19 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     count = len(model.phases)
     total = (3 if run.detailed else 2) * count
     every = _EVERY if count >= _MANY else 1
-    with run.going_on():
+    with run.interruptible():
         forward, more, less, frictionless, reversed_ = model.courses(
             [
-                Asked(load, look=seen.look),
-                *(Asked((1.0 + sign * _BESIDE) * load, every=every) for sign in (1.0, -1.0)),
-                Asked(load, FRICTIONLESS),
-                Asked(load, REVERSED),
+                LoadCase(load, evaluate=seen.evaluate),
+                *(LoadCase((1.0 + sign * _BESIDE) * load, every=every) for sign in (1.0, -1.0)),
+                LoadCase(load, FRICTIONLESS),
+                LoadCase(load, REVERSED),
             ],
             lambda done: run.checkpoint(done, total, what="phases"),
         )
         model.courses(
             [
-                Asked(share * load, look=part.look)
+                LoadCase(share * load, evaluate=part.evaluate)
                 for share, part in zip(PATTERNS[:-1], less_loaded, strict=True)
             ],
             lambda done: run.checkpoint(count + done, total, what="phases"),
@@ -298,7 +298,7 @@ def _back_patterns(model: StaticModel, done: int, total: int) -> FloatArray | No
     contact = TeethContact(model.sector, model.friction, side=-1)
     seen = [Pattern(model.resolved) for _ in PATTERNS]
     asked = [
-        Asked(share * model.problem.load, REVERSED, look=part.look)
+        LoadCase(share * model.problem.load, REVERSED, evaluate=part.evaluate)
         for share, part in zip(PATTERNS, seen, strict=True)
     ]
     touching = touching_angles(contact, model.phases)

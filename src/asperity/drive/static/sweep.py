@@ -51,21 +51,21 @@ def touching_angles(contact: TeethContact, phases: FloatArray) -> FloatArray:
     return np.array([contact.touching_angle(float(beta), still) for beta in phases])
 
 
-class Asked(NamedTuple):
+class LoadCase(NamedTuple):
     """A torque to be solved for."""
 
     torque: float  #: Of the wheel, N m
     sense: int = FORWARD  #: `FORWARD`, `FRICTIONLESS` or `REVERSED`
     every: int = 1  #: 1: at all phases; n: at each n-th
     #: Takes the number of a phase and its balance while the fields of the contact are its own
-    look: Callable[[int, Balance], None] | None = None
+    evaluate: Callable[[int, Balance], None] | None = None
 
 
 def sweep(
     equilibrium: Equilibrium,
     phases: FloatArray,
     touching: FloatArray,
-    asked: Sequence[Asked],
+    asked: Sequence[LoadCase],
     step: Callable[[int], None] = lambda _number: None,
 ) -> list[Course]:
     """Solve for the balance at all phases under some torques, one after the other at each phase.
@@ -78,7 +78,7 @@ def sweep(
         Of the drive.
     phases, touching : ndarray
         Angles of the worm, and of the wheel without load there, rad.
-    asked : sequence of Asked
+    asked : sequence of LoadCase
         Torques.
     step : callable, optional
         Called with the number of phases that are done.
@@ -91,8 +91,8 @@ def sweep(
             balance = equilibrium.balance(
                 float(beta), load.torque, sense=load.sense, touching=float(free)
             )
-            if load.look is not None:
-                load.look(number, balance)
+            if load.evaluate is not None:
+                load.evaluate(number, balance)
             balances.append(balance)
         step(number + 1)
     ratio = equilibrium.contact.stand.ratio

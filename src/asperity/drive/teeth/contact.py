@@ -136,10 +136,10 @@ class TeethContact:
         self.stand = Stand.of(sector.wheel.pair)
         self.slots = max(3, sector.teeth)
         body = sector.body
-        self.candidates = Candidates.room(body, self.slots)
-        self.answer = Answer.room(body, self.slots)
-        self.kept = Kept.room(body, self.slots, KEPT)
-        self.work = Work.room(body, len(body.weights) // 2)
+        self.candidates = Candidates.workspace(body, self.slots)
+        self.answer = Answer.workspace(body, self.slots)
+        self.kept = Kept.workspace(body, self.slots, KEPT)
+        self.work = Work.workspace(body, len(body.weights) // 2)
         size = len(body.flexibility)
         self.blocks = (
             np.stack(sector.neighbours)

@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.casefile.columns import KEY, UNIT, read_rows
 from asperity.errors import InputError, nearest, shown
 from asperity.units import Quantity, quantity_of, to_si
@@ -220,7 +220,7 @@ def _column(place: int, text: str, case: Case, name: str) -> _Column:
             raise InputError(f"{name}: the column ratio has a unit, {unit!r}; leave it out")
         return _Column(place, False, key, unit or wanted, Quantity(wanted, "a number", "1 N"))
     table, _, own = key.partition(".")
-    with told(case):
+    with naming_source(case):
         if table not in case.known:
             raise InputError(f"{name}: [{table}] is not a table{nearest(table, case.known)}")
     model = case.known[table]

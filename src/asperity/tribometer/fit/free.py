@@ -4,7 +4,7 @@ import dataclasses
 import math
 from typing import Self
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.errors import InputError, nearest
 from asperity.tribometer.fit.data import Measurements
 from asperity.tribometer.fit.estimate import WIDEST
@@ -36,7 +36,7 @@ class Free:
     def of(cls, key: str, case: Case, data: Measurements) -> Self:
         """Return a key of a case as a parameter; InputError where it cannot be one."""
         table, _, own = key.partition(".")
-        with told(case):
+        with naming_source(case):
             if table not in case.known or not own:
                 raise InputError(
                     f"--free {key}: it must be table.key, as in friction.max_deflection"

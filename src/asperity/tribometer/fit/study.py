@@ -225,7 +225,7 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
     predict = Predictor(problem.case, problem.by, problem.data.forces, looked)
     fitted: dict[str, _Fitted] = {}
     failed: dict[str, ConvergenceError] = {}
-    with run.going_on():
+    with run.interruptible():
         for law in problem.laws:
             start = next(iter(fitted.values())).best.point if fitted else None
             try:

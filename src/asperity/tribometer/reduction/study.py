@@ -127,7 +127,7 @@ def answer(series: Series, run: Run) -> Reduced:
     problem = series.reducible
     segments: list[SegmentResult] = []
     files: list[FileResult] = []
-    with run.going_on():
+    with run.interruptible():
         for done, one in enumerate(problem):
             run.checkpoint(done, len(problem), what="recordings")
             of_file, of_segments = reduce_recording(one)

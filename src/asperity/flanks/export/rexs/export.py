@@ -5,7 +5,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import ClassVar
 
-from asperity.casefile import Case, told
+from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.files.store import write_text
 from asperity.flanks.export.rexs.document import VERSION, Document
@@ -75,7 +75,7 @@ def prepare(case: Case) -> Given:
     given = Given(gearset, None, case.get(Hob), case.get(Disc), case.get(Mount))
     if operation is None:
         return given
-    with told(case):
+    with naming_source(case):
         operation = driven(gearset, operation, options)
     steps = tuple(
         (float(part.hours), float(part.torque), float(part.speed))

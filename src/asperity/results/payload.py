@@ -10,7 +10,7 @@ from asperity.results.variables import rounded
 _POINTS = 129
 
 
-def told(result: Result) -> dict[str, Any]:
+def as_payload(result: Result) -> dict[str, Any]:
     """Return everything that is told of a result.
 
     Returns

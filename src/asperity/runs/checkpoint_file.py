@@ -18,7 +18,7 @@ _WORK_TO_KEEPING = 50.0
 _KEY, _STATE = "key", "state"
 
 
-class Keeper:
+class CheckpointFile:
     """Keeps the state of one work in one file, under the key of what it works on.
 
     Parameters
@@ -33,7 +33,7 @@ class Keeper:
 
     def __init__(self, path: Path, key: str, notify: Callable[[str], None]) -> None:
         self.path = path
-        self.kept = False
+        self.saved = False
         self._key = key
         self._notify = notify
         self._next = time.monotonic() + _PAUSE
@@ -61,7 +61,7 @@ class Keeper:
         if tree.get(_KEY) != self._key:
             self._notify(f"{self.path} is of another case or version; begins anew")
             return None
-        self.kept = True
+        self.saved = True
         state: Tree = tree[_STATE]
         return state
 
@@ -71,7 +71,7 @@ class Keeper:
         if began < self._next:
             return
         try:
-            self.keep(state())
+            self.save(state())
         except StorageError as error:
             self._notify(f"{error}; goes on without")
             self._next = math.inf
@@ -79,10 +79,10 @@ class Keeper:
         end = time.monotonic()
         self._next = end + max(_PAUSE, _WORK_TO_KEEPING * (end - began))
 
-    def keep(self, state: Mapping[str, Any]) -> None:
+    def save(self, state: Mapping[str, Any]) -> None:
         """Keep a state."""
         write_tree(self.path, {_KEY: self._key, _STATE: state})
-        self.kept = True
+        self.saved = True
 
     def remove(self) -> None:
         """Remove the file: the work is done."""

@@ -16,7 +16,7 @@ from asperity.runs.key import code_key, key
 Body = Mapping[str, Any]
 
 
-class Asked(NamedTuple):
+class CommandRequest(NamedTuple):
     """Something that a command is to do.
 
     Attributes
@@ -37,7 +37,7 @@ class Asked(NamedTuple):
     given: dict[str, Any]
 
     @classmethod
-    def of(cls, body: Body) -> "Asked":
+    def of(cls, body: Body) -> "CommandRequest":
         """Read ``command``, ``case``, ``settings``, ``arguments`` and ``options``.
 
         Raises
