@@ -63,12 +63,12 @@ STOPS_ITSELF = """
 import os, sys
 from asperity.cli.main import main
 from asperity.runs import checkpoint_file
-number, keep = int(sys.argv.pop(1)), keeper.Keeper.keep
+number, keep = int(sys.argv.pop(1)), checkpoint_file.CheckpointFile.save
 def keep_and_stop(self, state):
     keep(self, state)
-    keeper.Keeper.keep = keep
+    checkpoint_file.CheckpointFile.save = keep
     os.kill(os.getpid(), number)
-checkpoint_file._PAUSE, keeper.Keeper.keep = 0.0, keep_and_stop
+checkpoint_file._PAUSE, checkpoint_file.CheckpointFile.save = 0.0, keep_and_stop
 main()
 """
 

@@ -1,5 +1,8 @@
-"""How large the parts of the house may be."""
+"""How large the parts of the house may be, and what they say of themselves."""
 
+import ast
+import pkgutil
+import re
 from pathlib import Path
 
 import pytest
@@ -7,6 +10,7 @@ import pytest
 import asperity
 
 SOURCES = Path(asperity.__file__).parent
+TESTS = Path(__file__).parents[1]
 PAGE = SOURCES / "web/static"
 
 
@@ -32,10 +36,48 @@ def test_a_folder_has_at_most_ten_entries(room):
 def test_the_page_keeps_its_budget_of_python():
     # 1500 for what it does; a fifth more guards it against links, half requests and full disks, and
     # keeps what outlives a server.
-    assert sum(map(len, lines((SOURCES / "web").glob("*.py")).values())) <= 1800
+    assert sum(map(len, lines((SOURCES / "web").glob("[a-z]*.py")).values())) <= 1800
 
 
 def test_no_script_of_the_page_is_longer_than_300_lines_or_wider_than_120():
     for name, text in lines((PAGE / "js").rglob("*.js")).items():
         assert len(text) <= 300, name
         assert max(map(len, text)) <= 120, name
+
+
+# What stands at the door of a room, under these heads.
+HEADS = ("Entry", "Data", "Where", "Tests")
+ROOMS = sorted(path.parent.name for path in SOURCES.glob("*/__init__.py"))
+
+
+def door(room):
+    """What a room says under each head: (text, names in backquotes)."""
+    text = ast.get_docstring(ast.parse((SOURCES / room / "__init__.py").read_text("utf-8")))
+    found = re.findall(rf"^({'|'.join(HEADS)}): ((?:.+\n?)+?)(?=^\w+: |^$|\Z)", text, re.MULTILINE)
+    return {head: re.findall("`([^`]+)`", said) for head, said in found}
+
+
+def stands(room, name):
+    """Whether a name in backquotes is a module or folder of a room, or something in one."""
+    steps = re.split(r"[./]", name.removeprefix("asperity."))
+    place = SOURCES if name.startswith("asperity.") else SOURCES / room
+    if "/" in name:
+        return (place / name).exists()
+    parts = ".".join(["asperity", *place.relative_to(SOURCES).parts, *steps])
+    try:
+        pkgutil.resolve_name(parts)
+    except (ImportError, AttributeError):
+        return place.joinpath(*steps).is_dir()
+    return True
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_says_at_its_door_what_stands_where(room):
+    said = door(room)
+    assert tuple(said) == HEADS
+    names = {*said["Entry"], *said["Where"]}
+    wrong = [n for n in names if not re.match(r"asperity( |$)", n) and not stands(room, n)]
+    assert not wrong
+    for pattern in said["Tests"]:
+        found = pattern.rstrip("/") if pattern.endswith("/") else f"{pattern}.py"
+        assert [*TESTS.glob(found)], pattern

@@ -27,6 +27,12 @@ From these come
   the sections of its docstring.
 
 A body whose bounds are not known before it runs (the ends of a table) checks by `check`.
+
+Entry: `formula` and `Symbol`.
+Data: none; symbols stand in the `symbols` of each standard.
+Where: `masks` (arrays that may hold nonsense), `traced` (a calculation as a spreadsheet's
+    formulas).
+Tests: `unit/test_formulas`, `unit/test_workbook`.
 """
 
 from asperity.formulas.formula import Formula, formula

@@ -48,7 +48,7 @@ class Pattern:
         self.owner = owner
         self.largest = np.zeros(owner.flank.nodes)
 
-    def look(self, _number: int, balance: Balance) -> None:
+    def evaluate(self, _number: int, balance: Balance) -> None:
         """Keep what a balance presses, resolved by its first strips alone."""
         self.keep(resolved(self.owner, balance, finer=False))
 
@@ -78,7 +78,7 @@ class Seen:
         self.worst: ToothPressure | None = None  #: Of the largest pressure on a flank
         self.nodal_forces = np.zeros((0, 3 * owner.flank.sector.body.nodes))
 
-    def look(self, _number: int, balance: Balance) -> None:
+    def evaluate(self, _number: int, balance: Balance) -> None:
         """Take what a balance has."""
         contact = balance.contact
         for k in range(contact.slots):
