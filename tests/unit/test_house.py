@@ -53,7 +53,9 @@ ROOMS = sorted(path.parent.name for path in SOURCES.glob("*/__init__.py"))
 def door(room):
     """What a room says under each head: (text, names in backquotes)."""
     text = ast.get_docstring(ast.parse((SOURCES / room / "__init__.py").read_text("utf-8")))
-    found = re.findall(rf"^({'|'.join(HEADS)}): ((?:.+\n?)+?)(?=^\w+: |^$|\Z)", text, re.MULTILINE)
+    found = re.findall(
+        rf"^:({'|'.join(HEADS)}): ((?:.+\n?)+?)(?=^:\w+: |^$|\Z)", text, re.MULTILINE
+    )
     return {head: re.findall("`([^`]+)`", said) for head, said in found}
 
 

@@ -1,11 +1,11 @@
 """Case files: TOML tables with units as text, read and validated into frozen tables in SI.
 
-Entry: `read_case`, which gives a `Case`; `Case.require` hands out a table, `Table` is what one
+:Entry: `read_case`, which gives a `Case`; `Case.require` hands out a table, `Table` is what one
     derives from.
-Data: the tables that stand in the `tables` of each room, gathered by `asperity.commands.tables`.
-Where: `check` (all mistakes at once), `schema` and `forms` (what may be said), `columns` (CSV),
+:Data: the tables that stand in the `tables` of each room, gathered by `asperity.commands.tables`.
+:Where: `check` (all mistakes at once), `schema` and `forms` (what may be said), `columns` (CSV),
     `written` (a case as text).
-Tests: `unit/test_casefile*`, `property/test_casefile_schema`.
+:Tests: `unit/test_casefile*`, `property/test_casefile_schema`.
 """
 
 from asperity.casefile.case import Case, bare_unit, naming_source, read_case

@@ -4,10 +4,10 @@ The command line and the axes of sweeps are made from this list. A room offers t
 ``prepare(case, **options)`` returns a problem, or refuses it at no cost; ``solve(problem, run)``
 returns a :class:`asperity.results.Result`.
 
-Entry: `listed.COMMANDS`; `execution`, the one order of read, prepare, folder, solve, show, write.
-Data: `tables.case_tables`: every room's tables by name.
-Where: `request` (what a program asks, as JSON), `place` (what is imported when it is used).
-Tests: `unit/test_commands`, `acceptance/test_cli*`.
+:Entry: `listed.COMMANDS`; `execution`, the one order of read, prepare, folder, solve, show, write.
+:Data: `tables.case_tables`: every room's tables by name.
+:Where: `request` (what a program asks, as JSON), `place` (what is imported when it is used).
+:Tests: `unit/test_commands`, `acceptance/test_cli*`.
 """
 
 from asperity.commands.command import Argument, Command, Option

@@ -28,11 +28,11 @@ From these come
 
 A body whose bounds are not known before it runs (the ends of a table) checks by `check`.
 
-Entry: `formula` and `Symbol`.
-Data: none; symbols stand in the `symbols` of each standard.
-Where: `masks` (arrays that may hold nonsense), `traced` (a calculation as a spreadsheet's
+:Entry: `formula` and `Symbol`.
+:Data: none; symbols stand in the `symbols` of each standard.
+:Where: `masks` (arrays that may hold nonsense), `traced` (a calculation as a spreadsheet's
     formulas).
-Tests: `unit/test_formulas`, `unit/test_workbook`.
+:Tests: `unit/test_formulas`, `unit/test_workbook`.
 """
 
 from asperity.formulas.formula import Formula, formula

@@ -1,12 +1,12 @@
 """Friction laws: Coulomb, Dahl with any exponent, LuGre; one update for bodies and for contact.
 
-Entry: `update` and its like: deflection, slips and limit in; deflection, share and tangent out,
+:Entry: `update` and its like: deflection, slips and limit in; deflection, share and tangent out,
     compiled.
-Data: `[friction]` (`parameters`).
-Where: a law a file: `coulomb`, `dahl`, `lugre`, `return_mapping`, `springs`, `two_phase` (the
+:Data: `[friction]` (`parameters`).
+:Where: a law a file: `coulomb`, `dahl`, `lugre`, `return_mapping`, `springs`, `two_phase` (the
     thesis's); `loaded` under a normal force that changes; `tangent` and its like for implicit
     contact.
-Tests: `unit/test_friction`, `unit/test_lugre_update`, `unit/test_loaded_friction`,
+:Tests: `unit/test_friction`, `unit/test_lugre_update`, `unit/test_loaded_friction`,
     `literature/test_friction`, `literature/test_lugre*`, `property/test_friction`.
 """
 

@@ -1,12 +1,12 @@
 """Efficiency and load capacity of worm gearsets by three standards.
 
-Entry: `rate` and `rate_case`, `asperity rate`; `variants` for arrays.
-Data: `[operation]` and `[rating]` (`parameters`) beside `[gearset]`; tables of the standards in
+:Entry: `rate` and `rate_case`, `asperity rate`; `variants` for arrays.
+:Data: `[operation]` and `[rating]` (`parameters`) beside `[gearset]`; tables of the standards in
     `data/`.
-Where: a standard a folder, a formula a function: `iso14521`, `bs721`, `agma6034`; `inputs` (what
+:Where: a standard a folder, a formula a function: `iso14521`, `bs721`, `agma6034`; `inputs` (what
     they start from), `standing` and `verdict` (what they come to), `forces`, `self_locking`,
     `workbook`.
-Tests: `unit/test_rate*`, `unit/test_rating_*`, `literature/test_iso14521*`,
+:Tests: `unit/test_rate*`, `unit/test_rating_*`, `literature/test_iso14521*`,
     `literature/test_bs721`, `literature/test_agma6034`, `property/test_rat*`.
 """
 

@@ -2,11 +2,11 @@
 
 JSON, netCDF, tables, pages, pictures and the variables of a sweep follow from them.
 
-Entry: `Result`, `quantity`, `part`, `labelled`; `read` opens a file.
-Data: none.
-Where: `payload` (JSON for the page), `table`, `terminal`, `report`, `xlsx`, `figures` (what
+:Entry: `Result`, `quantity`, `part`, `labelled`; `read` opens a file.
+:Data: none.
+:Where: `payload` (JSON for the page), `table`, `terminal`, `report`, `xlsx`, `figures` (what
     pictures are drawn with), `svg`, `settled`.
-Tests: `unit/test_results*`, `unit/test_settled`, `unit/test_terminal`, `unit/test_workbook`.
+:Tests: `unit/test_results*`, `unit/test_settled`, `unit/test_terminal`, `unit/test_workbook`.
 """
 
 from asperity.results.quantity import Quantities, labelled, part, quantity

@@ -1,11 +1,11 @@
 """How every long work runs: under a key of all it follows from, kept, interrupted, resumed.
 
-Entry: `Run`: `Run.resume`, `Run.interruptible`, `Run.checkpoint`.
-Data: none; states are trees of arrays (`tree`).
-Where: `key` (what an answer is kept under), `cache` and `rows` (answers kept), `checkpoint_file` (a
-    state kept), `interrupt` (signals between two steps), `workers` (processes on all cores),
+:Entry: `Run`: `Run.resume`, `Run.interruptible`, `Run.checkpoint`.
+:Data: none; states are trees of arrays (`tree`).
+:Where: `key` (what an answer is kept under), `cache` and `rows` (answers kept), `checkpoint_file`
+    (a state kept), `interrupt` (signals between two steps), `workers` (processes on all cores),
     `asking` (a person, at a terminal).
-Tests: `unit/test_runs*`, `unit/test_asking`, `acceptance/test_killed`.
+:Tests: `unit/test_runs*`, `unit/test_asking`, `acceptance/test_killed`.
 """
 
 from asperity.runs.interrupt import Interrupted, Stopped

@@ -1,11 +1,11 @@
 """The shafts of a worm gearset and their rolling bearings: loads, deflection, strength, life.
 
-Entry: `study`, the command `asperity shafts`; `study.shaft_rows` for a rating.
-Data: `[worm_shaft]`, `[wheel_shaft]`, `[bearings]` (`parameters`, `options`); bearings and steels
+:Entry: `study`, the command `asperity shafts`; `study.shaft_rows` for a rating.
+:Data: `[worm_shaft]`, `[wheel_shaft]`, `[bearings]` (`parameters`, `options`); bearings and steels
     of data files.
-Where: `statics` (reactions), `beam` (deflection), `strength` (DIN 743, Goodman, Gerber), `rolling`
+:Where: `statics` (reactions), `beam` (deflection), `strength` (DIN 743, Goodman, Gerber), `rolling`
     (ISO 281, ISO 76), `loads` (cases and spectra), `give` (what the mesh gives way).
-Tests: `unit/test_shafts*`, `literature/test_shafts*`, `acceptance/test_cli_shafts`.
+:Tests: `unit/test_shafts*`, `literature/test_shafts*`, `acceptance/test_cli_shafts`.
 """
 
 from asperity.shafts.bearing import RollingBearing

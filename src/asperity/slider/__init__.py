@@ -1,13 +1,13 @@
 """A body pulled over a vibrating base: march, periodic state, homogenised law, closed forms.
 
-Entry: `solve` (one case), `solve_many` (side by side), `homogenise` (a law in place of the
+:Entry: `solve` (one case), `solve_many` (side by side), `homogenise` (a law in place of the
     vibration); `asperity slide`.
-Data: `[slider]` and `[solve]` (`parameters`), `[friction]`, `[vibration]`, `[normal]`, `[wear]`;
+:Data: `[slider]` and `[solve]` (`parameters`), `[friction]`, `[vibration]`, `[normal]`, `[wear]`;
     `model` puts them together.
-Where: `march` and `kernels` (over time), `periodic` and `shooting` (a state that repeats),
+:Where: `march` and `kernels` (over time), `periodic` and `shooting` (a state that repeats),
     `homogenised`, `static` (breaking away), `pressed` (load normal to the plane), `step_error`,
     `closed_forms`, `batch` (lanes).
-Tests: `unit/test_march`, `unit/test_shooting`, `unit/test_slider_*`,
+:Tests: `unit/test_march`, `unit/test_shooting`, `unit/test_slider_*`,
     `literature/test_sliding_body`, `property/test_slider*`.
 
 >>> from asperity.friction import Friction

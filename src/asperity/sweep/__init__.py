@@ -1,10 +1,10 @@
 """Grids of cases over this machine's cores or a Dask cluster: cached, resumable.
 
-Entry: `run`, `asperity sweep`; `branches` along one axis.
-Data: any case; axes as text (`axes`) or a table of points.
-Where: `subject` (what is swept), `grid`, `tasks` and `pools` (where it is solved), `bodies` and
+:Entry: `run`, `asperity sweep`; `branches` along one axis.
+:Data: any case; axes as text (`axes`) or a table of points.
+:Where: `subject` (what is swept), `grid`, `tasks` and `pools` (where it is solved), `bodies` and
     `gearsets`, `plots` and `maps`.
-Tests: `unit/test_sweep_*`, `unit/test_gear_sweep`, `property/test_sweep_axes`,
+:Tests: `unit/test_sweep_*`, `unit/test_gear_sweep`, `property/test_sweep_axes`,
     `acceptance/test_cli_sweep`.
 """
 
