@@ -161,11 +161,13 @@ def test_the_waveforms_of_a_body_close_over_the_cycle(page):
     peak = max(map(abs, series["base_velocity"]))
     # k times the velocity of the drive.
     assert peak == pytest.approx(6.0 * 0.5e-3, rel=1e-3)
-    mean = sum(series["drive_force"]) / len(series["drive_force"])
-    assert mean == pytest.approx(answer["answer"]["drive_force_N"], rel=0.01)
+    # What the drive pulls with is what friction holds, on the mean of so many samples of its swing.
+    mean = sum(series["force"][:-1]) / (len(series["force"]) - 1)
+    swing = max(map(abs, series["force"]))
+    assert mean == pytest.approx(answer["answer"]["drive_force_N"], abs=0.005 * swing)
     slid = sum(series["sliding_velocity"]) / len(series["phase"])
     assert slid == pytest.approx(0.5e-3, rel=0.02)
-    assert not any(series["base_velocity_across"])
+    assert "base_velocity_across" not in series
     slanted = PERIODIC | {"vibration.direction": "60 deg"}
     series = page.do("slide", "table-4.3", slanted).json["series"]
     across, along = series["base_velocity_across"], series["base_velocity"]

@@ -255,7 +255,7 @@ def test_everything_has_a_function_that_makes_it_and_cases_that_ship():
 @pytest.fixture
 def follow_from(tmp_path, monkeypatch):
     """Chapters, and names, of what is made again after a change in a file of the package."""
-    package = Path(closure.__file__).parent
+    package = Path(closure.__file__).parents[1]
     copy = tmp_path / "asperity"
     shutil.copytree(package, copy, ignore=shutil.ignore_patterns("__pycache__"))
     monkeypatch.setattr(closure, "_PACKAGE", copy)

@@ -7,7 +7,7 @@ from asperity.results.quantity import plain
 from asperity.results.result import Result
 from asperity.results.variables import rounded
 
-_POINTS = 129
+_POINTS = 97
 
 
 def as_payload(result: Result) -> dict[str, Any]:

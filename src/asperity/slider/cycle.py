@@ -28,7 +28,7 @@ def cycle_of(model: Model, history: History, points: int) -> dict[str, FloatArra
     dict of str to ndarray
         ``phase`` in cycles, velocities of the base along the drive, across it and up (of the body
         itself where it is shaken), sliding velocities along and across, friction along and across,
-        drive force and normal force.
+        and normal force.
     """
     if len(history.time) < 2:
         return {}
@@ -53,7 +53,6 @@ def cycle_of(model: Model, history: History, points: int) -> dict[str, FloatArra
         "sliding_velocity_across": aside + sense * across,
         "force": history.friction[rows, 0],
         "force_across": history.friction[rows, 1],
-        "drive_force": history.drive_force[rows],
         "normal_force": load,
     }
 

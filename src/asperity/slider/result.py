@@ -197,10 +197,14 @@ class SlideResult(Result):
         return _ROUNDING * force * unit
 
     def traces(self, points: int) -> Mapping[str, Any]:
-        """Return the last cycle of the vibration, where there is a history."""
+        """Return the last cycle of the vibration, where there is a history, by what is in it."""
         from asperity.slider.cycle import cycle_of
 
-        return {} if self.history is None else cycle_of(self.model, self.history, points)
+        if self.history is None:
+            return {}
+        found = cycle_of(self.model, self.history, points)
+        # What is nothing over all of it is not told.
+        return {name: values for name, values in found.items() if values.any()}
 
     def headline(self) -> tuple[str, ...]:
         """Return that it has not settled, where it has not."""

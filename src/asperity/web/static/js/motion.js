@@ -39,8 +39,10 @@ export const arrow = (dx, dy, head = 9) => {
  * @param {Record<string, number[]>} series of a cycle, SI @param {number} limit mu F_N, N
  */
 export function motionOf(series, limit) {
-  const { base_velocity: along, base_velocity_across: across, base_velocity_up: up } = series;
-  const { force, force_across: aside, normal_force: load, sliding_velocity: slides } = series;
+  // What is nothing over all of the cycle is not sent.
+  const none = series.force.map(() => 0);
+  const { base_velocity: along = none, base_velocity_across: across = none, base_velocity_up: up = none } = series;
+  const { force, force_across: aside = none, normal_force: load = none, sliding_velocity: slides = none } = series;
   const side = up.some((each) => Math.abs(each) > 1e-12);
   const places = [along, side ? up : across].map(travelled);
   const swing = Math.max(...places.flat().map(Math.abs)) || 1;

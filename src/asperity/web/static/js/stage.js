@@ -108,7 +108,7 @@ const slower = (frequency) => (frequency > 0 ? `${digits(frequency * SHOWN, 2)} 
 export function Stage({ series, ratio, k, limit }) {
   const picture = useRef(null);
   const [runs, setRuns] = useState(!still());
-  const shaken = series?.base_velocity_across && k > 0 && limit > 0;
+  const shaken = series?.force && k > 0 && limit > 0;
   const moving = useMemo(() => (shaken ? motionOf(series, limit) : null), [series, limit]);
   const frequency = inUnit(useValue("vibration.frequency").text, "Hz");
   const { place, direction, dragged, grasped } = useHandle(k);

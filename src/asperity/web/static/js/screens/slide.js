@@ -262,8 +262,10 @@ function Best({ curve, ratio, over, pick }) {
 
 function Waves({ series }) {
   if (!series?.phase) return null;
-  const { phase, base_velocity: base, sliding_velocity: sliding } = series;
-  const { force, force_across: across, normal_force: load } = series;
+  // What is nothing over all of the cycle is not sent.
+  const none = series.phase.map(() => 0);
+  const { phase, base_velocity: base = none, sliding_velocity: sliding = none } = series;
+  const { force = none, force_across: across = none, normal_force: load = none } = series;
   const milli = (values) => values.map((value) => (value === null ? null : 1e3 * value));
   const varies = Math.max(...load) - Math.min(...load) > 1e-6 * Math.max(...load.map(Math.abs));
   const aside = across.some((value) => Math.abs(value) > 1e-9);
