@@ -166,7 +166,7 @@ def test_the_waveforms_of_a_body_close_over_the_cycle(page):
     swing = max(map(abs, series["force"]))
     assert mean == pytest.approx(answer["answer"]["drive_force_N"], abs=0.005 * swing)
     slid = sum(series["sliding_velocity"]) / len(series["phase"])
-    assert slid == pytest.approx(0.5e-3, rel=0.02)
+    assert slid == pytest.approx(0.5e-3, abs=0.01 * peak)
     assert "base_velocity_across" not in series
     slanted = PERIODIC | {"vibration.direction": "60 deg"}
     series = page.do("slide", "table-4.3", slanted).json["series"]
