@@ -9,23 +9,14 @@ module of 3.14 mm at grade 8.
 import math
 
 import pytest
+from apparatus.duties import A100
 
-from asperity.gearset import Gearset
 from asperity.gearset.tolerancing.allowances import FITS, Allowances, fit_backlash
 from asperity.gearset.tolerancing.backlash import EXPANSION, backlash
 from asperity.gearset.tolerancing.grades import graded
 from asperity.gearset.tolerancing.iso286 import standard_tolerance
 from asperity.gearset.tolerancing.table import Tolerances
 
-A100 = Gearset(
-    starts=1,
-    wheel_teeth=50,
-    centre_distance="100 mm",
-    axial_module="3.15 mm",
-    diameter_factor=12.5,
-    worm_material="case-hardened steel",
-    wheel_material="CuSn12Ni2-C-GZ",
-)
 GIVEN = {
     "centre_distance": "js7", "thread": ["-40 um", "-70 um"], "tooth": ["-50 um", "-100 um"],
 }  # fmt: skip

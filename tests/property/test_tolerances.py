@@ -10,6 +10,7 @@ import functools
 
 import numpy as np
 import pytest
+from apparatus.duties import A100
 
 from asperity.flanks.measuring.corners import Mounted, Place
 from asperity.flanks.meshing.backlash import worm_turn
@@ -18,19 +19,9 @@ from asperity.flanks.parameters import Hob
 from asperity.flanks.sides import both
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
-from asperity.gearset import Gearset
 from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.table import Tolerances
 
-A100 = Gearset(
-    starts=1,
-    wheel_teeth=50,
-    centre_distance="100 mm",
-    axial_module="3.15 mm",
-    diameter_factor=12.5,
-    worm_material="case-hardened steel",
-    wheel_material="CuSn12Ni2-C-GZ",
-)
 GIVEN = Tolerances(centre_distance="js7", thread=["-40 um", "-70 um"], tooth=["-50 um", "-100 um"])
 ASSEMBLIES, PARTS = 10_000, 100
 THREAD, TOOTH, OFF = (40.0, 70.0), (50.0, 100.0), 17.5
