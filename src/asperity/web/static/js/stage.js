@@ -1,5 +1,5 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
-import { html, signal, useEffect, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
+import { html, signal, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { useValue } from "./form.js";
 import { arrow, draw, HALF_X, HALF_Y, HEIGHT, motionOf, REACH, TILE, WIDTH, X, Y } from "./motion.js";
 import { useCase } from "./state.js";
@@ -77,7 +77,8 @@ function useHandle(k) {
 
 /** Advances the moment while the picture is seen and runs. */
 function useMotion(picture, moving, runs) {
-  useEffect(() => {
+  // By layout: an effect waits for the next picture, and what is stopped would still move in it.
+  useLayoutEffect(() => {
     if (!moving) return;
     draw(picture.current, moving, moment.peek());
     if (!runs) return;
