@@ -3,7 +3,8 @@ import { html, useMemo } from "../../vendor/preact.js";
 import { useAddress, useCaseFile, useLive } from "../api.js";
 import { Margins, STANDARDS, Tornado, Verdict } from "../bars.js";
 import { Beneath } from "../figure.js";
-import { Folded, Form, words } from "../form.js";
+import { Folded, Form, useValue, words } from "../form.js";
+import { Gears } from "../gears.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
@@ -170,6 +171,7 @@ export function view() {
   const { name, settings, setAll } = useCase();
   const body = name ? { case: name, settings } : null;
   const { data, error, busy, late, now } = useLive("rate", body, 60);
+  const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const sway = useLive("sensitivity", body, 400).data?.answer;
   const answer = data?.answer;
   const entries = byKey(data?.entries);
@@ -191,6 +193,7 @@ export function view() {
           ${standings(answer.verdict.standing).map((text) => html`<p class="says" key=${text}>${text}</p>`)}
           <${Margins} rows=${safeties} /></section>
         <${First} verdict=${answer.verdict} />
+        <${Gears} geometry=${answer.geometry} speed=${speed} />
         <${Drawing} svg=${data.svg.gearset} geometry=${answer.geometry} />
         <${Columns} entries=${entries} answer=${answer} />
         ${sway ? html`<${Efficiency} sway=${sway} geometry=${answer.geometry} setAll=${setAll} />` : null}
