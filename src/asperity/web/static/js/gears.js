@@ -33,9 +33,9 @@ function wayOf({ apart, module, pitch, rolling }, mode) {
 }
 
 /**
- * The picture alone.
- * @param {{geometry: any, mode: string, speed: number, name: string}} props `geometry` as `rate` tells it; `mode`
- *   "" where nothing is shaken; `speed` of the worm, rad/s; `name` of the picture in words
+ * What moves in a picture of a gearset.
+ * @param {{geometry: any, mode: string, speed: number}} props `geometry` as `rate` tells it; `mode` "" where nothing
+ *   is shaken; `speed` of the worm, rad/s
  */
 function useMesh({ geometry, mode, speed }) {
   const picture = useRef(null);
@@ -107,7 +107,8 @@ export function Gears({ geometry, mode = "", speed }) {
       <${Legend} range=${range} unit="m/s" label="sliding velocity, along the line on which teeth touch" /></div>
     <p class="says">To scale, cut through the middle of the wheel, with straight flanks of the worm; slowed. The dots
       are where teeth touch now; the worm's flanks slide out of the picture.
-      ${mode ? ` Shaken: ${WAYS[mode]}, far more than it is, so that teeth seem to overlap.` : ""}</p>
+      ${mode ? ` Shaken: ${WAYS[mode]}, far more than it is${mode === "screw" ? ""
+        : ", so that teeth seem to overlap"}.` : ""}</p>
   </section>`;
 }
 
