@@ -2,9 +2,11 @@
 import { html } from "../vendor/preact.js";
 import { digits, readable } from "./units.js";
 
-const [WIDTH, HIGH, MIDDLE, BAR] = [640, 150, [250, 390], 8];
+const [WIDTH, HIGH, MIDDLE, BAR] = [460, 150, [185, 275], 8];
+/** Where strips begin on the left, and end on the right. */
+const ENDS = [115, 345];
 /** Between two strips, and the least room of a label. */
-const [GAP, LINE] = [8, 19];
+const [GAP, LINE] = [8, 38];
 /** Of what is put in, below which a strip is left out. */
 const LEAST = 2e-3;
 
@@ -44,13 +46,16 @@ export function Strips({ powers, label }) {
   const high = Math.max(HIGH + 34, ...[...left, ...right].map(({ end }) => end));
   const said = ({ name, value }) => `${name} ${readable(value, "W", 3).join(" ")}, ${digits((100 * value) / sum, 2)} %`;
   const words = [...left, ...right].map(said).join("; ");
+  const Name = ({ one, x, anchor }) => html`<text text-anchor=${anchor}>
+    <tspan x=${x} y=${one.from + one.wide / 2 - 2}>${one.name}</tspan>
+    <tspan x=${x} y=${one.from + one.wide / 2 + 15}>${said(one).slice(one.name.length + 1)}</tspan></text>`;
   return html`<svg class="strips" viewBox=${`0 0 ${WIDTH} ${high}`} role="img" aria-label=${`${label}: ${words}`}>
     <rect class="middle" x=${MIDDLE[0]} y="24" width=${MIDDLE[1] - MIDDLE[0]} height=${HIGH} />
-    ${left.map((one, n) => html`<path class=${`strip in-${n}`} d=${band(150, one.from, MIDDLE[0], one.to, one.wide)} />
-      <text x=${150 - BAR} y=${one.from + one.wide / 2 + 5} text-anchor="end">${said(one)}</text>`)}
+    ${left.map((one, n) => html`<path class=${`strip in-${n}`} d=${band(ENDS[0], one.from, MIDDLE[0], one.to, one.wide)} />
+      ${Name({ one, x: ENDS[0] - BAR, anchor: "end" })}`)}
     ${right.map((one, n) => html`<path class=${`strip out-${n}`}
-        d=${band(MIDDLE[1], one.to, 490, one.from, one.wide)} />
-      <text x=${490 + BAR} y=${one.from + one.wide / 2 + 5}>${said(one)}</text>`)}
+        d=${band(MIDDLE[1], one.to, ENDS[1], one.from, one.wide)} />
+      ${Name({ one, x: ENDS[1] + BAR, anchor: "start" })}`)}
     <text class="strong" x=${(MIDDLE[0] + MIDDLE[1]) / 2} y=${24 + HIGH / 2 + 5} text-anchor="middle">
       ${readable(sum, "W", 3).join(" ")}</text>
   </svg>`;

@@ -207,7 +207,8 @@ export function view() {
     <${Travel} error=${error} setAll=${setAll} />
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
     <div class="columns">
-      <div class="controls"><${Ratio} geometry=${answer?.geometry} /><${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} /><//></div>
+      <div class="controls"><${Ratio} geometry=${answer?.geometry} />
+        <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} /><//></div>
       ${answer ? html`<div class="pair">
         <section class="panel wide" aria-label="verdict"><h2>Does it hold?</h2>
           <p class="big">${Object.entries(answer.verdict.holds).map(([standard, ok]) => html`
