@@ -1,5 +1,5 @@
 /** What moves while it is seen, unless the reader wants nothing to move. */
-import { html, useEffect, useRef, useState } from "../vendor/preact.js";
+import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 
 export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 /** A picture that was long away does not jump, ms. */
@@ -13,7 +13,8 @@ const MOST = 100;
 export function usePlayed(element, draw, of) {
   const [plays, setPlays] = useState(!still());
   const time = useRef(0);
-  useEffect(() => {
+  // By layout: an effect waits for the next picture, and what is stopped would still move in it.
+  useLayoutEffect(() => {
     if (!element.current) return;
     draw(time.current);
     if (!plays) return;

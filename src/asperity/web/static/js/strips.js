@@ -51,7 +51,8 @@ export function Strips({ powers, label }) {
     <tspan x=${x} y=${one.from + one.wide / 2 + 15}>${said(one).slice(one.name.length + 1)}</tspan></text>`;
   return html`<svg class="strips" viewBox=${`0 0 ${WIDTH} ${high}`} role="img" aria-label=${`${label}: ${words}`}>
     <rect class="middle" x=${MIDDLE[0]} y="24" width=${MIDDLE[1] - MIDDLE[0]} height=${HIGH} />
-    ${left.map((one, n) => html`<path class=${`strip in-${n}`} d=${band(ENDS[0], one.from, MIDDLE[0], one.to, one.wide)} />
+    ${left.map((one, n) => html`<path class=${`strip in-${n}`}
+        d=${band(ENDS[0], one.from, MIDDLE[0], one.to, one.wide)} />
       ${Name({ one, x: ENDS[0] - BAR, anchor: "end" })}`)}
     ${right.map((one, n) => html`<path class=${`strip out-${n}`}
         d=${band(MIDDLE[1], one.to, ENDS[1], one.from, one.wide)} />
