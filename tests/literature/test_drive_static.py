@@ -299,7 +299,14 @@ def test_the_radius_of_the_torque_is_told_of_next_to_no_friction():
     assert marched.point(none).worm_torque(366.0, 1e-6) == pytest.approx(24.4, abs=0.01)
 
 
-def test_a_worm_whose_tips_reach_into_the_wheel_is_refused_by_what_it_does():
-    settings = (*ONE_TOOTH, "drive.phases=1", "mount.centre_distance_error=-0.5 mm")
-    with pytest.raises(InputError, match=r"the worm's tips reach 111.1 um into the root"):
+@pytest.mark.parametrize(
+    ("setting", "line"),
+    [
+        ("mount.centre_distance_error=-0.5 mm", "the worm's tips reach 111.1 um into the root"),
+        ("mount.axial_offset=1 mm", "the wheel's tips reach 80.2\\d um into the worm's core"),
+    ],
+)
+def test_a_worm_whose_tips_reach_into_the_wheel_is_refused_by_what_it_does(setting, line):
+    settings = (*ONE_TOOTH, "drive.phases=1", setting)
+    with pytest.raises(InputError, match=line):
         solve_static(problem_of(*settings, case="drive-screw", own=()), Run())
