@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.drive.static.clearance import cut_into
+from asperity.drive.static.clearance import cut_root, refuse_cut_core
 from asperity.drive.static.equilibrium import Balance, Equilibrium
 from asperity.drive.teeth.contact import TeethContact
 from asperity.errors import ConvergenceError
@@ -58,10 +58,11 @@ def touching_angles(contact: TeethContact, phases: FloatArray) -> FloatArray:
         The worm reaches no tooth.
     """
     still = np.zeros(3)
+    refuse_cut_core(contact.sector.wheel)
     try:
         return np.array([contact.touching_angle(float(beta), still) for beta in phases])
     except ConvergenceError as error:
-        raise cut_into(contact.sector.wheel) or error from None
+        raise cut_root(contact.sector.wheel) or error from None
 
 
 class LoadCase(NamedTuple):
