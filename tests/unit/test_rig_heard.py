@@ -19,9 +19,11 @@ from apparatus.heard_rig import (
 )
 
 from asperity.errors import InputError
+from asperity.runs import Run
+from asperity.tribometer.checking import study as checking
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.heard.zero import Zero
-from asperity.tribometer.reduction.study import Reducible, heard_in, reduce_recording
+from asperity.tribometer.reduction.study import Reducible, Series, heard_in, reduce_recording
 from asperity.tribometer.tables import TABLES
 
 # Each is told by what is said of it; those that are not named here are tried in the campaign.
@@ -210,6 +212,14 @@ def test_a_zero_takes_the_place_of_the_offset_of_its_calibration(tmp_path):
         widths.append(high - low)
     # The gain is not in a change in percent, and the offset went with the zero.
     assert widths[1] == pytest.approx(widths[0], rel=0.02)
+
+
+def test_a_check_tells_of_segments_that_are_refused(tmp_path):
+    name = "samples missing in the torque"
+    path = faulty(name, seed_of(name), tmp_path / "run.nc", **SMALL)
+    checked = checking.answer(Series((reducible(path),)), Run())
+    assert checked.headline() == ("Nothing is found, but not all could be checked.",)
+    assert sum("is refused: torque_steel has samples missing" in one for one in checked.notes) == 3
 
 
 def test_an_accelerometer_is_heard_at_the_drive_s_frequency_alone(tmp_path):
