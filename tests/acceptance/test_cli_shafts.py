@@ -153,3 +153,12 @@ def test_what_cannot_be_is_refused_in_one_line(run, words, said):
     assert done.returncode == 2
     assert said in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1
+
+
+def test_a_shaft_thinner_than_a_micrometre_is_refused_in_a_line(run):
+    done = run(
+        "shafts", CASE, "--set", "worm_shaft.section=[{length='190 mm', diameter='1e-290 mm'}]"
+    )
+    assert done.returncode == 2
+    assert len(done.stderr.splitlines()) == 1
+    assert "diameter" in done.stderr

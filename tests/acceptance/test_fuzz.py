@@ -370,7 +370,7 @@ def of_gearbox(rng, command):
     case, tables = GEARBOX[command]
     raw = tomllib.loads(shipped_cases()[case].read_text("utf-8"))
     given = [case]
-    for _ in range(rng.randint(1, 3)):
+    for _ in range(rng.choice([1, 1, 1, 2, 3])):
         name = rng.choice(tables)
         nested = [key for key, part in raw.get(name, {}).items() if isinstance(part, list)]
         if nested and rng.random() < 0.6:
