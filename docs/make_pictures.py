@@ -125,8 +125,8 @@ def two_states() -> "Figure":
     return answer(prepare(case, over=[over]), Run()).figure()
 
 
-def of_drive(name: str, shipped: str, *settings: str) -> "Figure":
-    """First picture of a command's answer to a shipped drive."""
+def of_command(name: str, shipped: str, *settings: str) -> "Figure":
+    """First picture of a command's answer to a case that ships."""
     command = next(each for each in COMMANDS if each.name == name)
     run = Run()
     run.detailed = True
@@ -262,12 +262,13 @@ if __name__ == "__main__":
         "in_space": in_space(),
         "in_flight": in_flight(),
         "two_states": two_states(),
-        "drive": of_drive("drive", "drive-thesis"),
-        "drive_directions": of_drive(
+        "drive": of_command("drive", "drive-thesis"),
+        "drive_directions": of_command(
             "directions", "drive-screw", "vibration.frequency=20 kHz",
             "vibration.displacement_amplitude=20 um",
         ),
-        "drive_locking": of_drive("locking", "drive-actuator"),
+        "drive_locking": of_command("locking", "drive-actuator"),
+        "shafts": of_command("shafts", "actuator-shafts"),
     }  # fmt: skip
     for name, figure in drawn.items():
         write_atomically(

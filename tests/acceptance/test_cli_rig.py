@@ -600,15 +600,22 @@ def test_a_run_begins_in_no_folder_that_holds_recordings(asperity, tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["file-01.nc"]
 
 
-def test_a_fit_prints_the_keys_of_the_contract(asperity, tmp_path):
+FREE = "friction.max_deflection"
+
+
+def fitted(asperity, folder, *options):
+    """Return what a fit of four ratios to table-4.3 prints."""
     rows = "\n".join(f"{k},{r},0.01" for k, r in ((1.5, 0.62), (2, 0.46), (3, 0.26), (6, 0.12)))
-    (tmp_path / "data.csv").write_text(f"vibration.velocity_ratio,ratio,sd\n{rows}\n", "utf-8")
-    free = "friction.max_deflection"
+    (folder / "data.csv").write_text(f"vibration.velocity_ratio,ratio,sd\n{rows}\n", "utf-8")
     code, output, errors = asperity(
-        "fit", tmp_path / "data.csv", "table-4.3", "--free", free, "--next", "1", "--json"
+        "fit", folder / "data.csv", "table-4.3", "--free", FREE, *options
     )
     assert code == 0, errors
-    answer = json.loads(output)
+    return output
+
+
+def test_a_fit_prints_the_keys_of_the_contract(asperity, tmp_path):
+    answer = json.loads(fitted(asperity, tmp_path, "--next", "1", "--json"))
     keys = ["parameters", "correlation", "laws", "residuals", "next", "solves", "failed"]
     assert answer.keys() >= set(keys)
     (found,) = answer["parameters"]
@@ -616,18 +623,28 @@ def test_a_fit_prints_the_keys_of_the_contract(asperity, tmp_path):
     assert answer["laws"][0].keys() == {"law", "chi2", "dof", "delta_chi2"}
     assert len(answer["next"]) == 1
     assert found["units"] == "m"
-    # Of one parameter the same measurement tells most, however often it is asked for.
-    told = asperity("fit", tmp_path / "data.csv", "table-4.3", "--free", free, "--next", "2")[1]
-    assert "one measurement, repeated" in told
-    # A table has the case's unit, nm, or another one that it is given in.
-    for setting, size in (("70 nm", 1e9), ("7e-8 m", 1e9), ("0.07 um", 1e6)):
-        start = "--set", f"{free}={setting}"
-        shown = asperity("fit", tmp_path / "data.csv", "table-4.3", "--free", free, *start)[1]
-        row = next(line.split() for line in shown.splitlines() if line.startswith(free))
-        told = [float(one) for one in row[1:4]]
-        assert told == pytest.approx([size * one for one in (found["value"], *found["ci95"])], 1e-2)
-        assert row[4] == ("nm" if size == 1e9 else "um")
     refused(asperity("fit", tmp_path / "data.csv", "table-4.3", "--free", "x.y"), "--free x.y")
+
+
+@pytest.mark.slow
+def test_of_one_parameter_the_same_measurement_tells_most_however_often_it_is_asked_for(
+    asperity, tmp_path
+):
+    assert "one measurement, repeated" in fitted(asperity, tmp_path, "--next", "2")
+
+
+@pytest.mark.slow
+@pytest.mark.campaign
+@pytest.mark.parametrize(("setting", "size"), [("0.07 um", 1e6), ("70 nm", 1e9), ("7e-8 m", 1e9)])
+def test_a_fit_s_table_has_the_case_s_unit_or_the_one_it_is_given_in(
+    asperity, tmp_path, setting, size
+):
+    (found,) = json.loads(fitted(asperity, tmp_path, "--json"))["parameters"]
+    shown = fitted(asperity, tmp_path, "--set", f"{FREE}={setting}")
+    row = next(line.split() for line in shown.splitlines() if line.startswith(FREE))
+    told = [float(one) for one in row[1:4]]
+    assert told == pytest.approx([size * one for one in (found["value"], *found["ci95"])], 1e-2)
+    assert row[4] == ("nm" if size == 1e9 else "um")
 
 
 def test_a_check_lists_what_is_wrong_and_draws_each(asperity, tmp_path):

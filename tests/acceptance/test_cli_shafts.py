@@ -1,6 +1,8 @@
 """``asperity shafts``, ``rate`` with shafts, and data files of bearings, as a user runs them."""
 
+import importlib.util
 import json
+from pathlib import Path
 from typing import NamedTuple
 
 import pytest
@@ -19,6 +21,14 @@ def run(asperity):
     return lambda *words: Done(*asperity(*words))
 
 
+def helper(name):
+    """Load a file of tests beside this one for what it has to read files with."""
+    spec = importlib.util.spec_from_file_location(name, Path(__file__).parent / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
 def answer(run, *words):
     done = run(*words, "--json")
     assert done.returncode == 0, done.stderr
@@ -31,6 +41,24 @@ def test_shafts_tells_what_each_part_comes_to(run):
     assert "shafts and bearings hold" in done.stdout
     for words in ("worm bearing A", "wheel shaft", "Loads of the worm's bearings", "L_10h (h)"):
         assert words in done.stdout
+    assert " 1.36e+07 h  5000 h " in done.stdout
+
+
+def test_every_number_of_the_tables_of_shafts_knows_its_place_in_the_json(run, tmp_path):
+    assert run("shafts", CASE, "--out", str(tmp_path)).returncode == 0
+    reports = helper("test_report")
+    page = reports.Page((tmp_path / "report.html").read_text("utf-8"))
+    told = json.loads((tmp_path / "shafts.json").read_text("utf-8"))
+    reports.check_numbers(page, told)
+    keys = {key for _, key, _, _ in page.numbers}
+    assert len(keys) > 200
+    for start in (
+        "rows.0.life_h",
+        "worm_shaft.cases.",
+        "wheel_shaft.bearings.1.",
+        "worm_deflection",
+    ):
+        assert any(key.startswith(start) for key in keys)
 
 
 def test_every_number_of_shafts_is_one_object_of_json(run):
@@ -125,3 +153,12 @@ def test_what_cannot_be_is_refused_in_one_line(run, words, said):
     assert done.returncode == 2
     assert said in done.stderr
     assert len(done.stderr.strip().splitlines()) == 1
+
+
+def test_a_shaft_thinner_than_a_micrometre_is_refused_in_a_line(run):
+    done = run(
+        "shafts", CASE, "--set", "worm_shaft.section=[{length='190 mm', diameter='1e-290 mm'}]"
+    )
+    assert done.returncode == 2
+    assert len(done.stderr.splitlines()) == 1
+    assert "diameter" in done.stderr

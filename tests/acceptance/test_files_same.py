@@ -62,6 +62,7 @@ def asked(name, lot):
         "sweep": (["table-4.3", "--over", f"vibration.velocity_ratio=1,{ratio}"], [periodic]),
         "branches": (["normal-pin", "--over", "vibration.velocity_ratio=2,3,4"], []),
         "rate": (["gearset-3"], [*gear]),
+        "shafts": (["actuator-shafts"], [f"worm_shaft.peak={lot.uniform(1.0, 3.0):.4g}"]),
         "sensitivity": (["gearset-3"], [*gear]),
         "methods": (["gearset-3"], [*gear, *law]),
         "optimise": (["gearset-3"], []),
@@ -89,7 +90,6 @@ ELSEWHERE = {
         "rig package",
         "optimise",
         "rexs",
-        "shafts",
     ),
 }
 QUICK = ("slide", "rig plan")

@@ -330,3 +330,80 @@ def test_no_input_ends_in_a_traceback_or_takes_a_minute_without_a_word(watched, 
             wrong.append(f"asperity {given}\n{found}")
         signal.setitimer(signal.ITIMER_PROF, 0)
     assert not wrong, "\n\n".join(wrong)
+
+
+GEARBOX = {
+    "rate": ("actuator-duty", ["spectrum", "housing", "requirements", "tolerances"]),
+    "shafts": ("actuator-shafts", ["worm_shaft", "wheel_shaft", "bearings", "spectrum"]),
+}
+"""Commands with their cases and the tables of a whole gearbox."""
+
+
+def inline(value):
+    """Return a value as TOML in a line."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key} = {inline(part)}" for key, part in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(inline, value)) + "]"
+    return json.dumps(value)
+
+
+def leaf_changed(rng, value):
+    """Return a value, with one of the numbers and words within it changed."""
+    if isinstance(value, dict) and value:
+        key = rng.choice(list(value))
+        if rng.random() < 0.1:
+            return {name: part for name, part in value.items() if name != key}
+        return {**value, key: leaf_changed(rng, value[key])}
+    if isinstance(value, list) and value:
+        at = rng.randrange(len(value))
+        if rng.random() < 0.1:
+            return [*value, value[at]] if rng.random() < 0.5 else value[:at] + value[at + 1 :]
+        return [*value[:at], leaf_changed(rng, value[at]), *value[at + 1 :]]
+    if rng.random() < 0.3:
+        return rng.choice([word for word in ODD if word.isprintable()])
+    return changed_number(rng, str(value))
+
+
+def of_gearbox(rng, command):
+    """Return a command line over the tables of a gearbox, one to three settings of it wrong."""
+    case, tables = GEARBOX[command]
+    raw = tomllib.loads(shipped_cases()[case].read_text("utf-8"))
+    given = [case]
+    for _ in range(rng.choice([1, 1, 1, 2, 3])):
+        name = rng.choice(tables)
+        nested = [key for key, part in raw.get(name, {}).items() if isinstance(part, list)]
+        if nested and rng.random() < 0.6:
+            key = rng.choice(nested)
+            changed = inline(leaf_changed(rng, raw[name][key]))
+            given += ["--set", f"{name}.{key}={changed}"]
+        else:
+            given += ["--set", flat_setting(rng, name, raw)]
+    return [command, *given, "--json"]
+
+
+def flat_setting(rng, name, raw):
+    """Return a setting of a key of one table."""
+    model = case_tables()[name]
+    key = rng.choice(list(model.model_fields))
+    quantity = quantity_of(model, key)
+    old = raw.get(name, {}).get(key)
+    value = rng.choice(ODD)
+    if quantity is not None and rng.random() < 0.7:
+        value = changed_number(rng, str(old or quantity.example))
+    return f"{name}.{key}={value}"
+
+
+@pytest.mark.skipif(os.name != "posix", reason="an alarm tells of a minute without a word")
+@pytest.mark.campaign(over="part")
+@pytest.mark.parametrize("part", range(10))
+def test_no_table_of_a_gearbox_ends_in_a_traceback(watched, part):
+    rng = random.Random(f"gearbox {part}")
+    wrong = []
+    for _ in range(INPUTS):
+        given = of_gearbox(rng, rng.choice(list(GEARBOX)))
+        signal.setitimer(signal.ITIMER_PROF, LONGEST)
+        if found := trouble(given):
+            wrong.append(f"asperity {given}\n{found}")
+        signal.setitimer(signal.ITIMER_PROF, 0)
+    assert not wrong, "\n\n".join(wrong)

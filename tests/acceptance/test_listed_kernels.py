@@ -20,6 +20,11 @@ def _marked(line):
     return pytest.param(line, marks=(pytest.mark.slow, pytest.mark.campaign))
 
 
+def test_every_command_line_that_is_recorded_is_in_the_list():
+    # Where it fails, `python tests/harvest.py`.
+    assert not set(lines()) - entries.listed().lines.keys()
+
+
 @pytest.mark.skipif(
     not load.is_for_here(kept._MADE_HERE, FEATURES), reason="kernels are Numba's on this machine"
 )

@@ -1,5 +1,6 @@
 """What the front page of the documentation and its tutorials say is what happens."""
 
+import json
 import re
 import shlex
 import textwrap
@@ -9,6 +10,7 @@ import pytest
 from apparatus.grid import slow
 
 DOCS = Path(__file__).parents[2] / "docs"
+ACTUATOR = "tutorials/an-actuator-from-its-duty"
 PAGES = ("index", *(f"tutorials/{path.stem}" for path in sorted(DOCS.glob("tutorials/*.rst"))))
 
 
@@ -42,6 +44,26 @@ def test_each_command_prints_what_the_page_says(asperity, tmp_path, page):
         assert code == 0, (command, errors)
         for line in lines:
             assert words(line) in words(output), (command, line)
+    if page == ACTUATOR:
+        assert len(commands) == 6
+        holds_report_drawing_and_solids_in_inches(tmp_path / "out")
+
+
+def holds_report_drawing_and_solids_in_inches(folder):
+    """Hold what the six commands from duty to drawing leave to what its designer asked for."""
+    import ezdxf
+
+    rated = json.loads((folder / "rated" / "rate.json").read_text("utf-8"))
+    assert set(rated["verdict"]["holds"]) >= {"iso14521", "bs721", "agma6034"}
+    report = (folder / "rated" / "report.html").read_text("utf-8")
+    assert "lbf in" in report
+    drawing = ezdxf.readfile(folder / "drawn" / "gearset.dxf")
+    assert not drawing.audit().errors
+    assert len(drawing.modelspace().query("DIMENSION")) > 5
+    for solid in ("worm", "wheel", "gearset"):
+        text = (folder / "drawn" / f"{solid}.step").read_text("utf-8")
+        assert text.startswith("ISO-10303-21")
+        assert "MANIFOLD_SOLID_BREP" in text
 
 
 def test_the_law_of_the_pin_is_homogenised(capsys):

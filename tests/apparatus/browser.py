@@ -133,8 +133,19 @@ def answered(words, folder):
     return json.loads(output.getvalue())
 
 
+THIN = """
+document.querySelectorAll("tbody").forEach((body) =>
+  [...body.rows].slice(100).forEach((row) => row.remove()));
+"""
+"""Leaves a hundred rows of each table: of the numbers of a curve there are thousands."""
+
+
 def violations(page):
-    """Return what axe finds; the context must bypass the page's policy."""
+    """Return what axe finds; the context must bypass the page's policy.
+
+    It looks at each element in turn: tables lose rows that are the same thousands of times over.
+    """
+    page.evaluate(THIN)
     page.evaluate(AXE.read_text("utf-8"))
     found = page.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
     return [

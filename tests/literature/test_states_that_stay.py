@@ -93,6 +93,9 @@ def test_a_march_of_a_contact_without_damping_shows_one_of_many_and_says_so(rati
     assert slow.ratio == pytest.approx(state.ratio, abs=1e-5)
     assert abs(sudden.ratio - state.ratio) > 2e-3
     for marched in (sudden, slow):
+        assert (marched.settled, marched.step_error) == (state.settled, state.step_error)
+        assert not marched.settled
+        assert "one of many" in marched.settled_by
         assert any("rings as the vibration began" in note for note in marched.notes)
 
 
@@ -110,6 +113,8 @@ def test_bodies_that_are_marched_together_tell_of_a_contact_without_damping():
         read_case("normal-pin", TABLES, ["solve.method=march", "normal.damping_ratio=0"])
     )
     for together in solve_many([model, model]):
+        assert not together.settled
+        assert "one of many" in together.settled_by
         assert any("rings as the vibration began" in note for note in together.notes)
 
 

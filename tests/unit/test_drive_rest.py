@@ -7,6 +7,7 @@ from apparatus.grid import grid, slow
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.drive import directions
 from asperity.drive.solve import answer, prepare
 from asperity.errors import InputError
 from asperity.runs import Run
@@ -47,6 +48,14 @@ def test_a_vibration_of_nothing_changes_nothing(law, way, shaft):
     assert one.torque_ratio == pytest.approx(1.0, abs=1e-6)
     assert one.energy_ratio == pytest.approx(1.0, abs=1e-6)
     assert one.saved_per_actuator is None
+
+
+@pytest.mark.slow
+def test_no_way_of_shaking_is_best_by_what_an_actuator_of_nothing_saves():
+    one = directions.answer(problem(NOTHING), Run())
+    assert one.settled.any()
+    assert [row["saved_per_actuator_W_W"] for row in one.rows] == [None] * len(one.rows)
+    assert one.rankings["per_watt"] == []
 
 
 # Slowly, static friction shakes the drive by itself.

@@ -218,7 +218,8 @@ def test_a_long_reason_stands_below_the_table_and_its_value_in_the_table_s_unit(
     settings = ["friction.mu=0.21", "friction.max_deflection=0.07 um"]
     case = read_case("table-4.3", case_tables(), settings)
     result = answer(prepare(case, data=str(tmp_path / "data.csv"), free=LIMIT), Run())
-    lines = rendered(result.tables(), 80).splitlines()
+    assert max(map(len, rendered(result.tables(), 79).splitlines())) <= 79
+    lines = rendered(result.tables(), 120).splitlines()
     place = next(n for n, line in enumerate(lines) if line.startswith(LIMIT))
     shown = lines[place]
     assert "the model answers no further than 0.07" in shown

@@ -38,6 +38,8 @@ def test_three_parts_count_as_they_were_calculated_by_another_way():
     assert found.iso14521["loss_mean_W"] == pytest.approx(205.82, rel=3e-5)
     assert found.bs721["U_w_h"] == pytest.approx(844.736, rel=1e-6)
     assert found.bs721["U_s_h"] == pytest.approx(542.059, rel=1e-6)
+    assert found.bs721["M_w_Nm"] == pytest.approx(831.57, rel=1e-5)
+    assert found.bs721["M_s_Nm"] == pytest.approx(1246.86, rel=1e-5)
     assert found.bs721["S_w"] == pytest.approx(3.3263, rel=1e-5)
     assert found.bs721["S_s"] == pytest.approx(4.9875, rel=1e-5)
     wear = [part.wear for part in found.duty_cycle]

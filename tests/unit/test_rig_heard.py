@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import zlib
 
 import numpy as np
 import pytest
@@ -18,9 +19,11 @@ from apparatus.heard_rig import (
 )
 
 from asperity.errors import InputError
+from asperity.runs import Run
+from asperity.tribometer.checking import study as checking
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.heard.zero import Zero
-from asperity.tribometer.reduction.study import Reducible, heard_in, reduce_recording
+from asperity.tribometer.reduction.study import Reducible, Series, heard_in, reduce_recording
 from asperity.tribometer.tables import TABLES
 
 # Each is told by what is said of it; those that are not named here are tried in the campaign.
@@ -65,9 +68,14 @@ def spoiled(name, seed, path, **settings):
     return [flag for one in segments for flag in one.flags]
 
 
+def seed_of(name):
+    """Return the seed of a fault: its name's, so that another fault in the list changes none."""
+    return zlib.crc32(name.encode()) % 100_000
+
+
 @pytest.mark.parametrize("name", TOLD)
 def test_a_fault_is_told_and_spoils(tmp_path, name):
-    flags = spoiled(name, list(FAULTS).index(name), tmp_path / "run.nc", **SMALL)
+    flags = spoiled(name, seed_of(name), tmp_path / "run.nc", **SMALL)
     assert any(TOLD[name] in flag for flag in flags), flags
 
 
@@ -76,7 +84,16 @@ def test_a_fault_is_told_and_spoils(tmp_path, name):
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("name", FAULTS)
 def test_no_fault_passes_as_good(tmp_path, name, seed):
-    assert spoiled(name, 100 + seed, tmp_path / "run.nc")
+    assert spoiled(name, seed_of(name) + 1 + seed, tmp_path / "run.nc")
+
+
+# Seeds of `sound_settings` whose motors run at 5.5 V, both speeds far from what supplies allow.
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [7, 21, 22, 23, 26, 28, 29, 30, 32, 34, 37, 39])
+def test_speeds_exchanged_at_5_5_volts_are_told(tmp_path, seed):
+    assert sound_settings(seed).volts == 5.5
+    flags = spoiled("speeds exchanged", seed, tmp_path / "run.nc", **SMALL)
+    assert any("speeds are exchanged" in flag for flag in flags), flags
 
 
 def flagged(path):
@@ -145,7 +162,9 @@ def test_a_zero_that_is_off_and_drifts_is_taken_off(tmp_path):
 def test_intervals_hold_the_truth_whatever_the_zero(tmp_path, size):
     held, _ = covered(range(200), size, tmp_path / "run.nc")
     # 0.97 is asked for: intervals are wider than they need be (0.972 and 0.973), and why is not
-    # proven. This bound is what stands, no evidence for what is asked.
+    # proven. With the deviation of run-out over root six, of drift over root three they are 0.975
+    # and 0.973, and 0.975 where no zero is off. This bound is what stands, no evidence for what
+    # is asked.
     assert 0.93 <= np.mean(held) <= 0.98
 
 
@@ -193,6 +212,14 @@ def test_a_zero_takes_the_place_of_the_offset_of_its_calibration(tmp_path):
         widths.append(high - low)
     # The gain is not in a change in percent, and the offset went with the zero.
     assert widths[1] == pytest.approx(widths[0], rel=0.02)
+
+
+def test_a_check_tells_of_segments_that_are_refused(tmp_path):
+    name = "samples missing in the torque"
+    path = faulty(name, seed_of(name), tmp_path / "run.nc", **SMALL)
+    checked = checking.answer(Series((reducible(path),)), Run())
+    assert checked.headline() == ("Nothing is found, but not all could be checked.",)
+    assert sum("is refused: torque_steel has samples missing" in one for one in checked.notes) == 3
 
 
 def test_an_accelerometer_is_heard_at_the_drive_s_frequency_alone(tmp_path):

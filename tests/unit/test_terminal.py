@@ -73,3 +73,13 @@ def test_the_width_is_that_of_columns_or_the_terminal_or_eighty(
     monkeypatch.setattr(os, "get_terminal_size", size)
     table = Table((Column("", folds=True),), (("word " * 100,),))
     assert width - 5 < max(map(len, rendered([table]).splitlines())) <= width
+
+
+def test_headings_and_cells_fold_where_no_column_that_folds_is_left():
+    table = Table.of(("", "m_x1 (mm)", "least safety"), [("a b", 3.15, "iso14521.safety_wear")])
+    wide = rendered([table], 60).splitlines()
+    assert len(wide) == 2
+    assert wide[1].endswith("iso14521.safety_wear")
+    narrow = rendered([table], 24).splitlines()
+    assert max(map(len, narrow)) <= 24
+    assert "".join(" ".join(narrow).split()).count("3.15") == 1

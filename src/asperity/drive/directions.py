@@ -51,6 +51,10 @@ class Directions(Result):
     step_error: FloatArray = quantity("", "", "error of the ratio from the step", dims=_MODES)
     saved: FloatArray = quantity("P_0 - P_d", "W", "drive power saved", dims=_MODES)
     actuator: FloatArray = quantity("P_a", "W", "mechanical power of the actuator", dims=_MODES)
+    saved_per_actuator: FloatArray = quantity(
+        "(P_0 - P_d)/P_a", "", "drive power saved per actuator power",
+        dims=_MODES, key="saved_per_actuator_W_W",
+    )  # fmt: skip
     energy_ratio: FloatArray = quantity("", "", "power put in over that without", dims=_MODES)
     force_ratio: FloatArray = quantity(
         "N_max/N_s", "", "greatest normal force over that without", dims=_MODES
@@ -77,8 +81,8 @@ class Directions(Result):
                 "saved_W": float(self.saved[n]),
                 "saved_per_micrometre_W": float(self.saved[n]) / micrometres,
                 "actuator_W": float(self.actuator[n]),
-                "saved_per_actuator_W_W": float(self.saved[n] / self.actuator[n])
-                if self.actuator[n] > 0.0
+                "saved_per_actuator_W_W": float(self.saved_per_actuator[n])
+                if np.isfinite(self.saved_per_actuator[n])
                 else None,
                 "energy_ratio": float(self.energy_ratio[n]),
                 "force_ratio": float(self.force_ratio[n]),
@@ -188,6 +192,7 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
         step_error=column(lambda each: each.step_error),
         saved=column(lambda each: static - each.ledger.drive),
         actuator=column(lambda each: each.ledger.actuator),
+        saved_per_actuator=column(lambda each: each.saved_per_actuator),
         energy_ratio=column(lambda each: each.energy_ratio),
         force_ratio=column(lambda each: each.force_max / each.force_static),
         open_share=column(lambda each: each.open_share),

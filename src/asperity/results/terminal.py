@@ -3,6 +3,7 @@
 import contextlib
 import itertools
 import os
+import re
 import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
@@ -13,7 +14,8 @@ if TYPE_CHECKING:
     from asperity.results.table import Column, Table
 
 _MOST_READABLE = 79
-_USUAL = 80
+_USUAL = _MOST_READABLE  # where no terminal says how wide it is
+_PART = re.compile(r"(?<=[._])(?=[A-Za-z])")  # where a name may be broken that fits in no line
 _DIGITS = 4  # of a width; what is wider is as wide
 _GAP = "  "
 _NARROWEST = 8  # that a column is made where the terminal asks for less
@@ -64,7 +66,14 @@ def _grid(columns: "Sequence[Column]", rows: Iterable[Sequence[str]], width: int
         max(len(word) for text in column for word in text.split() or [""])
         for column in zip(*texts, strict=True)
     ]
-    _squeeze(widths, words, columns, width - len(_GAP) * (len(columns) - 1))
+    room = width - len(_GAP) * (len(columns) - 1)
+    _squeeze(widths, words, columns, room)
+    _narrow(widths, words, room)
+    parts = [
+        max(len(part) for text in column for word in text.split() or [""] for part in _parts(word))
+        for column in zip(*texts, strict=True)
+    ]
+    _narrow(widths, parts, room)
     cells = [[_folded(*cell) for cell in zip(row, widths, strict=True)] for row in texts]
     widths = [
         max(len(line) for cell in column for line in cell) for column in zip(*cells, strict=True)
@@ -96,7 +105,31 @@ def _squeeze(
         widths[max(wider, key=widths.__getitem__)] -= 1
 
 
+def _narrow(widths: list[int], least: Sequence[int], room: int) -> None:
+    """Take what is still too much from all columns, the widest first, down to their least."""
+    while sum(widths) > room:
+        wider = [place for place, wide in enumerate(widths) if wide > least[place]]
+        if not wider:
+            break
+        widths[max(wider, key=widths.__getitem__)] -= 1
+
+
 def _folded(text: str, width: int) -> list[str]:
     if len(text) <= width:
         return [text]
-    return textwrap.wrap(text, width, break_on_hyphens=False)
+    words = (word if len(word) <= width else _broken(word, width) for word in text.split())
+    return textwrap.wrap(" ".join(words), width, break_on_hyphens=False)
+
+
+def _broken(word: str, width: int) -> str:
+    """Return a name in pieces that fit, as many of its parts in each as do."""
+    pieces = [""]
+    for part in _parts(word):
+        if pieces[-1] and len(pieces[-1]) + len(part) > width:
+            pieces.append("")
+        pieces[-1] += part
+    return " ".join(pieces)
+
+
+def _parts(word: str) -> list[str]:
+    return _PART.split(word)

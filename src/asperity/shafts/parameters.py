@@ -14,7 +14,7 @@ from asperity.shafts.elements import Element
 from asperity.shafts.steel import ShaftSteel
 from asperity.units import Quantity
 
-_Length = Annotated[float, Quantity("m", what="a length", example="40 mm", gt=0, le=100)]
+_Length = Annotated[float, Quantity("m", what="a length", example="40 mm", gt=1e-6, le=100)]
 _Place = Annotated[float, Quantity("m", what="a position", example="20 mm", ge=0, le=100)]
 _Factor = Annotated[float, Quantity("", what="a factor", example="2.0", ge=1, le=20)]
 

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity.results.quantity import text_of
+from asperity.results.quantity import Number, Sentence, text_of
 from asperity.results.table import Column, Table
+from asperity.shafts.bearings import Life
 from asperity.shafts.rows import NAMES
 from asperity.shafts.shaft import ShaftFound
 
@@ -100,11 +101,12 @@ def tables(study: Study) -> tuple[Table, ...]:
     if study.rows:
         rows = [
             (
-                row.name, row.standard, f"{text_of(_short(row.value))} {row.unit}".strip(),
-                f"{text_of(_short(row.asked))} {row.unit}".strip(),
+                row.name, row.standard,
+                _shown(row.value, f"rows.{place}.{'life_h' if row.unit else 'safety'}", row.unit),
+                _shown(row.asked, f"rows.{place}.asked{'_h' if row.unit else ''}", row.unit),
                 "" if row.holds else "FAILS", row.by,
             )
-            for row in study.rows
+            for place, row in enumerate(study.rows)
         ]  # fmt: skip
         columns = (
             Column(""), Column("standard"), Column("is", right=True),
@@ -125,9 +127,16 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
     reactions = [
         (
             condition.text,
-            each.carried.radial[0], each.axial.loads[0],
-            each.carried.radial[1], each.axial.loads[1],
-            each.at_mesh[0],
+            *_keyed(
+                f"{key}.cases.{condition.key}",
+                {
+                    "bearings.0.radial_N": each.carried.radial[0],
+                    "bearings.0.axial_N": each.axial.loads[0],
+                    "bearings.1.radial_N": each.carried.radial[1],
+                    "bearings.1.axial_N": each.axial.loads[1],
+                    "deflection_um": each.at_mesh[0],
+                },
+            ),
         )
         for condition, each in zip(found.cases, found.hardest, strict=True)
     ]  # fmt: skip
@@ -141,11 +150,11 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
     lives = [
         (
             f"{end} {place.bearing.name if place.bearing else ''}, {condition.text}",
-            life.radial, life.axial, life.equivalent, life.rating_life,
-            *((life.kappa, life.a_iso, life.modified) if life.modified is not None else ()),
-            life.static_safety,
+            *_keyed(f"{key}.bearings.{number}.cases.{condition.key}", _life_columns(life)),
         )
-        for end, place, own in zip(_ENDS, found.model.places, found.lives, strict=True)
+        for number, (end, place, own) in enumerate(
+            zip(_ENDS, found.model.places, found.lives, strict=True)
+        )
         for condition, life in (own or {}).items()
     ]  # fmt: skip
     if lives:
@@ -158,17 +167,22 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
     sections = [
         (
             each.detail.name,
-            each.detail.diameter,
-            each.actions.bending,
-            each.actions.torque,
-            each.judged.mises,
-            _known(each.judged.fatigue_1),
-            _known(each.judged.fatigue_2),
-            _known(each.judged.yielding),
-            _known(each.judged.goodman),
-            _known(each.judged.gerber),
+            *_keyed(
+                f"{key}.sections.{number}",
+                {
+                    "diameter_mm": each.detail.diameter,
+                    "bending_moment_Nm": each.actions.bending,
+                    "torque_Nm": each.actions.torque,
+                    "sigma_v_MPa": each.judged.mises,
+                    "S_D_case_1": _known(each.judged.fatigue_1),
+                    "S_D_case_2": _known(each.judged.fatigue_2),
+                    "S_F": _known(each.judged.yielding),
+                    "n_goodman": _known(each.judged.goodman),
+                    "n_gerber": _known(each.judged.gerber),
+                },
+            ),
         )
-        for each in found.sections
+        for number, each in enumerate(found.sections)
     ]
     if sections:
         steel = found.model.table.material
@@ -186,13 +200,52 @@ def _deflection(study: Study) -> Table:
     return Table.of(
         ("", "um"),
         [
-            ("as a beam of its sections, bending", study.worm_deflection),
-            ("with shear", study.worm_deflection_with_shear),
-            ("by the formula of ISO/TR 14521", study.iso_deflection),
-            ("may be, by ISO/TR 14521", study.deflection_limit),
+            (name, text_of(value, key=key))
+            for name, key, value in (
+                (
+                    "as a beam of its sections, bending",
+                    "worm_deflection_um",
+                    study.worm_deflection,
+                ),
+                (
+                    "with shear",
+                    "worm_deflection_with_shear_um",
+                    study.worm_deflection_with_shear,
+                ),
+                ("by the formula of ISO/TR 14521", "iso_deflection_um", study.iso_deflection),
+                ("may be, by ISO/TR 14521", "deflection_limit_um", study.deflection_limit),
+            )
         ],
         title="Deflection of the worm at the mesh, in the worst case",
     )
+
+
+def _life_columns(life: Life) -> dict[str, float | None]:
+    """Return what a table tells of a life, by its key in JSON."""
+    film: dict[str, float | None] = {}
+    if life.modified is not None:
+        film = {"kappa": life.kappa, "a_ISO": life.a_iso, "Lnmh_h": life.modified}
+    return {
+        "radial_N": life.radial,
+        "axial_N": life.axial,
+        "P_N": life.equivalent,
+        "L10h_h": life.rating_life,
+        **film,
+        "static_safety": life.static_safety,
+    }
+
+
+def _keyed(path: str, values: Mapping[str, float | None]) -> list[str]:
+    """Return numbers that know where they stand in JSON."""
+    return [text_of(value, key=f"{path}.{key}") for key, value in values.items()]
+
+
+def _shown(value: float, key: str, unit: str) -> str:
+    """Return what there is, or is asked, to three digits with its unit."""
+    if not math.isfinite(value):
+        return f"- {unit}".strip()
+    number = Number(text_of(_short(value)), value, key)
+    return Sentence(number, " ", unit) if unit else number
 
 
 def courses(found: Mapping[str, ShaftFound]) -> dict[str, Any]:

@@ -20,10 +20,11 @@ from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.integrators import integrator
 from asperity.slider.longer import advice, needed
-from asperity.slider.march import march
+from asperity.slider.march import marched
 from asperity.slider.methods import solve
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
+from asperity.slider.ringing import as_it_rings, ringing_notes
 from asperity.slider.scaled import (
     PRESSED_STATE,
     PRESSED_SUMS,
@@ -34,7 +35,7 @@ from asperity.slider.scaled import (
 )
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import energies, pressed_energies, summarise
-from asperity.slider.timetable import Timetable, march_notes, march_standing, ringing_notes
+from asperity.slider.timetable import Timetable, march_notes, march_standing
 from asperity.vibration.waveform import displacement_at
 
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
@@ -118,7 +119,7 @@ def solve_many(
         One for each model; the exception of a body that could not be solved stands in its place.
     """
     flag = stop if stop is not None else np.zeros(1, dtype=np.int64)
-    by_itself = functools.partial(march, history=False, stop=flag)
+    by_itself = functools.partial(marched, history=False, stop=flag)
     answers: list[SlideResult | AsperityError | None] = [None] * len(models)
     groups: dict[tuple[object, ...], list[tuple[int, Timetable]]] = {}
     alone: list[int] = []
@@ -160,9 +161,8 @@ def _refined(
     if isinstance(answer, AsperityError):
         return answer
     try:
-        if not answer.settled and model.solve.duration is None:
-            return by_itself(model)
-        return refined(model, by_itself, answer)
+        on = not answer.settled and model.solve.duration is None
+        return as_it_rings(by_itself(model) if on else refined(model, by_itself, answer))
     except AsperityError as error:
         return error
 

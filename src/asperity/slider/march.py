@@ -18,17 +18,12 @@ from asperity.slider.integrators import integrator
 from asperity.slider.longer import lasting, needed, until_settled
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
+from asperity.slider.ringing import as_it_rings, ringing_notes
 from asperity.slider.scaled import Parameters
 from asperity.slider.steady import fading_rate, two_states
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
-from asperity.slider.timetable import (
-    BLOCK,
-    Timetable,
-    march_notes,
-    march_standing,
-    ringing_notes,
-)
+from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
 from asperity.vibration.waveform import AT_REST
 
 _RECORDS = 4000
@@ -310,6 +305,20 @@ def march(
         The march became unstable, or its powers do not balance.
     Interrupted
         Ctrl-C was pressed.
+    """
+    return as_it_rings(marched(model, history=history, stop=stop, run=run))
+
+
+def marched(
+    model: Model,
+    *,
+    history: bool = True,
+    stop: npt.NDArray[np.int64] | None = None,
+    run: Run | None = None,
+) -> SlideResult:
+    """March as `march`; a contact that rings for ever counts as settled where its means are steady.
+
+    So its step is chosen by the error of its means, as any other's.
     """
     run = run if run is not None else Run()
     kept = None if run.folder is None else run.resume(march_key(model, history=history))

@@ -18,12 +18,6 @@ _MOST_STEPS = 1e10
 UNSTEADY = 1e-3
 FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
 LAGS = 0.02  # of its velocity, that a body may be slower than its drive
-_LEVEL = 1e-9  # part of the vibration normal to the plane, below which it lifts nothing
-_RINGS = (
-    "nothing damps the contact: it rings as the vibration began, and the ratio follows that; "
-    "shown is the state from this start, one of many (vibration.ramp has another); give a damping "
-    "(normal.damping_ratio)"
-)
 WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
 
 
@@ -215,15 +209,3 @@ def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool)
             f"each step was divided by {model.finer} more, for the error that it makes in the ratio"
         )
     return tuple(notes)
-
-
-def ringing_notes(model: Model) -> tuple[str, ...]:
-    """Say of a contact under a dead load that nothing damps how its ringing stays as it began."""
-    normal, mass = model.normal, model.slider.mass
-    if normal is None or mass is None or normal.control != "force":
-        return ()
-    if not model.vibrates or abs(model.unit_direction[2]) < _LEVEL:
-        return ()
-    if normal.loss(model.slider.normal_force, mass) > 0.0:
-        return ()
-    return (_RINGS,)

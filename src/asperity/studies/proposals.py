@@ -115,7 +115,7 @@ class Proposals(Result):
         rows = [
             (str(place), f"{p.centre_distance_mm:g}", str(p.starts), str(p.wheel_teeth),
              f"{p.wheel_teeth / p.starts:.4g}",
-             f"{p.axial_module_mm:g}", f"{p.diameter_factor:g}", f"{p.profile_shift:.3g}",
+             f"{p.axial_module_mm:g}", f"{p.diameter_factor:g}", f"{round(p.profile_shift, 3):g}",
              f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", p.limited_by, p.locks)
             for place, p in enumerate(self.found[:MOST], 1)
         ]  # fmt: skip

@@ -94,10 +94,11 @@ def signals(folder: Folder, body: Body) -> dict[str, Any]:
 
 
 def forms(folder: Folder, body: Body) -> dict[str, Any]:
-    """Return every table of a case with its keys."""
+    """Return every table of a case with its keys, and what data files hold for them."""
     from asperity.casefile.forms import forms
+    from asperity.web.listed import listed
 
-    return {"tables": forms(case_tables())}
+    return {"tables": forms(case_tables()), "listed": listed()}
 
 
 def opened(folder: Folder, body: Body) -> dict[str, Any]:

@@ -37,9 +37,8 @@ from asperity.drive.static.sweep import (
 from asperity.drive.teeth.contact import TeethContact
 from asperity.drive.teeth.sector import Sector, sector
 from asperity.drive.teeth.threads import thread_flexibility
-from asperity.errors import ConvergenceError, InputError
+from asperity.errors import InputError
 from asperity.flanks.wheel.enveloped import Wheel
-from asperity.flanks.wheel.interference import interference
 from asperity.flanks.worm.setting import Pair
 from asperity.runs import Run
 
@@ -99,18 +98,6 @@ def too_much(problem: DriveProblem) -> InputError:
     )
 
 
-def _cut_into(wheel: Wheel) -> InputError | None:
-    """Return the line that refuses a worm which reaches into the wheel; None where none does."""
-    least = float(interference(wheel).root_gap.min())
-    if least >= 0.0:
-        return None
-    return InputError(
-        f"the worm's tips reach {-_MICRO / _MILLIMETRES * least:.4g} um into the root of the "
-        "wheel, so that no flank touches first: take a smaller mount.centre_distance_error or "
-        "mount.axial_offset"
-    )
-
-
 class StaticModel:
     """A drive's loaded contact, ready for any torque.
 
@@ -133,10 +120,7 @@ class StaticModel:
         whole = sum(self.parts.values(), np.zeros((4, 4)))
         self.contact = TeethContact(self.sector, 0.0)
         self.phases = phases_of(self.contact, phases or problem.drive.phases)
-        try:
-            self.touching = touching_angles(self.contact, self.phases)
-        except ConvergenceError as error:
-            raise _cut_into(self.sector.wheel) or error from None
+        self.touching = touching_angles(self.contact, self.phases)
         self.equilibrium = Equilibrium(self.contact, whole)
         self.friction = friction_of(problem, self._sliding_speed())
         self.contact = TeethContact(self.sector, self.friction)

@@ -9,8 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.drive.static.clearance import cut_root, refuse_cut_core
 from asperity.drive.static.equilibrium import Balance, Equilibrium
 from asperity.drive.teeth.contact import TeethContact
+from asperity.errors import ConvergenceError
 
 FORWARD, FRICTIONLESS, REVERSED = 1, 0, -1
 
@@ -46,9 +48,21 @@ def phases_of(contact: TeethContact, count: int) -> FloatArray:
 
 
 def touching_angles(contact: TeethContact, phases: FloatArray) -> FloatArray:
-    """Return the wheel's angles without load, rad."""
+    """Return the wheel's angles without load, rad.
+
+    Raises
+    ------
+    InputError
+        Worm or wheel reaches with its tips into the other's root.
+    ConvergenceError
+        The worm reaches no tooth.
+    """
     still = np.zeros(3)
-    return np.array([contact.touching_angle(float(beta), still) for beta in phases])
+    refuse_cut_core(contact.sector.wheel)
+    try:
+        return np.array([contact.touching_angle(float(beta), still) for beta in phases])
+    except ConvergenceError as error:
+        raise cut_root(contact.sector.wheel) or error from None
 
 
 class LoadCase(NamedTuple):

@@ -77,9 +77,11 @@ class Checked(Result):
 
     def headline(self) -> tuple[str, ...]:
         """Say whether numbers can rest on it."""
-        if not self.found:
-            return ("Nothing is wrong with what was heard.",)
-        return ()
+        if self.found:
+            return ()
+        if self.notes:
+            return ("Nothing is found, but not all could be checked.",)
+        return ("Nothing is wrong with what was heard.",)
 
     def to_json(self) -> dict[str, Any]:
         """Return the findings."""

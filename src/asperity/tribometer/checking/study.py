@@ -44,6 +44,11 @@ def answer(series: Series, run: Run) -> Checked:
             notes.append(f"{name}: no vibration was found, so that only channels are checked")
         if not listened.at_rest:
             notes.append(f"{name}: no seconds at rest were found, so that zeros are not known")
+        notes += [
+            f"{name}: segment at {part.start:.1f} s is refused: {part.refused}"
+            for part in parts
+            if part.refused
+        ]
         for finding in listened.findings:
             start = None if finding.place is None else parts[finding.place].start
             found.append(

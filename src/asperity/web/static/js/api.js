@@ -116,9 +116,11 @@ export async function loadAbout() {
 }
 
 export async function loadForms() {
-  const { tables } = await get("/api/forms");
+  const { tables, listed } = await get("/api/forms");
   for (const [table, { keys }] of Object.entries(tables)) {
-    for (const { key, follows } of keys) {
+    for (const field of keys) {
+      const { key, follows } = field;
+      field.listed = listed[`${table}.${key}`] ?? [];
       instead.set(`${table}.${key}`, (follows ?? []).map((other) => `${table}.${other}`));
     }
   }

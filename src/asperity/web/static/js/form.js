@@ -56,7 +56,7 @@ function hint(field) {
 }
 
 /** A text box that says what was typed when it is left or Enter is pressed. */
-export function Box({ id, text, onSet, describedby, invalid, placeholder, label }) {
+export function Box({ id, text, onSet, describedby, invalid, placeholder, label, list }) {
   const [typed, setTyped] = useState(null);
   useEffect(() => setTyped(null), [text]);
   const done = () => {
@@ -66,7 +66,7 @@ export function Box({ id, text, onSet, describedby, invalid, placeholder, label 
   return html`<input
     type="text" id=${id} class="box" autocomplete="off" spellcheck=${false}
     value=${typed ?? text} placeholder=${placeholder ?? ""} aria-label=${label}
-    aria-describedby=${describedby} aria-invalid=${invalid ? "true" : undefined}
+    list=${list} aria-describedby=${describedby} aria-invalid=${invalid ? "true" : undefined}
     onInput=${(event) => setTyped(event.target.value)}
     onChange=${done} onBlur=${done}
     onKeyDown=${(event) => event.key === "Enter" && done()}
@@ -97,6 +97,8 @@ export function Field({ path, label, brief }) {
   const others = (field.follows ?? []).map(words).join(" or ");
   const put = (typed) =>
     typed === "" ? unset(path) : set(path, withUnit(typed, wrong ? own : text, field));
+  const listed = field.listed ?? [];
+  const figures = listed.find(({ name }) => name === text)?.says;
   return html`<div class=${`field ${from}`}>
     <label for=${id}>${said}</label>
     ${field.kind === "choice" || field.kind === "flag"
@@ -109,11 +111,15 @@ export function Field({ path, label, brief }) {
           )}
         </select>`
       : html`<${Box} id=${id} text=${text} onSet=${put} invalid=${wrong}
-          placeholder=${field.example} describedby=${`${id}-says`} />`}
+          list=${listed.length ? `${id}-list` : undefined}
+          placeholder=${field.example} describedby=${`${id}-says`} />
+        ${listed.length ? html`<datalist id=${`${id}-list`}>${listed.map(({ name, says }) =>
+          html`<option value=${name}>${says}</option>`)}</datalist>` : null}`}
     ${from === "set"
       ? html`<button type="button" class="quiet" title="back to the case's own"
           aria-label=${`${said}: back to the case's own`} onClick=${() => unset(path)}>↺</button>`
       : null}
+    ${figures ? html`<p class="says figures">${figures}</p>` : null}
     <p class=${brief ? "says hidden" : "says"} id=${`${id}-says`}>
       ${meaningOf(field)}${hint(field) ? ` (${hint(field)})` : ""}${others ? ` Instead of ${others}.` : ""}
     </p>

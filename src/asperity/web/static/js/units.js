@@ -5,8 +5,9 @@ const PLAIN = {
   "": 1, m: 1, g: 1e-3, s: 1, N: 1, W: 1, J: 1, Pa: 1, Hz: 1, V: 1, A: 1, K: 1, rad: 1,
 };
 const WHOLE = {
-  deg: Math.PI / 180, rpm: 2 * Math.PI / 60, min: 60, h: 3600, "%": 0.01, bar: 1e5, in: 0.0254,
-  kg: 1, mm: 1e-3,
+  deg: Math.PI / 180, rpm: 2 * Math.PI / 60, min: 60, h: 3600, "%": 0.01, bar: 1e5, kg: 1, mm: 1e-3,
+  in: 0.0254, inch: 0.0254, ft: 0.3048, foot: 0.3048, mil: 2.54e-5, lb: 0.45359237, lbf: 4.4482216152605,
+  kgf: 9.80665, psi: 6894.757293168, ksi: 6894757.293168,
 };
 
 function simple(name) {

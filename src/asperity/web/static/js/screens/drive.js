@@ -1,14 +1,17 @@
 /** A worm gearset under load and shaken: what the motor is spared, and what that costs. */
 import { html } from "../../vendor/preact.js";
+import { useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
-import { Amplitude, Folded, Form, Slider } from "../form.js";
+import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
+import { Gears, Way } from "../gears.js";
 import { FlankMap, span } from "../map.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
+import { Strips } from "../strips.js";
 import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
-import { digits } from "../units.js";
+import { digits, inUnit } from "../units.js";
 import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -47,7 +50,9 @@ function Ledger({ answer, found }) {
   const most = Math.max(...POWERS.map(([key]) => Math.abs(answer[key])), 1e-12);
   const bar = ([key, , sign]) =>
     html`<${Sided} value=${sign * answer[key]} most=${most} kind=${sign > 0 ? "more" : "less"} />`;
-  return html`<${Table} kind="bars" caption="Mean powers: what is put in, right, is what goes, left" rows=${POWERS}
+  const powers = POWERS.map(([key, name, sign]) => ({ name, value: sign * answer[key] }));
+  return html`<${Strips} powers=${powers} label="mean powers" />
+    <${Table} kind="bars" caption="Mean powers: what is put in, right, is what goes, left" rows=${POWERS}
       columns=${[["", ([, said]) => said, "row"], ["", bar],
         ["", ([key]) => html`<${Num} entry=${found[key]} count=${4} />`, "right"]]} />
     <p class="says">what is missing, over what is put in: ${digits(answer.closure, 2)}</p>`;
@@ -96,6 +101,16 @@ function Pattern({ data, found }) {
     <${Facts} found=${found} keys=${LOADED} />`;
 }
 
+/** The ways side by side, each taken by a click. */
+function Ways({ answer, geometry, speed }) {
+  const { set } = useCase();
+  return html`<div class="ways">${answer.directions.map((way) => html`<${Way} key=${way.mode} mode=${way.mode}
+      geometry=${geometry} speed=${speed}>
+    <p><b>${digits(way.torque_ratio, 3)}</b> of the torque, ${digits(way.saved_W, 3)} W saved${
+      way.settled ? "" : ", not settled"}</p>
+    <button type="button" onClick=${() => set("vibration.mode", way.mode)}>take ${way.mode}</button><//>`)}</div>`;
+}
+
 function Directions({ answer }) {
   const number = (said, key, count = 4) => [said, (way) => digits(way[key] ?? NaN, count), "right"];
   return html`<${Table} region="directions" rows=${answer.directions} columns=${[
@@ -127,6 +142,9 @@ export function view() {
   const loaded = useJob("drive", body && { ...body, options: { static: true } }, "-static");
   const ways = useJob("directions", body);
   const held = useJob("locking", body);
+  const { geometry } = useLive("rate", body && { case: name, settings }, 200).data?.answer ?? {};
+  const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
+  const mode = useValue("vibration.mode").text;
   const taken = useTaken(shaken, "drive", body);
   const under = useData(loaded, UNDER);
   const creep = useData(held, ["amplitude", "creep_over", "creep_limit"]);
@@ -140,6 +158,7 @@ export function view() {
       <${Folded}><${Form} tables=${["vibration", "drive", "actuator", "operation", "friction", "shaft"]} brief /><//>
     </section>
     <section class="shown">
+      ${geometry ? html`<${Gears} geometry=${geometry} speed=${speed} mode=${mode} />` : null}
       <${WorkPanel} title="Shaken" name="shaken" label="shake it" work=${shaken}
           says="A minute or several: the more the gearset must be shaken until it settles, the longer.">
         ${shaken.data ? html`<${Ratio} found=${of} answer=${shaken.data.answer} />
@@ -151,6 +170,8 @@ export function view() {
         ${under ? html`<${Pattern} data=${under} found=${still} />` : null}<//>
       <${WorkPanel} title="Which way to shake it" name="which way" label="try each way" work=${ways}
           says="As long as shaking it once for each of the ways.">
+        ${ways.data && geometry
+          ? html`<${Ways} answer=${ways.data.answer} geometry=${geometry} speed=${speed} />` : null}
         ${ways.data ? html`<${Directions} answer=${ways.data.answer} />` : null}<//>
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
           says="A minute or several: it is marched at several amplitudes.">

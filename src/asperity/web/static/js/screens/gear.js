@@ -3,10 +3,11 @@ import { html, useMemo } from "../../vendor/preact.js";
 import { useAddress, useCaseFile, useLive } from "../api.js";
 import { Margins, STANDARDS, Tornado, Verdict } from "../bars.js";
 import { Beneath } from "../figure.js";
-import { Folded, Form, words } from "../form.js";
+import { Box, Folded, Form, useValue, words } from "../form.js";
+import { Gears } from "../gears.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Screen } from "../shell.js";
-import { route, setParam, useCase } from "../state.js";
+import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
 import { Report } from "../work.js";
@@ -55,6 +56,28 @@ function Fitting({ error, settings, geometry, setAll }) {
   const fit = () => setAll({ "gearset.axial_module": `${Number(module.toPrecision(6))} mm` });
   return html`<p><button type="button" class="main" onClick=${fit}>
     the same shape at ${wanted}: axial module ${digits(module, 4)} mm</button></p>`;
+}
+
+/** Where the torque is lower than that through the travel: the latter in its usual part, or left out. */
+function Travel({ error, setAll }) {
+  const torque = useValue("operation.output_torque").text;
+  const valve = useValue("operation.service").text === "valve";
+  if (!/through_travel_torque/.test(error?.message ?? "")) return null;
+  const [number, unit] = split(torque);
+  const wanted = text(valve ? number / 3 : number, unit);
+  return Number.isNaN(number) ? null : html`<p><button type="button" class="main"
+    onClick=${() => setAll({ "operation.through_travel_torque": wanted })}>
+    ${valve ? "a third" : "all"} of it through the travel: ${wanted}</button></p>`;
+}
+
+/** The ratio; another one is a question for Size, with the torque and speed that are set. */
+function Ratio({ geometry }) {
+  const [torque, speed] = ["output_torque", "worm_speed"].map((key) => useValue(`operation.${key}`).text);
+  const ask = (ratio) => go("size", { ...caseParams(route.peek().params), ratio, output_torque: torque,
+    worm_speed: speed });
+  return html`<div class="field"><label for="ratio">ratio</label>
+    <${Box} id="ratio" text=${geometry ? digits(geometry.gear_ratio) : ""} onSet=${ask} describedby="ratio-says" />
+    <p class="says" id="ratio-says">another ratio: gearsets that hold at this torque and speed are proposed</p></div>`;
 }
 
 function tried(sway, geometry, rise, setAll) {
@@ -170,6 +193,7 @@ export function view() {
   const { name, settings, setAll } = useCase();
   const body = name ? { case: name, settings } : null;
   const { data, error, busy, late, now } = useLive("rate", body, 60);
+  const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const sway = useLive("sensitivity", body, 400).data?.answer;
   const answer = data?.answer;
   const entries = byKey(data?.entries);
@@ -180,9 +204,11 @@ export function view() {
       answer=${data} error=${error} busy=${busy} late=${late} now=${now}
       actions=${html`<${Report} command="rate" body=${body} />`}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
+    <${Travel} error=${error} setAll=${setAll} />
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
     <div class="columns">
-      <div class="controls"><${Folded}><${Form} tables=${["gearset", "operation"]} brief=${true} /><//></div>
+      <div class="controls"><${Ratio} geometry=${answer?.geometry} />
+        <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} /><//></div>
       ${answer ? html`<div class="pair">
         <section class="panel wide" aria-label="verdict"><h2>Does it hold?</h2>
           <p class="big">${Object.entries(answer.verdict.holds).map(([standard, ok]) => html`
@@ -191,6 +217,7 @@ export function view() {
           ${standings(answer.verdict.standing).map((text) => html`<p class="says" key=${text}>${text}</p>`)}
           <${Margins} rows=${safeties} /></section>
         <${First} verdict=${answer.verdict} />
+        <${Gears} geometry=${answer.geometry} speed=${speed} />
         <${Drawing} svg=${data.svg.gearset} geometry=${answer.geometry} />
         <${Columns} entries=${entries} answer=${answer} />
         ${sway ? html`<${Efficiency} sway=${sway} geometry=${answer.geometry} setAll=${setAll} />` : null}

@@ -65,6 +65,8 @@ function Proposals({ found, options, through, parts }) {
   const take = (one) => apply({
     ...Object.fromEntries(one.settings.map((text) => text.split(/=(.*)/).slice(0, 2))),
     "operation.output_torque": options.output_torque, "operation.worm_speed": options.worm_speed,
+    // Not the name of what it was before.
+    "gearset.name": `${one.wheel_teeth}:${one.starts}, a ${one.centre_distance_mm} mm`,
     // That of the case goes with another torque.
     ...(through && { [THROUGH]: `${Number((torque / parts).toPrecision(12))} ${unit}` }),
   });

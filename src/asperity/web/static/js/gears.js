@@ -1,0 +1,121 @@
+/** Worm and wheel turning in mesh, shaken as it is set, with the line on which teeth touch in its colours. */
+import { html, useMemo, useRef } from "../vendor/preact.js";
+import { Play, usePlayed } from "./frames.js";
+import { Legend, shade, span } from "./map.js";
+import { lineOf, poseOf, sectionOf, sliding, threadsOf, touching, wheelOf, windowOf } from "./mesh.js";
+import { digits } from "./units.js";
+
+/** Ways to shake it: what is said of each. */
+export const WAYS = {
+  axial: "the worm along its axis", torsional: "the worm about its axis",
+  "wheel-axial": "the wheel along its axis, seen obliquely", screw: "the worm along its own screw",
+};
+/** Marks on the worm's core, by which its turning is seen: their angles, and how many along it. */
+const MARKS = [0, 1, 2, 3, 4, 5].map((k) => (k * Math.PI) / 3);
+const DOTS = 4;
+
+const arrows = (x, y, dx, dy, head) => {
+  const size = Math.hypot(dx, dy) || 1;
+  const [ux, uy] = [dx / size, dy / size];
+  const tip = (s) => `M${x + s * dx} ${y + s * dy}l${s * head * (-ux - 0.5 * uy)} ${s * head * (-uy + 0.5 * ux)}`
+    + `M${x + s * dx} ${y + s * dy}l${s * head * (-ux + 0.5 * uy)} ${s * head * (-uy - 0.5 * ux)}`;
+  return `M${x - dx} ${y - dy}L${x + dx} ${y + dy}${tip(1)}${tip(-1)}`;
+};
+
+/** How it is shaken, as an arrow at the place of what is. */
+function wayOf({ apart, module, pitch, rolling }, mode) {
+  const head = 0.5 * module;
+  if (mode === "axial") return arrows(-2.4 * pitch, apart + 1.2 * module, 1.3 * module, 0, head);
+  if (mode === "torsional") return arrows(-2.4 * pitch, apart + 0.9 * module, 0, 1.2 * module, head);
+  if (mode === "screw") return arrows(-2.4 * pitch, apart + 0.9 * module, 1.1 * module, 0.9 * module, head);
+  if (mode === "wheel-axial") return arrows(-2.4 * pitch, rolling - 2.2 * module, 1.1 * module, -0.66 * module, head);
+  return "";
+}
+
+/**
+ * What moves in a picture of a gearset.
+ * @param {{geometry: any, mode: string, speed: number}} props `geometry` as `rate` tells it; `mode` "" where nothing
+ *   is shaken; `speed` of the worm, rad/s
+ */
+function useMesh({ geometry, mode, speed }) {
+  const picture = useRef(null);
+  const made = useMemo(() => {
+    const section = sectionOf(geometry);
+    const line = lineOf(section, speed);
+    const range = span(line.map(({ value }) => value));
+    return { section, line, range, threads: threadsOf(section), wheel: wheelOf(section), view: windowOf(section) };
+  }, [JSON.stringify(geometry), speed]);
+  const { section, range } = made;
+  const colour = (value) => shade((value - range[0]) / (range[1] - range[0]));
+  const draw = (seconds) => {
+    const { gone, threads, along, angle, wheel, aside } = poseOf(section, mode, seconds);
+    const put = (name, key, value) => picture.current?.querySelector(`[data-of=${name}]`)?.setAttribute(key, value);
+    put("threads", "transform", `translate(${threads.toFixed(3)} 0)`);
+    put("core", "transform", `translate(${along.toFixed(3)} 0)`);
+    // The wheel turns as the threads push it.
+    put("wheel", "transform", `translate(${aside.map((each) => each.toFixed(3)).join(" ")})
+      rotate(${((-wheel * 180) / Math.PI).toFixed(4)})`);
+    const core = section.apart - section.root;
+    const marks = MARKS.map((each) => [Math.cos(each + angle), Math.sin(each + angle)])
+      .filter(([seen]) => seen > 0).map(([, place]) => section.apart + core * place);
+    const places = Array.from({ length: 2 * DOTS + 1 }, (_, n) => (n - DOTS) * section.pitch * 0.8);
+    put("marks", "d", marks.flatMap((y) => places.map((x) => `M${x.toFixed(2)} ${y.toFixed(3)}h.01`)).join(""));
+    const now = touching(section, gone);
+    picture.current?.querySelectorAll("circle.touches").forEach((each, n) => {
+      const at = now[n];
+      each.setAttribute("visibility", at ? "visible" : "hidden");
+      if (!at) return;
+      each.setAttribute("cx", at.x.toFixed(3));
+      each.setAttribute("cy", at.y.toFixed(3));
+      each.setAttribute("fill", colour(sliding(section, at, speed)));
+    });
+  };
+  const playing = usePlayed(picture, draw, [made, mode]);
+  return { picture, made, colour, playing };
+}
+
+function Drawn({ picture, made: { section, line, threads, wheel, view }, colour, mode, says }) {
+  const [left, top, wide, high] = view;
+  const thin = section.module / 14;
+  return html`<svg class="mesh" ref=${picture} viewBox=${view.join(" ")} role="img" aria-label=${says}>
+    <g data-of="threads"><path class="steel" d=${threads} stroke-width=${thin} /></g>
+    <g data-of="core"><rect class="core" x=${left - wide} y=${section.root} width=${3 * wide}
+      height=${2 * (section.apart - section.root)} stroke-width=${thin} />
+      <path data-of="marks" class="turning" stroke-width=${4 * thin} /></g>
+    <g data-of="wheel"><path class="bronze" d=${wheel} stroke-width=${thin} /></g>
+    <path class="axis" d=${`M${left} ${section.apart}H${left + wide}`} stroke-width=${thin} />
+    ${line.slice(1).map((to, n) => html`<path d=${`M${near(line[n])}L${near(to)}`} stroke=${colour(to.value)}
+      stroke-width=${3.2 * thin} />`)}
+    ${[0, 1, 2, 3, 4].map(() => html`<circle class="touches" r=${0.22 * section.module} stroke-width=${1.4 * thin} />`)}
+    ${mode ? html`<path class="shakes-so" d=${wayOf(section, mode)} stroke-width=${2.4 * thin} />` : null}
+  </svg>`;
+}
+const near = ({ x, y }) => `${x.toFixed(3)} ${y.toFixed(3)}`;
+
+/**
+ * A gearset in motion, in a box.
+ * @param {{geometry: any, mode?: string, speed: number}} props
+ */
+export function Gears({ geometry, mode = "", speed }) {
+  const { picture, made, colour, playing } = useMesh({ geometry, mode, speed });
+  const { range } = made;
+  const says = `Worm and wheel in mesh, cut through the middle of the wheel. The surfaces slide on each other at
+    ${digits(range[0], 3)} to ${digits(range[1], 3)} m/s.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
+  return html`<section class="panel" aria-label="in mesh"><h2>In mesh</h2>
+    <${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode} says=${says} />
+    <div class="row"><${Play} ...${playing} />
+      <${Legend} range=${range} unit="m/s" label="sliding velocity, along the line on which teeth touch" /></div>
+    <p class="says">To scale, cut through the middle of the wheel, with straight flanks of the worm; slowed. The dots
+      are where teeth touch now; the worm's flanks slide out of the picture.
+      ${mode ? ` Shaken: ${WAYS[mode]}, far more than it is${mode === "screw" ? ""
+        : ", so that teeth seem to overlap"}.` : ""}</p>
+  </section>`;
+}
+
+/** One way to shake it, small, with what comes of it beneath. */
+export function Way({ geometry, mode, speed, children }) {
+  const { picture, made, colour } = useMesh({ geometry, mode, speed });
+  return html`<figure class="way"><${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode}
+    says=${`shaken: ${WAYS[mode]}`} /><figcaption><b>${mode}</b> <span class="says">${WAYS[mode]}</span>
+    ${children}</figcaption></figure>`;
+}
