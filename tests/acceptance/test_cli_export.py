@@ -79,7 +79,7 @@ def test_over_a_value_the_mean_friction_is_a_map(asperity, tmp_path):
         (
             ["block-longitudinal", "--to", "abacus"],
             "--to abacus: it must be one of 'abaqus', 'calculix', 'c', 'csv', "
-            "'mat' (did you mean 'abaqus'?)",
+            "'mat', 'dahl' (did you mean 'abaqus'?)",
         ),
         (
             ["block-longitudinal"],

@@ -72,7 +72,7 @@ def export(
         typer.Option(
             "--to",
             metavar="PROGRAM",
-            help="abaqus or calculix; c, csv or mat for a body's mean friction.",
+            help="abaqus or calculix; c, csv or mat for a body's mean friction; dahl for its law.",
         ),
     ],
     settings: SetOption = None,
@@ -98,7 +98,8 @@ def export(
     An elastic block or a gearset's loaded teeth become block.inp or teeth.inp, for Abaqus also
     user.f, the friction law as user subroutine FRIC. The mean friction of a sliding body over a
     cycle of its vibration, against its mean velocity, becomes law.c and law.h, law.csv or law.mat;
-    with --over over another value as well, map.c and so on.
+    with --over over another value as well, map.c and so on. The asperities' law itself,
+    Dahl's, step by step, becomes asperity_dahl.c, .h and .m (dahl).
     """
     from asperity.cli.export import export as run
 

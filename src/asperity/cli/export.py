@@ -12,7 +12,8 @@ from asperity.files.store import output_folder, write_atomically, write_text
 _MOST_NODES = 2_000_000
 _DECKS = ("abaqus", "calculix")
 _LAWS = ("c", "csv", "mat")
-PROGRAMS = (*_DECKS, *_LAWS)
+_DAHL = "dahl"
+PROGRAMS = (*_DECKS, *_LAWS, _DAHL)
 
 Files = Mapping[str, str] | Mapping[str, bytes]
 
@@ -26,7 +27,7 @@ def export(
     as_json: bool,
     out: Path | None,
 ) -> None:
-    """Write a case as input of another program, or its mean friction, and say where."""
+    """Write a case as input of another program, or its friction, and say where."""
     if program not in PROGRAMS:
         raise InputError(
             f"--to {program}: it must be one of {choices(PROGRAMS)}{suggestion(program, PROGRAMS)}"
@@ -35,6 +36,8 @@ def export(
         files = _law(case, program, settings, over)
     elif over:
         raise InputError(f"--over is for {choices(_LAWS)}; leave it out with --to {program}")
+    elif program == _DAHL:
+        files = _dahl(read_case(case, case_tables(), settings))
     else:
         read = read_case(case, case_tables(), settings)
         geared = "drive" in read and "block" not in read
@@ -71,7 +74,6 @@ def _teeth(case: Case, program: str) -> Files:
 
 
 def _law(name: str, program: str, settings: Sequence[str], over: str) -> Files:
-    from asperity import __version__
     from asperity.runs import Run
     from asperity.slider.friction_map import tabulate
     from asperity.slider.law_files import WRITERS
@@ -97,10 +99,24 @@ def _law(name: str, program: str, settings: Sequence[str], over: str) -> Files:
         ]
         run = Run(progress=progress, notify=show.note)
         laws = tabulate(models, values, key, unit, run)
-    about = [f"asperity {__version__}, {case.source}", *_said(case, key)]
+    about = _about(case, key)
     for note in dict.fromkeys(note for law in laws.laws for note in law.notes):
         show.note(note)
     return WRITERS[program](laws, about)
+
+
+def _dahl(case: Case) -> Files:
+    from asperity.slider.dahl_files import dahl_files
+    from asperity.slider.model import Model
+
+    with naming_source(case):
+        return dahl_files(Model.from_case(case), _about(case, ""))
+
+
+def _about(case: Case, but: str) -> list[str]:
+    from asperity import __version__
+
+    return [f"asperity {__version__}, {case.source}", *_said(case, but)]
 
 
 def _said(case: Case, but: str) -> list[str]:

@@ -70,11 +70,11 @@ def mat_files(laws: FrictionMap, about: Sequence[str]) -> dict[str, bytes]:
 def c_files(laws: FrictionMap, about: Sequence[str]) -> dict[str, str]:
     """Return the law as C99 without dependencies, source and header, by their names."""
     stem = _stem(laws)
-    told = "\n".join(f" * {line}".rstrip() for line in _commented(_told(laws, about)))
+    told = "\n".join(f" * {line}".rstrip() for line in commented(_told(laws, about)))
     more = ", double value" if laws.key else ""
     of = f" and {laws.key}, {laws.unit or 'a ratio'}" if laws.key else ""
     guard = f"ASPERITY_{stem.upper()}_H"
-    header = _HEADER.format(told=told, guard=guard, more=more, of=_commented([of])[0])
+    header = _HEADER.format(told=told, guard=guard, more=more, of=commented([of])[0])
     body = _MAP if laws.key else _CURVE
     source = "\n".join([_BEGIN.format(stem=stem, told=told), *_tables(laws), _FORCE + body])
     return {f"{stem}.c": source, f"{stem}.h": header}
@@ -131,7 +131,8 @@ def _range(values: Sequence[float]) -> str:
     return f"{first:.17g}" if first == last else f"{first:.17g} to {last:.17g}"
 
 
-def _commented(lines: Sequence[str]) -> list[str]:
+def commented(lines: Sequence[str]) -> list[str]:
+    """Return lines that stand in a comment of C, whatever is in them."""
     # Neither the end of a comment nor a trigraph, which may stand for one.
     return [line.replace("*/", "* /").replace("/*", "/ *").replace("??", "? ?") for line in lines]
 
