@@ -61,6 +61,20 @@ def test_over_a_value_the_mean_friction_is_a_map(asperity, tmp_path):
     assert {row.partition(",")[0] for row in rows[1:]} == {"2.0", "6.0"}
 
 
+def test_the_law_of_the_asperities_is_taken_to_c_and_matlab(asperity, tmp_path):
+    code, output, errors = asperity(
+        "export", "table-4.3", "--to", "dahl", "--set", "friction.law=vector", cwd=tmp_path
+    )
+    assert (code, errors) == (0, "")
+    names = [f"out/dahl/asperity_dahl.{kind}" for kind in ("c", "h", "m")]
+    assert output.splitlines() == names
+    source, header, matlab = ((tmp_path / name).read_text() for name in names)
+    assert "#define LENGTH 6.875e-08 " in source
+    assert "slider.normal_force = 55 N" in header
+    first = "function [next, force] = asperity_dahl(state, velocity, normal_force, dt)"
+    assert matlab.startswith(f"{first}\n%#codegen\n")
+
+
 @pytest.mark.parametrize(
     ("arguments", "line"),
     [
@@ -71,6 +85,11 @@ def test_over_a_value_the_mean_friction_is_a_map(asperity, tmp_path):
         (
             ["table-4.4", "--to", "c", "--over", "friction.law=split,vector"],
             "--over friction.law=split,vector: a map is over two numbers or more",
+        ),
+        (
+            ["table-4.3", "--to", "dahl"],
+            "table-4.3: friction.law is 'split'; the law that is written step by step is "
+            "'vector', which is the same along a line: set friction.law to 'vector'",
         ),
         (
             ["block-longitudinal", "--to", "abaqus", "--over", "friction.mu=0.1,0.2"],

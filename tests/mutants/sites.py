@@ -32,6 +32,7 @@ _NOT_COMPUTING = (
     "*/__init__.py", "*/deck/*", "flanks/export/*", "rating/report.py", "rating/workbook.py",
     "*/headline.py", "*/refusal.py", "*/notes.py", "*/library.py", "formulas/traced.py",
     "rating/levers.py", "*/result.py", "*/tables.py", "*/files.py", "*/file.py", "*/law_files.py",
+    "*/dahl_files.py",
 )  # fmt: skip
 # Tables of a standard are numbers of the standard; those of other rooms list the case's tables.
 _COMPUTING_ALL_THE_SAME = ("rating/iso14521/tables.py", "rating/bs721/tables.py")

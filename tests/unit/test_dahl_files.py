@@ -195,6 +195,37 @@ def test_the_lines_for_matlab_say_the_law_of_the_package(exponent, keeps, power)
         agree(marched(step, *past), ours(model, *past))
 
 
+@compiled
+@pytest.mark.parametrize("exponent", [0.0, 0.5, 1.0, 2.0])
+def test_from_any_state_a_step_is_that_of_the_package(exponent, tmp_path):
+    """Also from a deflection above the limit, which no history of Dahl's comes to."""
+    model = body(exponent)
+    steps = in_c(model, tmp_path), in_matlab(model)
+    rng = np.random.default_rng(11)
+    above = 0
+    for _ in range(2000):
+        size, before, after = rng.uniform(0.1, 2.0, 3)
+        start, end = rng.uniform(0.0, 2.0 * math.pi, 2)
+        size *= before
+        slip = 10.0 ** rng.uniform(-2.0, 1.0)
+        s = size * math.cos(start), size * math.sin(start)
+        d = slip * math.cos(end), slip * math.sin(end)
+        above += size > before > after
+        exact = advance_loaded(
+            *s, *d, 0.0, 0.0, before, after, exponent, VECTOR, KEEPS["stiffness"]
+        )
+        length = 68.75e-9
+        state, velocity = (
+            [length * s[0], length * s[1], 55.0 * before],
+            [length * d[0], length * d[1]],
+        )
+        for step in steps:
+            found, force = step(state, velocity, 55.0 * after, 1.0)
+            again = [found[0] / length, found[1] / length, force[0] / 7.15, force[1] / 7.15]
+            np.testing.assert_allclose(again, exact, rtol=0.0, atol=2e-12)
+    assert above > 300
+
+
 @pytest.mark.skipif(OCTAVE is None, reason="there is no Octave here")
 @pytest.mark.parametrize("exponent", [0.0, 1.0, 1.5])
 def test_the_law_in_octave_is_the_law_of_the_package(exponent, tmp_path):
