@@ -229,7 +229,7 @@ def flank(
 
 
 def size(
-    ratio: float,
+    ratio: float | None,
     output_torque: Any,
     worm_speed: Any,
     *,
@@ -242,8 +242,8 @@ def size(
 
     Parameters
     ----------
-    ratio : float
-        Of the speeds.
+    ratio : float or None
+        Of the speeds; None: that of ``requirements.ratio`` among the settings.
     output_torque, worm_speed : str or quantity of pint
         Of the wheel and of the worm: ``"300 N m"``, ``"1500 rpm"``.
     rank : {'size', 'efficiency', 'margin'}
@@ -258,7 +258,7 @@ def size(
     """
     from asperity.casefile.case import apply, listed
     from asperity.rating.parameters import Operation
-    from asperity.start.gear import begun, proposals, ratio_of
+    from asperity.start.gear import begun, drop_begun_life, proposals, ratio_of
     from asperity.units import Named, quantity_of
 
     values = begun()
@@ -270,9 +270,10 @@ def size(
         except InputError as error:
             raise InputError(f"{key} is {shown(value)}; {error}") from None
         values["operation"][key] = f"{number!r} {quantity.unit}"
-    for setting in listed(settings):
-        apply(values, setting, case_tables())
-    return proposals(values, ratio_of(ratio), rank, cut=cut, locks=locks)
+    given = {apply(values, setting, case_tables()) for setting in listed(settings)}
+    drop_begun_life(values, given)
+    wanted = None if ratio is None else ratio_of(ratio)
+    return proposals(values, wanted, rank, cut=cut, locks=locks)
 
 
 def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":

@@ -3,6 +3,7 @@
 import itertools
 import json
 import random
+import tomllib
 
 import pytest
 from apparatus.rated_cases import ACTUATOR
@@ -154,3 +155,19 @@ def test_size_refuses_tables_that_are_not_there_as_rate_does(asperity, here):
     code, _, errors = asperity(*SIZE, "--set", "rating.bs721_tables=nope.toml")
     assert code == 2
     assert "nope.toml cannot be read: no such file or directory; name a file of tables" in errors
+
+
+def test_a_required_ratio_stands_for_the_option(asperity, tmp_path):
+    line = ["size", "--output-torque", "250 N m", "--worm-speed", "1400 rpm", "--uncut", "--json"]
+    code, required, _ = asperity(*line, "--set", "requirements.ratio=50")
+    assert code == 0
+    found = json.loads(required)["proposals"]
+    assert found == json.loads(asperity(*line, "--ratio", "50")[1])["proposals"]
+    code, _, said = asperity(*line)
+    assert code == 2
+    assert "ratio is missing" in said
+    code, _, _ = asperity("new", "gear", str(tmp_path / "own.toml"), "--defaults",
+                          "--set", "requirements.ratio=50")  # fmt: skip
+    assert code == 0
+    gearset = tomllib.loads((tmp_path / "own.toml").read_text())["gearset"]
+    assert gearset["wheel_teeth"] / gearset["starts"] == pytest.approx(50, rel=0.03)

@@ -1,7 +1,10 @@
 """What sizing keeps beside the safeties, and the loads that it follows."""
 
+import tomllib
+
 import pytest
 
+from asperity.cli.new import size
 from asperity.errors import InputError
 from asperity.start.gear import begun, proposals
 
@@ -101,3 +104,27 @@ def test_a_housing_counts_in_sizing():
 def test_what_requirements_cannot_be_is_one_line(given, said):
     with pytest.raises(InputError, match=said):
         sized(requirements=given)
+
+
+def test_the_ratio_may_be_required():
+    asked = {"requirements": {"ratio": 47.7, "ratio_tolerance": "1 %"}}
+    assert sized(None, **asked).found == sized(47.7, requirements={"ratio_tolerance": "1 %"}).found
+    with pytest.raises(InputError, match=r"ratio is 40, and requirements\.ratio 47\.7"):
+        sized(40, **asked)
+    with pytest.raises(InputError, match=r"ratio is missing: give --ratio 40, or --set require"):
+        sized(None)
+
+
+def test_a_proposal_under_a_spectrum_is_written_without_another_life(tmp_path):
+    spectrum = "spectrum.step=[{duration='5000 h', output_torque='250 N m'}]"
+    asked = {"output_torque": "250 N m", "worm_speed": "1400 rpm"}
+
+    def written(folder, *settings):
+        size("50", asked, settings, "size", "", cut=False, as_json=True, out=tmp_path / folder)
+        return tomllib.loads((tmp_path / folder / "proposal-1.toml").read_text())
+
+    assert "life" in written("plain")["operation"]
+    assert "life" not in written("steps", spectrum)["operation"]
+    # What somebody says stands.
+    kept = written("both", spectrum, "operation.life=100 h")["operation"]
+    assert kept["life"] == "100 h"

@@ -194,9 +194,14 @@ def new(
 @app.command()
 @reported
 def size(
-    ratio: Annotated[str, typer.Option("--ratio", metavar="RATIO", help="Of the speeds.")],
     output_torque: Annotated[str, _TORQUE],
     worm_speed: Annotated[str, _SPEED],
+    ratio: Annotated[
+        str,
+        typer.Option(
+            "--ratio", metavar="RATIO", help="Of the speeds; left out: requirements.ratio."
+        ),
+    ] = "",
     rank: Annotated[
         str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
     ] = "size",

@@ -12,7 +12,7 @@ from asperity.files.store import output_folder, write_text
 from asperity.rating.parameters import Operation
 from asperity.start.bearing import KIND as BEARING
 from asperity.start.bearing import bearing_text
-from asperity.start.gear import MACRO, begun, proposals, ratio_of
+from asperity.start.gear import MACRO, begun, drop_begun_life, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
 from asperity.studies.proposals import Proposals
@@ -50,11 +50,12 @@ def new(
     if read:
         values, told = _received(name, read, values, ratio)
     given = _given(values, asked, settings)
-    wanted = ratio or RATIO
+    wanted = ratio or values.get("requirements", {}).get("ratio") or RATIO
     if not defaults and not read and sys.stdin is not None and sys.stdin.isatty() and not as_json:
         for question in kind.questions:
             if question.path == "ratio":
-                wanted = ratio or _asked_ratio(question)
+                if "requirements.ratio" not in given:
+                    wanted = ratio or _asked_ratio(question)
             elif question.path not in given:
                 _ask(question, values)
     remarks = ["Every key that stands behind a # may be given as well; what it says is assumed."]
@@ -139,11 +140,12 @@ def size(
 ) -> None:
     """Print gearsets for a ratio and settings, and write each one as a case.
 
+    An empty ratio is that of ``requirements``.
     What is asked is by key of the operation; ``cut`` leaves out what no hob cuts.
     """
     values = begun()
     _given(values, asked, settings)
-    found = proposals(values, ratio_of(ratio), rank, cut=cut, locks=locks)
+    found = proposals(values, ratio_of(ratio) if ratio else None, rank, cut=cut, locks=locks)
     if as_json:
         show.print_json(found.to_json())
     else:
@@ -195,7 +197,9 @@ def _given(values: Values, asked: Mapping[str, str | None], settings: Sequence[s
                 keys.add(apply(values, setting, case_tables()))
             except InputError as error:
                 raise InputError(str(error).replace(f"--set {setting}", option)) from None
-    return keys | {apply(values, setting, case_tables()) for setting in settings}
+    keys |= {apply(values, setting, case_tables()) for setting in settings}
+    drop_begun_life(values, keys)
+    return keys
 
 
 def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:

@@ -1,7 +1,8 @@
 """A gearset's case from ratio, torque and speed alone."""
 
 import functools
-from collections.abc import Mapping
+import math
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from asperity.casefile import Table
@@ -55,7 +56,7 @@ def ratio_of(text: object) -> float:
 
 def proposals(
     values: Values,
-    ratio: float,
+    ratio: float | None = None,
     rank: str = "size",
     *,
     exact: bool = False,
@@ -70,22 +71,28 @@ def proposals(
         The tables ``gearset``, ``operation`` and perhaps ``rating``, ``spectrum``, ``housing`` and
         ``requirements`` as a file has them; what the gearset says of its macro-geometry is held,
         and the rest of it proposed.
-    ratio : float
-        Of the speeds.
+    ratio : float, optional
+        Of the speeds; left out: that of ``requirements``.
     rank, exact
         As in `asperity.studies.proposals.propose`.
     cut : bool
         Whether to cut the wheel of each one that is shown, and leave out what no hob cuts.
     locks
         As in `asperity.studies.proposals.propose`.
+
+    Raises
+    ------
+    InputError
+        No ratio, or two of them; and as in `asperity.studies.proposals.propose`.
     """
+    asked: Requirements = _table(Requirements, values.get("requirements", {}))
     kept = {key: value for key, value in values["gearset"].items() if key not in _HELD}
     held = _held({key: value for key, value in values["gearset"].items() if key in _HELD})
     gearset = _table(Gearset, kept | _STAND_IN)
     operation = _operation(values)
     options = _table(RatingOptions, values.get("rating", {}))
     return propose(
-        ratio,
+        _ratio(ratio, asked),
         gearset,
         operation,
         options,
@@ -94,8 +101,20 @@ def proposals(
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
         held=held,
         locks=locks,
-        requirements=_table(Requirements, values.get("requirements", {})),
+        requirements=asked,
     )
+
+
+def _ratio(given: float | None, asked: Requirements) -> float:
+    if given is None:
+        if asked.ratio is None:
+            raise InputError("ratio is missing: give --ratio 40, or --set requirements.ratio=40")
+        return asked.ratio
+    if asked.ratio is not None and not math.isclose(given, asked.ratio):
+        raise InputError(
+            f"ratio is {given:g}, and requirements.ratio {asked.ratio:g}; keep one of them"
+        )
+    return given
 
 
 def _operation(values: Values) -> Operation:
@@ -138,6 +157,20 @@ def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:
     except (InputError, ConvergenceError):
         return False
     return True
+
+
+def drop_begun_life(values: Values, given: Collection[str]) -> None:
+    """Leave out the life that a file begins with where the steps of a spectrum say it.
+
+    Parameters
+    ----------
+    values : dict
+        The tables, changed in place.
+    given : collection of str
+        Keys that somebody gave, as ``table.key``; a life among them stays.
+    """
+    if "spectrum" in values and "operation.life" not in given:
+        values["operation"].pop("life", None)
 
 
 def begun() -> Values:

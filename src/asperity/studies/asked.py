@@ -92,7 +92,9 @@ def _span(text: str) -> tuple[str, tuple[float, float]]:
     return name, (ends[0], ends[1])
 
 
-def least_safeties(rated: Rated, keep: Sequence[str] = ()) -> dict[str, float]:
+def least_safeties(
+    rated: Rated, keep: Sequence[str] = (), required: float = 1.0
+) -> dict[str, float]:
     """Return the least value of every safety that a design must have, by ``standard.key``.
 
     A safety that holds goes on to hold, one that does not falls no further, and what is to be kept
@@ -105,6 +107,8 @@ def least_safeties(rated: Rated, keep: Sequence[str] = ()) -> dict[str, float]:
     keep : sequence of str
         Safeties that may not fall at all: a standard, ``standard.key``, a symbol, or ``all``; and
         ``locking``: a worm that locks itself goes on to, at rest and in motion, by each standard.
+    required : float
+        Times what is asked; above 1 every safety must have that, also where it has not as it is.
 
     Raises
     ------
@@ -118,6 +122,8 @@ def least_safeties(rated: Rated, keep: Sequence[str] = ()) -> dict[str, float]:
         if math.isfinite(value) and value > 0.0:
             path = safety.demand.path
             least[path] = value if path in kept else min(value, asked)
+            if required > 1.0:
+                least[path] = max(least[path], required * asked * (1.0 + _ABOVE))
     if LOCKING in kept:
         for one in rated.self_locking:
             if one.locks:

@@ -25,6 +25,7 @@ from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import variants
 from asperity.sources import Source
 from asperity.studies.climb import spread
+from asperity.studies.requirements import Requirements
 
 VARIABLES = ("pressure_angle", "diameter_factor", "axial_module", "worm_roughness")
 """What is free: alpha_n, q1, m_x1, Ra1."""
@@ -38,6 +39,8 @@ ASSUMED = Source(
 """Where the default bounds come from."""
 
 _SAMPLE = 2**11
+_REQUIRED = "requirements."
+_ABOVE = 1e-9
 
 _NUMBERS = {
     "eta_z1_2": "iso14521.eta_z1_2",
@@ -112,6 +115,14 @@ class Space:
         Where a relative file name among the options starts.
     least : mapping of str to float, optional
         Least safeties of every design, by ``standard.key``.
+    requirements : Requirements, optional
+        What every design keeps beside them.
+
+    Raises
+    ------
+    InputError
+        The gearset cannot be rated, or has not the ratio or the centre distance that is required,
+        neither of which any design changes.
 
     Attributes
     ----------
@@ -133,16 +144,23 @@ class Space:
         bounds: Bounds | None = None,
         folder: Path | None = None,
         least: Mapping[str, float] | None = None,
+        requirements: Requirements | None = None,
     ) -> None:
         self.gearset, self.operation = gearset, operation
         self.options, self.folder = options or RatingOptions(), folder
         self.least = dict(least or {})
+        self.requirements = requirements or Requirements()
         # The thesis (3.3.5), which asks for torques alone, looks at no threads.
         knows = least is not None and gearset.flank in CLOSED_FORMS
-        self._judged = (*WORTH, *((THREADS,) if knows else ()), *self.least)
         asked = {path.removeprefix("locking.").partition(".")[0] for path in self.least}
+        if self.requirements.self_locking != "any":
+            asked |= {*rate(gearset, operation, self.options, folder=folder).found}
         self._tables = tables_of(self.options, folder)
         self._standards = tuple(name for name in STANDARDS if name in {*NEEDED, *asked})
+        self._required = self._moved(gearset)
+        self._judged = (
+            *WORTH, *((THREADS,) if knows else ()), *self.least, *self._required,
+        )  # fmt: skip
         for standard in NEEDED:
             # Alone, because then one that cannot be applied says why.
             rate(gearset, operation, self.options, (standard,), folder=folder)
@@ -201,9 +219,14 @@ class Space:
         locking = [path for path in self.least if path.startswith("locking.")]
         paths = _NUMBERS | {path: path for path in self.least if path not in locking}
         numbers = {key: found[path] for key, path in paths.items()} | {"profile_shift": shift}
-        if locking:
+        if locking or self._required:
             with masking(found.shape):
                 margins = locking_margins(found.given, found, self._tables)
+            at_rest = {name: m for (name, state), m in margins.items() if state == "static"}
+            room = self.requirements.room(found.given, at_rest)
+            for name in self._required:
+                left = np.asarray(room[name.removeprefix(_REQUIRED)], dtype=float) - _ABOVE
+                numbers[name] = np.broadcast_to(left, found.shape)
             for (standard, state), margin in margins.items():
                 over = np.broadcast_to(np.asarray(margin, dtype=float) + 1.0, found.shape)
                 numbers[f"locking.{standard}.{state}"] = over
@@ -260,7 +283,48 @@ class Space:
         safeties = [found[path] / bound - 1.0 for path, bound in self.least.items()]
         if self.least_threads is not None:
             safeties.append(found[THREADS] - self.least_threads)
+        safeties += [found[name] for name in self._required]
         return [shift - self.profile_shift[0], self.profile_shift[1] - shift, *safeties]
+
+    @property
+    def kept(self) -> tuple[str, ...]:
+        """A note of what is kept as ``[requirements]`` has it, if there is any."""
+        said = self.requirements.said
+        return (f"kept as [requirements] has it: {said}",) if said else ()
+
+    def required_of(self, point: FloatArray) -> list[tuple[str, float, float]]:
+        """Return the name of each requirement, 0, and the room that the design at a point has."""
+        found = self.numbers(point) if self._required else {}
+        return [(f"{name}.room", 0.0, round(float(found[name]), 8)) for name in self._required]
+
+    def nothing_keeps(self) -> InputError:
+        """Return the error that no design within the bounds keeps what is required."""
+        return InputError(
+            f"[requirements] asks for {self.requirements.said or 'too much'}, which no design "
+            "within the bounds has: ask for less, widen --bounds, or let size propose another"
+        )
+
+    def _moved(self, gearset: Gearset) -> tuple[str, ...]:
+        """Return the requirements that a design may break; raises InputError for the others."""
+        asked = self.requirements
+        geometry = gearset.geometry
+        if asked.ratio is not None and (
+            abs(geometry.gear_ratio / asked.ratio - 1.0) > asked.ratio_tolerance * (1.0 + _ABOVE)
+        ):
+            raise InputError(
+                f"requirements.ratio is {asked.ratio:g} within {100 * asked.ratio_tolerance:g} %, "
+                f"and the gearset has {geometry.gear_ratio:.4g}, which stays: size proposes others"
+            )
+        most = asked.centre_distance
+        if most is not None and geometry.centre_distance > 1e3 * most * (1.0 + _ABOVE):
+            raise InputError(
+                f"requirements.centre_distance is {1e3 * most:g} mm, and the gearset has "
+                f"{geometry.centre_distance:.4g} mm, which stays: size proposes others"
+            )
+        names = ["wheel_diameter"] if asked.wheel_diameter is not None else []
+        if asked.self_locking != "any":
+            names += [f"self_locking.{standard}" for standard in self._standards]
+        return tuple(_REQUIRED + name for name in names)
 
     def threads_of(self, diameter_factor: Any, pressure_angle: Any) -> FloatArray:
         """Return the `THREADS` of designs."""

@@ -9,6 +9,7 @@ from asperity.gearset import Gearset
 from asperity.rating.driven import driven
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.tables import operation_of
+from asperity.studies.requirements import Requirements
 
 
 @dataclasses.dataclass(frozen=True)
@@ -20,6 +21,8 @@ class Gears:
     gearset, operation, options
         The tables ``[gearset]``, ``[operation]`` and ``[rating]``, the last of which may be
         missing.
+    requirements : Requirements
+        The table ``[requirements]``; what is assumed where it is missing.
     folder : pathlib.Path
         Where relative file names among the options start.
     """
@@ -28,6 +31,7 @@ class Gears:
     operation: Operation
     options: RatingOptions | None
     folder: Path
+    requirements: Requirements = dataclasses.field(default_factory=Requirements)
 
     @classmethod
     def of(cls, case: Case) -> Self:
@@ -36,4 +40,6 @@ class Gears:
         gearset = case.require(Gearset)
         with naming_source(case):
             operation = driven(gearset, operation_of(case), options)
-        return cls(gearset, operation, options, case.folder)
+        return cls(
+            gearset, operation, options, case.folder, case.get(Requirements) or Requirements()
+        )

@@ -21,21 +21,21 @@ from asperity.rating.rate import Rated, rate
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
-from asperity.studies.asked import LOCKING, bounds_of, known_safeties, least_safeties
+from asperity.studies.asked import bounds_of, known_safeties, least_safeties
 from asperity.studies.climb import climb, spread
-from asperity.studies.design import ASSUMED, THREADS, VARIABLES, Bounds, Space
+from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
 from asperity.studies.designs import (
-    SHOWN,
     design_numbers,
     falls,
-    free_numbers,
     locking_of,
     safeties_json,
     safety_rows,
 )
 from asperity.studies.gears import Gears
 from asperity.studies.layout import points
+from asperity.studies.limits import TORQUES, Limit, limits_of, number_of
 from asperity.studies.quantities import varied_quantity
+from asperity.studies.requirements import Requirements
 from asperity.studies.rounding import rounded
 from asperity.studies.tradeoff import TradeOff, trade_off
 
@@ -44,34 +44,6 @@ if TYPE_CHECKING:
 
 STARTS = 8
 """Starts beside the gearset as it is."""
-
-TORQUES = {"M_w_Nm": "M_w", "M_s_Nm": "M_s"}
-"""Torques that BS 721 permits for wear and strength, with their symbols."""
-
-_ACTIVE = 1e-6
-
-
-class Limit(NamedTuple):
-    """A constraint at the optimum.
-
-    Attributes
-    ----------
-    key, symbol : str
-        What is limited; the unit is part of the key.
-    relation : {'>=', '<=', '>'}
-        Which side is allowed.
-    bound, value : float
-        The limit, and what the optimum has.
-    active : bool
-        Whether the optimum lies on it.
-    """
-
-    key: str
-    symbol: str
-    relation: str
-    bound: float
-    value: float
-    active: bool
 
 
 class Optimum(Result):
@@ -109,7 +81,7 @@ class Optimum(Result):
     @property
     def gain(self) -> float:
         """By how much the efficiency of the teeth rises, as a share of one."""
-        return _number(self.after, "eta_z1_2") - _number(self.before, "eta_z1_2")
+        return number_of(self.after, "eta_z1_2") - number_of(self.before, "eta_z1_2")
 
     @property
     def active(self) -> tuple[Limit, ...]:
@@ -227,6 +199,7 @@ def optimise(
     folder: Path | None = None,
     least: Mapping[str, float] | None = None,
     begin: FloatArray | None = None,
+    requirements: Requirements | None = None,
 ) -> Optimum:
     """Find the design of the highest efficiency by ISO/TR 14521 that keeps its load capacity.
 
@@ -246,6 +219,9 @@ def optimise(
         thesis (3.3.5), and no other safety.
     begin : ndarray, optional
         Designs to begin from as well, rows of the variables in SI.
+    requirements : Requirements, optional
+        What the design keeps beside its load capacity, even where the gearset does not as it is.
+        Its safety is part of ``least``, see `asperity.studies.asked.least_safeties`.
 
     Returns
     -------
@@ -256,7 +232,8 @@ def optimise(
     Raises
     ------
     InputError
-        The gearset cannot be rated as it is, by ISO/TR 14521 or by BS 721.
+        The gearset cannot be rated as it is, by ISO/TR 14521 or by BS 721, or no design within the
+        bounds has what is required.
     """
     if starts < 1 or starts & (starts - 1):
         raise InputError(f"starts is {starts}; it must be a power of two, such as {STARTS}")
@@ -265,7 +242,7 @@ def optimise(
             f"rating.friction is {options.friction:g}, on which pressure angle and roughness have "
             "no say; leave it out, or use rating.base_friction or rating.friction_factor"
         )
-    space = Space(gearset, operation, options, bounds, folder, least)
+    space = Space(gearset, operation, options, bounds, folder, least, requirements)
     kept = space.numbers(space.start)
     torque = None if least is None else float(kept["M_permissible_Nm"])
     capacity = {key: float(kept[key]) if torque is None else torque for key in TORQUES}
@@ -273,7 +250,8 @@ def optimise(
     first += space.best_of_sample("eta_z1_2", **capacity)
     first += [] if begin is None else list(space.points(begin))
     top = climb(lambda points: space.merit(space.worth(points), capacity), first)
-    assert top is not None  # the gearset as it is keeps its own load capacity
+    if top is None:
+        raise space.nothing_keeps()
     design = space.gearset_at(top.point)
     near = None if least is None else rounded(space, top.point, capacity)
     before, after = (rate(g, operation, options, folder=folder) for g in (gearset, design))
@@ -284,11 +262,15 @@ def optimise(
         gearset=design,
         before=before,
         after=after,
-        limits=_limits(space, capacity, after),
+        limits=limits_of(space, capacity, after, top.point),
         starts=len(first),
         agreed=top.agreed,
         made=made,
-        notes=(*_notes(before, bounds), *(falls(before, made or after) if least else ())),
+        notes=(
+            *_notes(before, bounds),
+            *space.kept,
+            *(falls(before, made or after) if least else ()),
+        ),
     )
 
 
@@ -329,8 +311,9 @@ def answer(asked: Asked, _: Run) -> Optimum:
     gears = asked.gears
     tables = gears.gearset, gears.operation, gears.options, asked.bounds
     now = rate(*tables[:3], folder=gears.folder)
-    least = least_safeties(now, asked.keep)
-    curve = trade_off(*tables, folder=gears.folder, least=least)
+    kept = gears.requirements
+    least = least_safeties(now, asked.keep, kept.safety)
+    curve = trade_off(*tables, folder=gears.folder, least=least, requirements=kept)
     begin = np.stack(
         [
             varied_quantity(name).to_si(curve.numbers[varied_quantity(name).key])
@@ -338,50 +321,8 @@ def answer(asked: Asked, _: Run) -> Optimum:
         ],
         axis=-1,
     )
-    best = optimise(*tables, folder=gears.folder, least=least, begin=begin)
+    best = optimise(*tables, folder=gears.folder, least=least, begin=begin, requirements=kept)
     return dataclasses.replace(best, curve=curve)
-
-
-def _number(rated: Rated, key: str) -> float:
-    rating: Any = rated.iso14521 if key in SHOWN["iso14521"] else rated.bs721
-    return float(rating[key])
-
-
-def _limits(space: Space, capacity: Mapping[str, float], after: Rated) -> tuple[Limit, ...]:
-    limits = []
-    for key, symbol in TORQUES.items():
-        bound, value = capacity[key], _number(after, key)
-        limits.append(Limit(key, symbol, ">=", bound, value, value - bound < _ACTIVE * bound))
-    for safety in after.verdict.safeties:
-        demand, value = safety.demand, safety.value
-        if demand.path in space.least:
-            bound = space.least[demand.path]
-            active = value - bound < _ACTIVE * bound
-            limits.append(Limit(demand.path, demand.symbol, ">=", bound, value, active))
-    for one in after.self_locking:
-        path = f"{LOCKING}.{one.standard}.{one.state}"
-        if path in space.least:
-            bound, value = space.least[path], one.friction / one.limit
-            active = value - bound < _ACTIVE * bound
-            limits.append(Limit(path, "locking", ">=", bound, value, active))
-    if space.least_threads is not None:
-        g = after.geometry
-        room = float(space.threads_of(g.diameter_factor, g.pressure_angle))
-        active = room - space.least_threads < _ACTIVE
-        limits.append(Limit(THREADS, "thread room", ">=", space.least_threads, room, active))
-    h_star = _number(after, "h_star")
-    limits.append(Limit("h_star", "h*", ">", 0.0, h_star, h_star < _ACTIVE))
-    spans = {
-        name: (varied_quantity(name).shown(low), varied_quantity(name).shown(high))
-        for name, low, high in zip(VARIABLES, space.lower, space.upper, strict=True)
-    } | {"profile_shift": space.profile_shift}
-    values = free_numbers(after)
-    for name, (low, high) in spans.items():
-        what, value = varied_quantity(name), values[name]
-        near = _ACTIVE * (high - low)
-        for relation, bound, gap in ((">=", low, value - low), ("<=", high, high - value)):
-            limits.append(Limit(what.key, what.symbol, relation, bound, value, gap <= near))
-    return tuple(limits)
 
 
 def _notes(before: Rated, bounds: Bounds | None) -> tuple[str, ...]:

@@ -1,29 +1,40 @@
-"""The `[requirements]` table: what a gearset that is sized has to keep beside its safeties."""
+"""The `[requirements]` table: what a proposed gearset has to keep beside its safeties."""
 
 import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
 import numpy as np
+import numpy.typing as npt
 
-from asperity.arrays import FloatArray
+from asperity.arrays import FloatArray, Real
 from asperity.casefile import Table
+from asperity.formulas import masking
+from asperity.rating.demands import DEMANDS
+from asperity.rating.self_locking import locking_margins
 from asperity.units import Quantity
 
 if TYPE_CHECKING:
+    from asperity.rating.bs721.tables import Tables
+    from asperity.rating.inputs import Inputs
     from asperity.rating.variants import Variants
 
 RATIO_OFF = 0.03
 """By how much the teeth may miss a ratio."""
 
+_SAME = 1e-12
+
 Length = Annotated[float, Quantity("m", what="a length", example="125 mm", gt=0)]
 
 
 class Requirements(Table):
-    """What sizing keeps.
+    """What sizing and optimising keep.
 
     Parameters
     ----------
+    ratio : float, optional
+        Of the speeds: what ``size`` proposes for where ``--ratio`` is left out, and what the teeth
+        of a gearset must have that is optimised.
     ratio_tolerance : float or str
         By how much the teeth may miss the ratio, "2 %" in a file; 3 % if left out.
     self_locking : {'any', 'wanted', 'avoided'}
@@ -42,6 +53,7 @@ class Requirements(Table):
 
     table: ClassVar[str] = "requirements"
 
+    ratio: Annotated[float, Quantity("", what="a ratio", example="50", ge=3, le=100)] | None = None
     ratio_tolerance: Annotated[
         float, Quantity("", what="a share", example="0.02", ge=0, le=0.2)
     ] = RATIO_OFF
@@ -53,31 +65,47 @@ class Requirements(Table):
     wheel_diameter: Length | None = None
     safety: Annotated[float, Quantity("", what="a factor", example="1.2", ge=1, le=100)] = 1.0
 
-    def kept(self, rated: "Variants", at_rest: Mapping[str, FloatArray]) -> Any:
-        """Return which designs keep what is asked beside their safeties.
+    def room(self, given: "Inputs", at_rest: Mapping[str, Real]) -> dict[str, Any]:
+        """Return by name how much room is left of what is asked beside the safeties.
 
         Parameters
         ----------
-        rated : Variants
+        given : Inputs
             The designs.
         at_rest : mapping of str to ndarray
             By standard, by how much the friction at rest is above that which locks; infinite where
             the standard has no say.
+
+        Returns
+        -------
+        dict of str to float or ndarray
+            In parts of what is asked; below zero where it is not kept.
         """
-        kept = np.ones(rated.shape, dtype=bool)
-        given = rated.given
-        for margin in at_rest.values():
+        room: dict[str, Any] = {}
+        if self.ratio is not None:
+            off = np.abs(given.wheel_teeth / given.starts / self.ratio - 1.0)
+            room["ratio"] = self.ratio_tolerance * (1.0 + _SAME) + _SAME - off
+        if self.centre_distance is not None:
+            room["centre_distance"] = _below(given.centre_distance, self.centre_distance)
+        if self.wheel_diameter is not None:
+            teeth = given.wheel_teeth + 2.0 * given.profile_shift + 2.0
+            room["wheel_diameter"] = _below(given.axial_module * teeth, self.wheel_diameter)
+        for name, margin in at_rest.items() if self.self_locking != "any" else ():
             says = np.isfinite(margin)
             ratio = np.where(says, margin, 0.0) + 1.0
             if self.self_locking == "wanted":
-                kept &= ~says | (ratio >= self.locking_margin)
-            elif self.self_locking == "avoided":
-                kept &= ~says | (ratio * self.locking_margin < 1.0)
-        if self.centre_distance is not None:
-            kept &= given.centre_distance <= 1e3 * self.centre_distance * (1.0 + 1e-12)
-        if self.wheel_diameter is not None:
-            teeth = given.wheel_teeth + 2.0 * given.profile_shift + 2.0
-            kept &= given.axial_module * teeth <= 1e3 * self.wheel_diameter * (1.0 + 1e-12)
+                over = ratio / self.locking_margin - 1.0
+            else:
+                # What locks itself just so is not avoided.
+                over = 1.0 - ratio * self.locking_margin - _SAME
+            room[f"self_locking.{name}"] = np.where(says, over, 1.0)
+        return room
+
+    def kept(self, rated: "Variants", at_rest: Mapping[str, FloatArray]) -> Any:
+        """Return which designs keep what is asked beside their safeties, as `room` has it."""
+        kept = np.ones(rated.shape, dtype=bool)
+        for room in self.room(rated.given, at_rest).values():
+            kept &= room >= 0.0
         return kept
 
     @property
@@ -93,6 +121,44 @@ class Requirements(Table):
             parts.append(f"wheel at most {1e3 * self.wheel_diameter:g} mm")
         if self.safety != 1.0:
             parts.append(f"safeties {self.safety:g} times what is asked")
-        if not math.isclose(self.ratio_tolerance, RATIO_OFF):
-            parts.append(f"ratio within {100.0 * self.ratio_tolerance:g} %")
+        if self.ratio is not None or not math.isclose(self.ratio_tolerance, RATIO_OFF):
+            of = "" if self.ratio is None else f" {self.ratio:g}"
+            parts.append(f"ratio{of} within {100.0 * self.ratio_tolerance:g} %")
         return ", ".join(parts)
+
+
+def _below(size: Any, most: float) -> Any:
+    """Return what is left of a most in m by a size in mm, in parts of the most."""
+    return 1.0 - size / (1e3 * most) + _SAME
+
+
+def broken_by(
+    asked: Requirements, found: "Variants", tables: "Tables | None"
+) -> dict[str, npt.NDArray[np.bool_]]:
+    """Return by what is asked which designs do not keep it; no answer breaks nothing.
+
+    Parameters
+    ----------
+    asked : Requirements
+        What is asked.
+    found : Variants
+        The designs, rated with their load capacity.
+    tables : Tables or None
+        Of BS 721.
+    """
+    with masking(found.shape):
+        margins = locking_margins(found.given, found, tables)
+    at_rest = {
+        name: np.where(found.reason(name) == 0, margin, math.inf)
+        for (name, state), margin in margins.items()
+        if state == "static"
+    }
+    broken = {
+        name: np.broadcast_to(np.asarray(room) < 0.0, found.shape)
+        for name, room in asked.room(found.given, at_rest).items()
+    }
+    if asked.safety > 1.0:
+        safeties = [found[d.path] / d.asked for d in DEMANDS if d.path in found]
+        least = np.min(np.nan_to_num(safeties, nan=math.inf), axis=0)
+        broken["safety"] = least < asked.safety
+    return broken

@@ -7,6 +7,7 @@ for the rest.
 
 import dataclasses
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -21,6 +22,7 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.inputs import inputs as given_inputs
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
+from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
 from asperity.results import Result, quantity
 from asperity.results.table import Table
@@ -28,6 +30,7 @@ from asperity.runs import Run
 from asperity.studies.gears import Gears
 from asperity.studies.layout import labelled, percent, points, words
 from asperity.studies.quantities import Quantity, varied_quantity
+from asperity.studies.requirements import Requirements, broken_by
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -78,6 +81,9 @@ class Influence:
         gearset as it is.
     fails_above : float or None
         The rise, within those studied, above which the calculation has no answer.
+    broken_above : mapping of str to float
+        By what is required and no longer kept, the rise above which it is not; 0 where it is not
+        kept as it is.
     """
 
     quantity: Quantity
@@ -87,6 +93,7 @@ class Influence:
     legend: Mapping[int, str]
     elasticity: float
     fails_above: float | None
+    broken_above: Mapping[str, float] = dataclasses.field(default_factory=dict)
 
     @property
     def change(self) -> float:
@@ -224,6 +231,13 @@ class Sensitivity(Result):
                     f"{what.symbol} raised by more than {100.0 * found.fails_above:.1f} %: "
                     f"{found.failure}"
                 )
+            remarks += [
+                f"{what.symbol} raised by more than {100.0 * rise:.1f} %: requirements.{name} is "
+                "no longer kept"
+                if rise
+                else f"{what.symbol} as it is: requirements.{name} is not kept"
+                for name, rise in found.broken_above.items()
+            ]
         remarks.append(
             "points: change of the efficiency up to the last rise with an answer; elasticity: "
             "change over the input's, both in parts of themselves"
@@ -242,6 +256,8 @@ def sensitivity(
     *,
     inputs: Sequence[str] = INPUTS,
     rises: npt.ArrayLike = RISES,
+    requirements: Requirements | None = None,
+    folder: Path | None = None,
 ) -> Sensitivity:
     """Raise one input after the other and follow the efficiency by ISO/TR 14521.
 
@@ -253,6 +269,10 @@ def sensitivity(
         What to vary, by the names of `asperity.rating.variants`.
     rises : array_like
         By how much of itself, increasing from 0.
+    requirements : Requirements, optional
+        Where a rise no longer keeps what is asked is found.
+    folder : path, optional
+        Where a relative file name among the options starts.
 
     Returns
     -------
@@ -275,6 +295,14 @@ def sensitivity(
         values = what.to_si(what.of(given) * (1.0 + np.asarray(shares, dtype=np.float64)))
         return variants(gearset, operation, options, (_STANDARD,), capacity=False, **{name: values})
 
+    def broken(name: str, shares: npt.ArrayLike) -> dict[str, npt.NDArray[np.bool_]]:
+        what = varied_quantity(name)
+        values = what.to_si(what.of(given) * (1.0 + np.asarray(shares, dtype=np.float64)))
+        found = variants(gearset, operation, options, STANDARDS, **{name: values})
+        return broken_by(asked, found, tables)
+
+    asked = requirements or Requirements()
+    tables = tables_of(options, folder) if asked.said else None
     influences = []
     for name in inputs:
         found = at(name, steps)
@@ -288,6 +316,11 @@ def sensitivity(
                 legend=MappingProxyType(dict(found.legend(_STANDARD))),
                 elasticity=float((above - below) / (2.0 * _NEARBY * base)),
                 fails_above=_end(lambda s, n=name: np.isnan(at(n, s)[_EFFICIENCY]), steps),
+                broken_above={
+                    key: _end(lambda s, n=name, k=key: broken(n, s)[k], steps) or 0.0
+                    for key, breaks in (broken(name, steps).items() if asked.said else ())
+                    if breaks.any()
+                },
             )
         )
     return Sensitivity(
@@ -302,7 +335,13 @@ def prepare(case: Case) -> Gears:
 
 def answer(gears: Gears, _: Run) -> Sensitivity:
     """Return the sensitivity of a case's gearset."""
-    return sensitivity(gears.gearset, gears.operation, gears.options)
+    return sensitivity(
+        gears.gearset,
+        gears.operation,
+        gears.options,
+        requirements=gears.requirements,
+        folder=gears.folder,
+    )
 
 
 def _increasing(rises: npt.ArrayLike) -> FloatArray:
@@ -318,6 +357,8 @@ def _end(failing: Any, steps: FloatArray) -> float | None:
     if not failed.any():
         return None
     first = int(np.argmax(failed))
+    if not first:
+        return 0.0
     low, high = steps[first - 1], steps[first]
     for _ in range(_ROUNDS):
         grid = np.linspace(low, high, _PARTS + 1)
@@ -340,4 +381,8 @@ def _plain(influence: Influence) -> dict[str, Any]:
         "change_points": 100.0 * influence.change,
         "fails_above_percent": None if fails is None else 100.0 * fails,
         "reason": influence.failure or None,
-    }
+    } | (
+        {"broken_above_percent": {k: 100.0 * v for k, v in influence.broken_above.items()}}
+        if influence.broken_above
+        else {}
+    )

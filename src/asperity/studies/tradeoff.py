@@ -22,6 +22,7 @@ from asperity.studies.climb import Hill, Top, climb, climb_together, spread
 from asperity.studies.design import VARIABLES, Bounds, Space
 from asperity.studies.layout import labelled, percent
 from asperity.studies.quantities import varied_quantity
+from asperity.studies.requirements import Requirements
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -128,12 +129,13 @@ def trade_off(
     points: int = POINTS,
     folder: Path | None = None,
     least: Mapping[str, float] | None = None,
+    requirements: Requirements | None = None,
 ) -> TradeOff:
     """Find the highest efficiency for each of several permissible torques.
 
     Parameters
     ----------
-    gearset, operation, options, bounds, folder, least
+    gearset, operation, options, bounds, folder, least, requirements
         As in `asperity.studies.optimise.optimise`.
     points : int
         Required torques on the curve, at least 2.
@@ -141,11 +143,12 @@ def trade_off(
     Raises
     ------
     InputError
-        The gearset cannot be rated as it is, by ISO/TR 14521 or by BS 721.
+        The gearset cannot be rated as it is, by ISO/TR 14521 or by BS 721, or no design within the
+        bounds has what is required.
     """
     if points < 2:
         raise InputError(f"points is {points}; a curve needs at least 2")
-    space = Space(gearset, operation, options, bounds, folder, least)
+    space = Space(gearset, operation, options, bounds, folder, least, requirements)
     now = space.numbers(space.start)
     unit = float(now["M_permissible_Nm"])
     begin = [space.start, *spread(space.dimensions, _STARTS)]
@@ -191,8 +194,10 @@ def _most_efficient(space: Space, begin: list[FloatArray], torques: Iterable[flo
         return lambda rows: space.merit(rows, least), starts
 
     tops = climb_together(space.worth, [hill(torque) for torque in torques])
-    assert None not in tops  # one of the starts bears the torque
-    return [top for top in tops if top]
+    found = [top for top in tops if top]
+    if len(found) < len(tops):  # one of the starts bears the torque
+        raise space.nothing_keeps()
+    return found
 
 
 def _strongest(space: Space, begin: list[FloatArray], unit: float) -> Top:
@@ -207,5 +212,5 @@ def _strongest(space: Space, begin: list[FloatArray], unit: float) -> Top:
     top = climb(
         merit, [np.append(point, _permissible(space, point) / (_MOST * unit)) for point in begin]
     )
-    assert top is not None  # the gearset as it is bears its own torque
+    assert top is not None  # the first of them bears its own torque
     return dataclasses.replace(top, point=top.point[:-1])
