@@ -277,11 +277,12 @@ def test_a_budget_adds_up_to_the_interval_that_is_told(budgeted):
             assert half == pytest.approx(one["expanded_uncertainty"], rel=1e-9)
 
 
-def test_a_budget_names_what_it_does_not_count(budgeted, asperity, recording):
+def test_a_budget_names_what_it_does_not_count(budgeted, asperity, environment, recording):
     told = "\n".join(budgeted["not_counted"])
     assert "the calibration of speed_steel is taken as exact: 2 points" in told
     assert "torque_steel" not in told
-    code, printed, errors = asperity("rig", "reduce", recording, "--budget")
+    wide = {**environment, "COLUMNS": "160"}
+    code, printed, errors = asperity("rig", "reduce", recording, "--budget", env=wide)
     assert code == 0, errors
     assert "Uncertainty (GUM)" in printed
     assert "torque_steel: noise, run-out and drift" in printed

@@ -18,7 +18,7 @@ class Done(NamedTuple):
 
 @pytest.fixture
 def run(asperity):
-    return lambda *words: Done(*asperity(*words))
+    return lambda *words, **more: Done(*asperity(*words, **more))
 
 
 def helper(name):
@@ -117,11 +117,14 @@ def test_a_wheel_shaft_alone_is_enough(run, tmp_path):
     assert run("shafts", str(file), "--out", str(tmp_path / "out")).returncode == 0
 
 
-def test_new_bearing_writes_a_data_file_that_is_listed_and_taken(run, tmp_path, monkeypatch):
+def test_new_bearing_writes_a_data_file_that_is_listed_and_taken(
+    run, environment, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     done = run("new", "bearing", "mine.toml")
     assert "go on with" in done.stdout
-    listed = run("--materials", "mine.toml", "bearings")
+    wide = {**environment, "COLUMNS": "160"}
+    listed = run("--materials", "mine.toml", "bearings", env=wide)
     assert "my 7206-B" in listed.stdout
     places = (
         "worm_shaft.bearing=[{at='30 mm',bearing='my 7206-B',arrangement='pair back-to-back'},"
