@@ -95,8 +95,8 @@ def bear(
         if residual <= tolerance and not wrong.any():
             return Bearing(force, theta, left, iteration, residual)
         # Polak and Ribiere's: where patches come and go it begins anew by itself.
-        interruptible = max(0.0, (square - _dot(left[free], last[free])) / before)
-        way = np.where(free, left + interruptible * way, 0.0)
+        beta = max(0.0, (square - _dot(left[free], last[free])) / before)
+        way = np.where(free, left + beta * way, 0.0)
         before, last = square or 1e-300, left
         sunk = deflection(way)
         sunk -= arm * _level(sunk, arm, free)
