@@ -176,6 +176,20 @@ def test_the_worker_that_is_killed_is_replaced(page):
 
 
 @pytest.mark.slow
+def test_an_answer_that_a_busy_machine_delays_is_no_error(page):
+    page.do("slide", "table-4.3", PERIODIC)
+    worker = page.child("worker")
+    with concurrent.futures.ThreadPoolExecutor() as beside:
+        os.kill(worker, signal.SIGSTOP)
+        asked = beside.submit(page.do, "slide", "table-4.3", PERIODIC)
+        time.sleep(11.0)
+        os.kill(worker, signal.SIGCONT)
+        answer = asked.result()
+    assert answer.status == 200, answer.error
+    assert page.child("worker") == worker
+
+
+@pytest.mark.slow
 def test_a_worker_that_does_not_answer_is_replaced_and_who_asked_is_told(page):
     before = page.do("slide", "table-4.3", PERIODIC).json["answer"]["ratio"]
     worker = page.child("worker")
@@ -184,8 +198,8 @@ def test_a_worker_that_does_not_answer_is_replaced_and_who_asked_is_told(page):
     answer = page.do("slide", "table-4.3", PERIODIC)
     assert answer.status == 504
     # The limit, and what it takes to begin another on a busy machine.
-    assert 9.0 < time.monotonic() - began < 40.0
-    assert "took more than 10 s" in answer.error
+    assert 29.0 < time.monotonic() - began < 60.0
+    assert "took more than 30 s" in answer.error
     assert not lives(worker)
     assert page.do("slide", "table-4.3", PERIODIC).json["answer"]["ratio"] == before
 
