@@ -5,7 +5,7 @@ import os
 import pytest
 
 from asperity.results.table import Column, Table
-from asperity.results.terminal import rendered
+from asperity.results.terminal import lines_of_text, rendered
 
 WORDS = "the power that the vibration puts into the contact"
 TABLE = Table(
@@ -83,3 +83,14 @@ def test_headings_and_cells_fold_where_no_column_that_folds_is_left():
     narrow = rendered([table], 24).splitlines()
     assert max(map(len, narrow)) <= 24
     assert "".join(" ".join(narrow).split()).count("3.15") == 1
+
+
+@pytest.mark.parametrize("width", range(9, 60))
+def test_no_line_ends_between_a_number_and_its_unit(width):
+    measured = ["1328 lbf in", "42 %", "0.6 h", "-3.5 degC", "1.2e-6 N m", "5,000 h", "12 m/s"]
+    text = "wear " + ", oil ".join(measured)
+    lines = lines_of_text(text, width, hanging="  ")
+    assert " ".join(line.strip() for line in lines) == text
+    fitting = [one for one in measured if len(one) <= width - len("  ,")]
+    for one in fitting:
+        assert any(one in line for line in lines)

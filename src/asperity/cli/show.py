@@ -3,7 +3,6 @@
 import contextlib
 import json
 import sys
-import textwrap
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -27,10 +26,9 @@ def note(line: str) -> None:
 def wrapped(sentence: str) -> str:
     """Return a sentence in lines of the terminal's least width."""
     from asperity.results.system import shown_text
+    from asperity.results.terminal import lines_of_text
 
-    return textwrap.fill(
-        shown_text(sentence), _WIDTH, subsequent_indent="  ", break_on_hyphens=False
-    )
+    return "\n".join(lines_of_text(shown_text(sentence), _WIDTH, hanging="  "))
 
 
 def print_text(text: str) -> None:

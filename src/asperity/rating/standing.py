@@ -12,6 +12,7 @@ from typing import Any, Literal, NamedTuple
 from asperity.rating.demands import DEMANDS
 from asperity.rating.result import Rating
 from asperity.results.system import shown_text
+from asperity.results.terminal import lines_of_text
 
 NAMES = {"iso14521": "ISO/TR 14521", "bs721": "BS 721", "agma6034": "AGMA 6034"}
 """What people call the standards."""
@@ -138,7 +139,7 @@ def listed(words: Sequence[str]) -> str:
 
 def wrapped(text: str) -> list[str]:
     """Return a text in lines of at most 79 characters."""
-    return textwrap.wrap(shown_text(text), WIDTH, subsequent_indent="  ", break_on_hyphens=False)
+    return lines_of_text(shown_text(text), WIDTH, hanging="  ")
 
 
 def lines_of(texts: Iterable[str]) -> list[str]:

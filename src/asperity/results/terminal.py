@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from asperity.results.system import shown_table
+from asperity.results.system import US, shown_table
 
 if TYPE_CHECKING:
     from asperity.results.table import Column, Table
@@ -18,7 +18,43 @@ _USUAL = _MOST_READABLE  # where no terminal says how wide it is
 _PART = re.compile(r"(?<=[._])(?=[A-Za-z])")  # where a name may be broken that fits in no line
 _DIGITS = 4  # of a width; what is wider is as wide
 _GAP = "  "
+_BOUND = "\N{NO-BREAK SPACE}"  # at which no line is broken
+# "lbf in" and "N m" are one unit, and so is what is only shown: hours and turns have no other.
+_UNITS = {*US, *(shown.unit for shown in US.values()), "%", "h", "s", "min", "ms", "rpm", "deg",
+          "arcmin", "Hz", "kHz", "MHz", "K", "J", "J/K", "V", "A", "mm2/s", "nm", "GPa",
+          "N/um", "W/K"}  # fmt: skip
+_MEASURED = re.compile(
+    rf"(?<!\w)[+-]?\d[\d,.]*(?:[eE][+-]?\d+)? "
+    rf"(?:{'|'.join(map(re.escape, sorted(_UNITS, key=len, reverse=True)))})(?![\w/^*])"
+)
 _NARROWEST = 8  # that a column is made where the terminal asks for less
+
+
+def lines_of_text(text: str, width: int, hanging: str = "") -> list[str]:
+    """Return a text in lines, none of which ends between a number and its unit.
+
+    Parameters
+    ----------
+    text : str
+        What to show.
+    width : int
+        Most characters of a line; what is wider by itself is broken.
+    hanging : str
+        What all lines but the first begin with.
+
+    Examples
+    --------
+    >>> lines_of_text("of the wear 2213 lbf in 23 %", 26)
+    ['of the wear 2213 lbf in', '23 %']
+    """
+    room = width - len(hanging) - len(",")
+
+    def bound(found: "re.Match[str]") -> str:
+        return found[0].replace(" ", _BOUND) if len(found[0]) <= room else found[0]
+
+    bound_text = _MEASURED.sub(bound, text)
+    lines = textwrap.wrap(bound_text, width, subsequent_indent=hanging, break_on_hyphens=False)
+    return [line.replace(_BOUND, " ") for line in lines]
 
 
 def rendered(tables: "Iterable[Table]", width: int | None = None) -> str:
@@ -47,15 +83,14 @@ def _terminal_width() -> int:
 
 
 def _lines(table: "Table", width: int) -> Iterator[str]:
-    yield from textwrap.wrap(table.title, width)
+    yield from lines_of_text(table.title, width)
     if table.columns:
         yield from _grid(table.columns, table.rows, width)
     for remark in table.remarks:
-        yield from textwrap.wrap(
+        yield from lines_of_text(
             f"- {remark}",
             min(width, _MOST_READABLE),
-            subsequent_indent="  ",
-            break_on_hyphens=False,
+            hanging="  ",
         )
 
 
@@ -118,7 +153,7 @@ def _folded(text: str, width: int) -> list[str]:
     if len(text) <= width:
         return [text]
     words = (word if len(word) <= width else _broken(word, width) for word in text.split())
-    return textwrap.wrap(" ".join(words), width, break_on_hyphens=False)
+    return lines_of_text(" ".join(words), width)
 
 
 def _broken(word: str, width: int) -> str:
