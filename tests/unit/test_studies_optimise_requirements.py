@@ -129,6 +129,7 @@ def random_case(seed):
     settings = [
         *proposal.settings, *asked, lubricant, "gearset.name=drawn",
         f"operation.output_torque={torque} N m", f"operation.worm_speed={speed} rpm",
+        f"operation.through_travel_torque={torque / 3.0} N m",
     ]  # fmt: skip
     return proposal, settings
 
