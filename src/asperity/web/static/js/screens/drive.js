@@ -158,7 +158,7 @@ export function view() {
       <${Folded}><${Form} tables=${["vibration", "drive", "actuator", "operation", "friction", "shaft"]} brief /><//>
     </section>
     <section class="shown">
-      ${geometry ? html`<${Gears} geometry=${geometry} speed=${speed} mode=${mode} />` : null}
+      ${geometry && speed ? html`<${Gears} geometry=${geometry} speed=${speed} mode=${mode} />` : null}
       <${WorkPanel} title="Shaken" name="shaken" label="shake it" work=${shaken}
           says="A minute or several: the more the gearset must be shaken until it settles, the longer.">
         ${shaken.data ? html`<${Ratio} found=${of} answer=${shaken.data.answer} />

@@ -217,7 +217,7 @@ export function view() {
           ${standings(answer.verdict.standing).map((text) => html`<p class="says" key=${text}>${text}</p>`)}
           <${Margins} rows=${safeties} /></section>
         <${First} verdict=${answer.verdict} />
-        <${Gears} geometry=${answer.geometry} speed=${speed} />
+        ${speed ? html`<${Gears} geometry=${answer.geometry} speed=${speed} />` : null}
         <${Drawing} svg=${data.svg.gearset} geometry=${answer.geometry} />
         <${Columns} entries=${entries} answer=${answer} />
         ${sway ? html`<${Efficiency} sway=${sway} geometry=${answer.geometry} setAll=${setAll} />` : null}
