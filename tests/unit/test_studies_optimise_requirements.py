@@ -128,7 +128,8 @@ def random_case(seed):
     )
     settings = [
         *proposal.settings, *asked, lubricant, "gearset.name=drawn",
-        f"operation.output_torque={torque} N m", f"operation.worm_speed={speed} rpm",
+        f"operation.output_torque={torque} N m",
+        f"operation.through_travel_torque={torque} N m", f"operation.worm_speed={speed} rpm",
     ]  # fmt: skip
     return proposal, settings
 
