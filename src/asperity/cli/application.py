@@ -78,9 +78,7 @@ def export(
     settings: SetOption = None,
     over: Annotated[
         str,
-        typer.Option(
-            "--over", metavar="TABLE.KEY=VALUES", help="Mean friction over this value as well."
-        ),
+        typer.Option("--over", metavar="TABLE.KEY=VALUES", help="Mean friction over this as well."),
     ] = "",
     as_json: JsonOption = False,
     out: Annotated[
@@ -98,8 +96,7 @@ def export(
     An elastic block or a gearset's loaded teeth become block.inp or teeth.inp, for Abaqus also
     user.f, the friction law as user subroutine FRIC. The mean friction of a sliding body over a
     cycle of its vibration, against its mean velocity, becomes law.c and law.h, law.csv or law.mat;
-    with --over over another value as well, map.c and so on. The asperities' law itself,
-    Dahl's, step by step, becomes asperity_dahl.c, .h and .m (dahl).
+    with --over map.c and so on. With dahl its law, step by step, is asperity_dahl.c, .h and .m.
     """
     from asperity.cli.export import export as run
 
@@ -198,9 +195,7 @@ def size(
     worm_speed: Annotated[str, _SPEED],
     ratio: Annotated[
         str,
-        typer.Option(
-            "--ratio", metavar="RATIO", help="Of the speeds; left out: requirements.ratio."
-        ),
+        typer.Option("--ratio", metavar="RATIO", help="Of the speeds; else requirements.ratio."),
     ] = "",
     rank: Annotated[
         str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
