@@ -87,7 +87,7 @@ def test_no_fault_passes_as_good(tmp_path, name, seed):
     assert spoiled(name, seed_of(name) + 1 + seed, tmp_path / "run.nc")
 
 
-# Seeds of `sound_settings` whose motors run at 5.5 V, both speeds far from what supplies allow.
+# Seeds of `sound_settings` whose motors run at 5.5 V.
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [7, 21, 22, 23, 26, 28, 29, 30, 32, 34, 37, 39])
 def test_speeds_exchanged_at_5_5_volts_are_told(tmp_path, seed):
