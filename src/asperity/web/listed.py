@@ -1,7 +1,11 @@
 """What data files hold for keys of a case, each by its name with the figures it is chosen by."""
 
+import re
+
 from asperity.gearset.library import Sourced, every
 from asperity.units import quantity_of
+
+_AT = re.compile(r"_(\d+)$")  # of a viscosity, its temperature
 
 
 def listed() -> dict[str, list[dict[str, str]]]:
@@ -39,5 +43,6 @@ def _says(thing: Sourced, key: str) -> str:
     if value is None or value == "":
         return ""
     if isinstance(value, float) and quantity is not None:
-        return f"{key.replace('_', ' ')} {quantity.text(value)}"
+        words = _AT.sub(r" at \1 degC", key).replace("_", " ")
+        return f"{words} {quantity.text(value)}"
     return str(value)
