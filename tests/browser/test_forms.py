@@ -18,7 +18,7 @@ def test_materials_and_oils_are_listed_with_the_figures_they_are_chosen_by(seen)
         page.get_by_text("tin bronze, pitting strength 425 MPa, shear strength 92 MPa").last
     ).to_be_visible()
     oils = page.locator("#field-operation-lubricant-list option")
-    expect(oils.filter(has_text="mineral, viscosity 40 68 mm^2/s").first).to_be_attached()
+    expect(oils.filter(has_text="mineral, viscosity at 40 degC 68 mm^2/s").first).to_be_attached()
 
 
 def test_a_torque_below_that_through_the_travel_is_mended_by_a_click(seen):
