@@ -3,6 +3,7 @@
 import os
 import select
 import signal
+import time
 
 import pytest
 from apparatus import rigs
@@ -11,6 +12,8 @@ from apparatus.grid import slow
 from apparatus.standing_rig import Procedure, StandingRig, lines_of, waited_for
 
 from asperity.tribometer.guardian import guard, stop, switching
+from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.procedure.interlock import Interlock
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning"),
@@ -196,6 +199,27 @@ def test_a_stop_that_somebody_asks_for_switches_off_and_does_not_latch(begun, ri
     # One that was left of an earlier run stops no other.
     stop.press(tmp_path / "run")
     gone_on_with(begun, rig, tmp_path / "run")
+
+
+@pytest.mark.slow
+def test_a_stop_is_told_as_one_where_its_silence_is_heard_first(begun, rig, tmp_path, monkeypatch):
+    look = Interlock.look
+
+    def heard_first(self, counts, interval, expected, *, settled):
+        if expected.frequency:
+            stop.press(tmp_path / "run")
+            time.sleep(2 * OFF)
+            raise InstrumentError(
+                "no vibration is found where 250 Hz is asked for", kind="vibration"
+            )
+        look(self, counts, interval, expected, settled=settled)
+
+    monkeypatch.setattr(Interlock, "look", heard_first)
+    procedure = begun()
+    assert procedure.ended() == 130, procedure.said
+    (line,) = lines_of(tmp_path / "run", "interrupted")
+    assert line["reason"] == "stopped after 0 of 2 cells"
+    assert not lines_of(tmp_path / "run", "latched")
 
 
 @pytest.mark.slow

@@ -35,6 +35,8 @@ from asperity.tribometer.instruments.protocols import (
     VibrationDrive,
 )
 
+# Kinds of what an interlock says of a rig that somebody else has switched off.
+_AS_OFF = "vibration", "supply"
 REPLAY = "replay"
 BACKENDS = "sim", REPLAY, "hardware", "manual"
 """All of it simulated; a run played back; all that can be had as hardware; a PicoScope, and a
@@ -87,6 +89,13 @@ class GuardedBench(Bench):
         if self._scope_let_go():
             found = self.guard.off("the procedure asks, and the drive signal is heard", listen=True)
         return (*found.get("still_on", ()), *self._by_hand())
+
+    def cause_of(self, error: BaseException) -> BaseException:
+        """Return why the guardian switched off, of an error that is only what that looks like.
+
+        It says so when everything was read back, and the silence may be heard before.
+        """
+        return (getattr(error, "kind", "") in _AS_OFF and self.guard.switched_off()) or error
 
     def begun(self) -> tuple[str, ...]:
         """Return what was not read back to be off when the guardian began, and why."""

@@ -146,10 +146,14 @@ class Guard:
         """
         self._send(_HERE)
         self._look(self._limit)
-        if self._tripped:
-            raise InstrumentError(
-                f"everything was told to be off: {self._tripped}", kind=self._kind
-            )
+        if error := self.switched_off():
+            raise error
+
+    def switched_off(self) -> InstrumentError | None:
+        """Return why the guardian has switched everything off unasked, as far as it has told."""
+        if not self._tripped:
+            return None
+        return InstrumentError(f"everything was told to be off: {self._tripped}", kind=self._kind)
 
     def _send(self, head: Head) -> None:
         if self._waiting is None:

@@ -88,6 +88,10 @@ class Bench:
         """Return what each instrument says it is, by its name; raises InstrumentError."""
         return {one.name: one.identify() for one in self.instruments}
 
+    def cause_of(self, error: BaseException) -> BaseException:
+        """Return what an error comes from: itself, where nobody else switches anything off."""
+        return error
+
     def safe(self) -> tuple[str, ...]:
         """Switch vibration off, then motors, then the rest, and read back that they are off.
 

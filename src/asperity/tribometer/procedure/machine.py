@@ -166,6 +166,7 @@ class Machine:
         still = {"still_on": list(failures)} if failures else {}
         if self._logger is not None:
             self._logger.abandon()
+        error = self._bench.cause_of(error)
         kind = getattr(error, "kind", "")
         if kind == STOPPED or (self._signals.heard and kind == SWITCHED_OFF):
             # The guardian heard of the request first.
