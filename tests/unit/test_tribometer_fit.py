@@ -5,6 +5,7 @@ import functools
 import math
 import re
 import signal
+from pathlib import Path
 from unittest import mock
 
 import numpy as np
@@ -22,6 +23,7 @@ from asperity.tribometer.fit import design, forward, study
 from asperity.tribometer.fit.data import read_measurements
 from asperity.tribometer.fit.estimate import Fit
 from asperity.tribometer.fit.forward import Predictor
+from asperity.tribometer.fit.free import Free
 from asperity.tribometer.fit.rigid import limit_of
 from asperity.tribometer.fit.study import answer, prepare
 
@@ -291,11 +293,11 @@ REFUSED = {
     "empty": ("", ["is empty", "headings"]),
     "sd too small": (
         "vibration.velocity_ratio,ratio,sd\n2,0.5,0.01\n3,0.5,1e-300\n",
-        ["row 3: sd is 1e-300 beside ratio 0.5", "at least 1e-15"],
+        ["row 3: sd is 1e-300 beside ratio 0.5", "at least 5e-08"],
     ),
     "sd too small a part": (
         "vibration.velocity_ratio,force [N],sd\n2,5e6,1e-12\n",
-        ["row 2: sd is 1e-12 N beside force 5e+06 N", "at least 5e-09 N"],
+        ["row 2: sd is 1e-12 N beside force 5e+06 N", "at least 0.5 N"],
     ),
     "sd too large": ("vibration.velocity_ratio,ratio,sd\n2,0.5,1e300\n", ["row 2: sd is 1e+300"]),
     "a ratio too large": (
@@ -399,6 +401,30 @@ def test_an_interval_ends_open_where_the_model_answers_no_more():
     cut = Fit(forward, np.full(2, -5.0), np.full(2, 5.0))
     assert cut.end(best, 0, 1) is None
     assert cut.end(best, 0, -1) < best.point[0]
+
+
+def test_the_value_of_a_bound_is_within_the_bounds(tmp_path):
+    # That of the logarithm of 10, the most of an exponent, was 10.000000000000002, and refused.
+    data = read_measurements(Path(table(tmp_path / "data.csv", np.ones(12))), case("table-4.3"))
+    for key in (EXPONENT, TRANSFER, LIMIT, "friction.mu", "slider.mass"):
+        one = Free.of(key, case("table-4.3", "friction.exponent=0.5"), data)
+        low, high = one.bounds
+        for logarithm in (low, high, low - 50.0, high + 50.0):
+            one.quantity.check(one.value(logarithm))
+
+
+def test_a_key_that_forbids_where_a_fit_goes_is_told_with_what_the_fit_came_to(tmp_path):
+    path = tmp_path / "data.csv"
+    rows = [f"{speed},{force},0.02" for speed, force in ((1, 1.2), (3, 1.1), (10, 1.1), (30, 1.2))]
+    path.write_text("\n".join(["slider.drive_velocity [mm/s],force [N],sd", *rows]) + "\n", "utf-8")
+    asked = [
+        "friction.model=lugre",
+        "friction.mu=0.01",
+        "friction.static_mu=0.015",
+        "friction.stribeck_velocity=1 mm/s",
+    ]
+    with pytest.raises(InputError, match=r"the fit comes to friction\.mu = .*static_mu is 0\.015"):
+        fitted(str(path), "table-4.3", ["friction.mu"], *asked, "vibration.velocity_ratio=0")
 
 
 def test_a_parameter_at_its_bound_has_an_open_end():

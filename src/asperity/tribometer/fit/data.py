@@ -24,7 +24,7 @@ _UNITS = {RATIO: "", FORCE: "N"}
 # What anything measured lies far within; beyond, squares of it over its deviation overflow.
 _MOST = {RATIO: 1e9, FORCE: 1e15}
 _LEAST_SD = {RATIO: 1e-15, FORCE: 1e-30}
-_MOST_SDS = 1e15
+_MOST_SDS = 1e7  # of a value, which no prediction meets more closely
 _MOST_OF_CONDITION = 1e30
 _SHARE = 0.01  # of the largest value, for a deviation that is not known
 

@@ -66,6 +66,15 @@ class Free:
         zero, one = (to_si(f"{n} {self.written}".strip(), self.quantity.unit) for n in (0, 1))
         return f"{float(f'{(value - zero) / (one - zero):.4g}'):.12g} {self.written}".rstrip()
 
+    def value(self, logarithm: float) -> float:
+        """Return the value of a logarithm: that of a bound is within the bounds."""
+        q = self.quantity
+        lower = q.ge if q.gt is None else math.nextafter(q.gt, math.inf)
+        upper = q.le if q.lt is None else math.nextafter(q.lt, -math.inf)
+        value = math.exp(logarithm)
+        value = value if upper is None else min(value, upper)
+        return value if lower is None else max(value, lower)
+
     @property
     def bounds(self) -> tuple[float, float]:
         """Logarithms of the least and the largest value."""

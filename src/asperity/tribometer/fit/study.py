@@ -150,7 +150,7 @@ class _Data:
     def given(self, point: FloatArray) -> dict[str, Value]:
         """Return the parameters' values, with the law."""
         values: dict[str, Value] = {
-            one.key: float(min(math.exp(value), math.exp(one.bounds[1])))
+            one.key: one.value(float(value))
             for one, value in zip(self.problem.free, point, strict=True)
         }
         if "friction" in self.problem.case and self._has_law():
@@ -166,7 +166,14 @@ class _Data:
             row for row, kept in zip(self.problem.data.conditions, self.answered, strict=True)
             if kept
         ]  # fmt: skip
-        values, why = self._predict(rows, self.given(point))
+        given = self.given(point)
+        try:
+            values, why = self._predict(rows, given)
+        except InputError as error:
+            came = ", ".join(f"{f.key} = {f.told(float(given[f.key]))}" for f in self.problem.free)
+            raise InputError(
+                f"the fit comes to {came}, where {error}; free that too, or give it another value"
+            ) from None
         if why:
             raise ConvergenceError(next(iter(why.values())))
         return values
