@@ -269,6 +269,19 @@ def bearings(as_json: JsonOption = False) -> None:
 
 @app.command()
 @reported
+def hobs(as_json: JsonOption = False) -> None:
+    """List the hobs that data files hold, which requirements.hobs = "own" takes, with source.
+
+    A file has tables such as [hob."4 x 40"] with axial_module and worm_pitch_diameter.
+    """
+    from asperity.cli.lists import print_library
+    from asperity.gearset.shelf import ShelfHob
+
+    print_library((ShelfHob,), as_json=as_json)
+
+
+@app.command()
+@reported
 def instruments(
     name: Annotated[
         str, typer.Argument(metavar="NAME", help="Print this one, to begin a table of your own.")

@@ -57,7 +57,7 @@ def size(
         typer.Option("--ratio", metavar="RATIO", help="Of the speeds; else requirements.ratio."),
     ] = "",
     rank: Annotated[
-        str, typer.Option("--rank", metavar="BY", help="size, efficiency, margin or mass.")
+        str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
     ] = "size",
     locks: Annotated[
         str, typer.Option("--locks", metavar="WHEN", help="rest or motion: it must lock itself.")

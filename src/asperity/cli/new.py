@@ -12,7 +12,7 @@ from asperity.files.store import write_text
 from asperity.rating.parameters import Operation
 from asperity.start.bearing import KIND as BEARING
 from asperity.start.bearing import bearing_text
-from asperity.start.gear import MACRO, begun, drop_begun_life, proposals, ratio_of
+from asperity.start.gear import MACRO, drop_begun_life, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
 
@@ -148,9 +148,7 @@ _FORMS = {
 """What of the operation has an option, and what would take its place."""
 
 
-def given_to(
-    values: Values, asked: Mapping[str, str | None], settings: Sequence[str]
-) -> Set[str]:
+def given_to(values: Values, asked: Mapping[str, str | None], settings: Sequence[str]) -> Set[str]:
     """Apply what is asked of the operation, and settings; returns their keys."""
     keys = set()
     for setting in settings:

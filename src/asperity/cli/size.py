@@ -12,7 +12,7 @@ from asperity.start.duty import complete, duty
 from asperity.start.gear import proposals, ratio_of
 from asperity.start.kinds import Values, kind_of
 from asperity.start.write import case_text
-from asperity.studies.proposals import Proposals
+from asperity.studies.proposed import Proposals
 
 
 def size(
