@@ -89,7 +89,11 @@ class Proposals(Result):
 
     def to_json(self) -> dict[str, Any]:
         """Return the proposals, each with the settings that make it."""
-        found = [p._asdict() | {"settings": list(p.settings)} for p in self.found]
+        found = [
+            {key: value for key, value in p._asdict().items() if value not in (None, "")}
+            | {"settings": list(p.settings)}
+            for p in self.found
+        ]
         return super().to_json() | {"proposals": found}
 
     def tables(self) -> tuple[Table, ...]:
