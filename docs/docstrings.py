@@ -24,15 +24,15 @@ from asperity.results import Quantities
 
 REFERENCE = Path(__file__).parent / "reference"
 
-# A parameter: PR01 is not said, PR02 is said and not there, PR03 stands in another order, PR04 has no
-# type, PR05 a type with a period, PR07 no meaning, PR10 no space before its colon. RT01 no Returns,
-# RT03 without meaning, YD01 no Yields. GL06 an unknown section, GL07 sections in another order, GL08
-# nothing at all, SS01 no summary. RS01, which is of this check, an error raised and not named.
+# A parameter: PR01 is not said, PR02 is said and not there, PR03 stands in another order, PR04 has
+# no type, PR05 a type with a period, PR07 no meaning, PR10 no space before its colon. RT01 no
+# Returns, RT03 without meaning, YD01 no Yields. GL06 an unknown section, GL07 sections in another
+# order, GL08 nothing at all, SS01 no summary. RS01, of this check, an error raised and not named.
 CODES = {
     *("PR01", "PR02", "PR03", "PR04", "PR05", "PR07", "PR10"),
     *("RT01", "RT03", "YD01", "GL06", "GL07", "GL08", "SS01"),
 }
-# What one that stands in for the method of a base leaves to that of the base.
+# What a method that stands in for one of a base leaves to that.
 INHERITED = {"PR01", "RT01", "YD01"}
 
 
@@ -108,6 +108,13 @@ class Docstring(Validator):
         return inspect.isclass(self.obj) and issubclass(self.obj, Table | Quantities)
 
     @property
+    def said_by_summary(self) -> bool:
+        """Whether it is a line that says what comes of a method which takes nothing."""
+        return (
+            not self.signature_parameters and re.match("(Return|Yield) ", self.summary) is not None
+        )
+
+    @property
     def is_function_or_method(self) -> bool:
         """Whether it is called for what it returns: kernels and methods of classes as well."""
         return inspect.isroutine(self.code_obj)
@@ -121,10 +128,21 @@ class Docstring(Validator):
             return ""
 
     @property
+    def is_generator_function(self) -> bool:
+        """Whether it yields anything; what is entered by ``with`` may yield nothing."""
+        tree = ast.parse(self.method_source)
+        return any(
+            isinstance(node, ast.YieldFrom) or (isinstance(node, ast.Yield) and node.value)
+            for node in ast.walk(tree)
+        )
+
+    @property
     def signature_parameters(self) -> tuple[str, ...]:
         """What it takes: of a table its keys, of an answer what is not said with its field."""
         if not inspect.isclass(self.obj):
             return tuple(n for n in super().signature_parameters if not n.startswith("_"))
+        if getattr(self.obj, "_is_protocol", False):
+            return ()
         if issubclass(self.obj, Table) and self.obj is not Table:
             # What is excluded is made by the table itself, or said elsewhere.
             return tuple(
@@ -178,6 +196,8 @@ def faults(name: str) -> list[str]:
     """Return what is wrong with the docstring of a public name, a line each."""
     docstring = Docstring(name)
     left_out = INHERITED if docstring.overrides else set()
+    if docstring.said_by_summary:
+        left_out = left_out | {"RT01", "YD01"}
     if docstring.by_name:
         left_out = left_out | {"PR03"}
     found = [

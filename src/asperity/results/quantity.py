@@ -162,7 +162,17 @@ def quantity(
 def labelled(symbol: str, unit: str, meaning: str, **options: Any) -> Callable[[F], F]:
     """Declare what follows from fields as a quantity, between ``@property`` and its function.
 
-    The parameters are those of :class:`Label`.
+    Parameters
+    ----------
+    symbol, unit, meaning : str
+        As of :class:`Label`.
+    **options
+        The other attributes of :class:`Label`.
+
+    Returns
+    -------
+    callable
+        The decorator.
     """
 
     def mark(function: F) -> F:
@@ -173,7 +183,22 @@ def labelled(symbol: str, unit: str, meaning: str, **options: Any) -> Callable[[
 
 
 def part(of: "type[Quantities]", prefix: str = "", *, default: Any = dataclasses.MISSING) -> Any:
-    """Declare a field as an answer within the answer, or None."""
+    """Declare a field as an answer within the answer, or None.
+
+    Parameters
+    ----------
+    of : type of Quantities
+        The class of the answer.
+    prefix : str
+        What stands before the names of its quantities.
+    default : object
+        As of a field; None where the answer may be missing.
+
+    Returns
+    -------
+    dataclasses.Field
+        The field.
+    """
     return dataclasses.field(default=default, metadata={_LABEL: Part(of, prefix)})
 
 
@@ -229,7 +254,18 @@ class Quantities:
         return f"{type(self).__name__}({', '.join(shown[:_MOST_SHOWN])}{more})"
 
     def resolution(self, name: str) -> float:
-        """Return the size below which a quantity is rounding and shown as none, in its unit."""
+        """Return the size below which a quantity is rounding and shown as none, in its unit.
+
+        Parameters
+        ----------
+        name : str
+            Of the quantity.
+
+        Returns
+        -------
+        float
+            0 where nothing is known.
+        """
         return 0.0
 
 

@@ -115,7 +115,18 @@ class Result(Quantities):
         return ()
 
     def traces(self, points: int) -> Mapping[str, Any]:
-        """Return what is drawn of it at once, in so many numbers each, by name."""
+        """Return what is drawn of it at once, in so many numbers each, by name.
+
+        Parameters
+        ----------
+        points : int
+            Of each, at most.
+
+        Returns
+        -------
+        mapping of str to sequence
+            Numbers by name, in SI.
+        """
         return {}
 
     def views(self) -> Mapping[str, str]:
@@ -135,7 +146,23 @@ class Result(Quantities):
         return (table_of(self, remarks=self.notes),)
 
     def figure(self, name: str | None = None) -> "Figure":
-        """Draw one of the pictures; the first if none is named."""
+        """Draw one of the pictures; the first if none is named.
+
+        Parameters
+        ----------
+        name : str, optional
+            A key of `drawings`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Not shown yet.
+
+        Raises
+        ------
+        InputError
+            It has no picture of that name.
+        """
         drawings = self.kind.drawings
         if not drawings:
             from asperity.results.figures import draw
@@ -157,6 +184,11 @@ class Result(Quantities):
         ----------
         folder : path, optional
             Where its pictures may stand already, which are not drawn again then.
+
+        Returns
+        -------
+        tuple of Section
+            In the order of the page.
         """
         from asperity.results.report import Section
 
@@ -169,7 +201,18 @@ class Result(Quantities):
         )
 
     def pictures(self, folder: Path | None = None) -> "tuple[Picture, ...]":
-        """Return its pictures for a page; those that stand in a folder are taken from there."""
+        """Return its pictures for a page; those that stand in a folder are taken from there.
+
+        Parameters
+        ----------
+        folder : path, optional
+            Where pictures may stand already.
+
+        Returns
+        -------
+        tuple of Picture
+            One for each of `drawings`, with its caption.
+        """
         from asperity.results.report import Picture
 
         made = []
@@ -192,19 +235,35 @@ class Result(Quantities):
             For whom and by whom, and the case.
         folder : path, optional
             As of `sections`.
+
+        Returns
+        -------
+        str
+            The page.
         """
         from asperity.results.report import report
 
         return report(self.kind.title, self.sections(folder), heading)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write everything as netCDF, whole or not at all; :func:`read` gives it back."""
+        """Write everything as netCDF, whole or not at all; :func:`read` gives it back.
+
+        Parameters
+        ----------
+        path : path
+            A file; one that is there is replaced.
+
+        Returns
+        -------
+        path
+            The same.
+        """
         from asperity.files.store import write_dataset
 
         return write_dataset(self._with_answer(), path)
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
-        """Write JSON, netCDF and the pictures to a folder that exists; returns their names.
+        """Write JSON, netCDF and the pictures to a folder that exists.
 
         The numbers come first, so that a picture that fails costs the picture.
 
@@ -214,6 +273,11 @@ class Result(Quantities):
             Where to.
         pictures : str
             What pictures are written as, png, svg or pdf; empty for none.
+
+        Returns
+        -------
+        list of str
+            Names of the files.
         """
         from asperity.results.files import write_json, write_picture
 
@@ -229,7 +293,18 @@ class Result(Quantities):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Saved":
-        """Read an answer of this kind back from a file; raises InputError for another kind."""
+        """Read an answer of this kind back from a file; raises InputError for another kind.
+
+        Parameters
+        ----------
+        path : path
+            A netCDF file.
+
+        Returns
+        -------
+        Saved
+            As of :func:`read`.
+        """
         saved = read(path)
         if not issubclass(saved.of, cls):
             raise InputError(f"{path} holds {_path_of(saved.of)}, not {_path_of(cls)}")

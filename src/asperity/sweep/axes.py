@@ -68,7 +68,18 @@ class Axis:
         return not any(isinstance(value, str) for value in self.values)
 
     def text(self, index: int) -> str:
-        """Return one value with its key and unit, as on the command line."""
+        """Return one value with its key and unit, as on the command line.
+
+        Parameters
+        ----------
+        index : int
+            Of the value.
+
+        Returns
+        -------
+        str
+            ``table.key=value unit``.
+        """
         value = self.shown[index]
         number = value if isinstance(value, str) else f"{value:.12g}"
         return f"{self.path}={number} {self.unit}".rstrip()
@@ -139,13 +150,24 @@ def read_grid(
 
     Parameters
     ----------
-    name_or_path, tables, settings
+    name_or_path : str
+        As for :func:`asperity.casefile.read_case`.
+    tables : mapping of str to type of Table
+        As for :func:`asperity.casefile.read_case`.
+    settings : sequence of str
         As for :func:`asperity.casefile.read_case`.
     over : sequence of str
         ``table.key=1,2,3`` or ``table.key=start:stop:step``, the stop included where it falls on
         the grid; a unit with each number, or after the last one for all.
     points : str
         A file of values that change together, see `_columns`.
+
+    Returns
+    -------
+    case : Case
+        The first point of the grid that can be one.
+    axes : list of Axis
+        As of `parse_axes`.
 
     Raises
     ------
@@ -199,10 +221,22 @@ def parse_axes(over: Sequence[str], case: Case, points: str = "") -> list[Axis]:
 
     Parameters
     ----------
-    over, points
+    over : sequence of str
         As for `read_grid`.
     case : Case
         Gives the tables.
+    points : str
+        As for `read_grid`.
+
+    Returns
+    -------
+    list of Axis
+        Those of a file of points first, then the others as given.
+
+    Raises
+    ------
+    InputError
+        An axis that cannot be read, stands twice or is out of the bounds of its key; too many points.
     """
     written = _written(over, points, case.known, subject_of(case))
     return _within_bounds([_axis(axis) for axis in written])
