@@ -164,8 +164,15 @@ class Docstring(Validator):
         if inspect.isclass(self.obj):
             taken = self.signature_parameters
             attributes = self._doc_parameters(["Attributes"])
-            # What a class has besides is no parameter of it.
+            # What a class has besides is no parameter of it; what a base says need not be repeated.
             said |= {n: a for n, a in attributes.items() if n in taken or not self._has(n)}
+            for base in self.obj.__bases__:
+                if base.__module__.startswith("asperity."):
+                    inherited = Docstring(f"{base.__module__}.{base.__qualname__}")
+                    said = {
+                        **{n: a for n, a in inherited.doc_all_parameters.items() if n in taken},
+                        **said,
+                    }
         return said
 
     def _has(self, name: str) -> bool:

@@ -360,25 +360,7 @@ def read(path: str | os.PathLike[str], settings: Sequence[str] = ()) -> "Case | 
 
 
 def as_case(what: Sequence[What], settings: Sequence[str] = ()) -> Case:
-    """Return one case of what was given: its name, its file, itself, or its tables.
-
-    Parameters
-    ----------
-    what : sequence of str, path, Case or Table
-        A name, a file or a case alone, or tables.
-    settings : sequence of str
-        Changes, as with ``--set``.
-
-    Returns
-    -------
-    Case
-        With all that was given.
-
-    Raises
-    ------
-    InputError
-        What is none of these, a table twice, or a case that cannot be read.
-    """
+    """Return one case of what was given: its name, its file, itself, or its tables."""
     if len(what) == 1 and isinstance(what[0], Case):
         return what[0].replace(settings) if settings else what[0]
     if len(what) == 1 and isinstance(what[0], str | os.PathLike):

@@ -379,18 +379,7 @@ def _with_unit(model: type[Table], key: str, value: Any, setting: str) -> Any:
 
 
 def bare_unit(quantity: Quantity) -> str:
-    """Return the unit of a number without one on the command line: deg for an angle, else none.
-
-    Parameters
-    ----------
-    quantity : Quantity
-        Of the key.
-
-    Returns
-    -------
-    str
-        A unit, or nothing.
-    """
+    """Return the unit of a number without one on the command line: deg for an angle, else none."""
     return "deg" if quantity.unit == "rad" else ""
 
 

@@ -6,8 +6,6 @@
         ratio: float = quantity("F_d/(mu F_N)", "", "mean drive force over mu F_N")
         force: float = quantity("F_d", "N", "mean drive force")
         course: FloatArray = quantity("x", "m", "position", dims=("time",))
-
-The class is a frozen dataclass without further ado.
 """
 
 import dataclasses
@@ -187,10 +185,8 @@ def part(of: "type[Quantities]", prefix: str = "", *, default: Any = dataclasses
 
     Parameters
     ----------
-    of : type of Quantities
-        The class of the answer.
-    prefix : str
-        What stands before the names of its quantities.
+    of, prefix : type of Quantities, str
+        The class of the answer, and what stands before the names of its quantities.
     default : object
         As of a field; None where the answer may be missing.
 
@@ -254,18 +250,7 @@ class Quantities:
         return f"{type(self).__name__}({', '.join(shown[:_MOST_SHOWN])}{more})"
 
     def resolution(self, name: str) -> float:
-        """Return the size below which a quantity is rounding and shown as none, in its unit.
-
-        Parameters
-        ----------
-        name : str
-            Of the quantity.
-
-        Returns
-        -------
-        float
-            0 where nothing is known.
-        """
+        """Return the size below which a quantity is rounding and shown as none, in its unit."""
         return 0.0
 
 

@@ -115,18 +115,7 @@ class Result(Quantities):
         return ()
 
     def traces(self, points: int) -> Mapping[str, Any]:
-        """Return what is drawn of it at once, in so many numbers each, by name.
-
-        Parameters
-        ----------
-        points : int
-            Of each, at most.
-
-        Returns
-        -------
-        mapping of str to sequence
-            Numbers by name, in SI.
-        """
+        """Return what is drawn of it at once, in so many numbers each, by name."""
         return {}
 
     def views(self) -> Mapping[str, str]:
@@ -184,11 +173,6 @@ class Result(Quantities):
         ----------
         folder : path, optional
             Where its pictures may stand already, which are not drawn again then.
-
-        Returns
-        -------
-        tuple of Section
-            In the order of the page.
         """
         from asperity.results.report import Section
 
@@ -201,18 +185,7 @@ class Result(Quantities):
         )
 
     def pictures(self, folder: Path | None = None) -> "tuple[Picture, ...]":
-        """Return its pictures for a page; those that stand in a folder are taken from there.
-
-        Parameters
-        ----------
-        folder : path, optional
-            Where pictures may stand already.
-
-        Returns
-        -------
-        tuple of Picture
-            One for each of `drawings`, with its caption.
-        """
+        """Return its pictures for a page; those that stand in a folder are taken from there."""
         from asperity.results.report import Picture
 
         made = []
@@ -375,6 +348,16 @@ class Saved(Result):
 
 def read(path: str | os.PathLike[str]) -> Saved:
     """Read an answer back from a file that :meth:`Result.save` or ``--out`` wrote.
+
+    Parameters
+    ----------
+    path : path
+        A netCDF file.
+
+    Returns
+    -------
+    Saved
+        What was saved, with tables, pictures and JSON as the answer had them.
 
     Raises
     ------

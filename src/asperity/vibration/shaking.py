@@ -160,13 +160,7 @@ class Vibration(Table):
         return self
 
     def of_body(self) -> Self:
-        """Return it as a sliding body takes it; raises InputError for that of a gearset.
-
-        Returns
-        -------
-        Vibration
-            The same.
-        """
+        """Return it as a sliding body takes it; raises InputError for that of a gearset."""
         for key in ("mode", "per_turn"):
             if getattr(self, key) is not None:
                 raise InputError(
@@ -187,11 +181,6 @@ class Vibration(Table):
         ----------
         places : mapping of str to sequence of str, optional
             Where each mode is applied to, the first if nothing is said; the worm if left out.
-
-        Returns
-        -------
-        Vibration
-            With ``mode`` and ``applied_to`` as the gearset has them.
         """
         for key in _OF_BODIES:
             if key in self.model_fields_set:
