@@ -259,6 +259,16 @@ def size(
         Whether to leave out what no hob cuts.
     locks : {'', 'rest', 'motion'}
         Whether the worm must lock itself, at rest or in motion.
+
+    Returns
+    -------
+    Proposals
+        The best first.
+
+    Raises
+    ------
+    InputError
+        A value without a unit or out of bounds, no ratio, or no gearset that does what is asked.
     """
     from asperity.casefile.case import apply, listed
     from asperity.rating.parameters import Operation
@@ -285,7 +295,23 @@ def size(
 
 
 def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":
-    """Put cases side by side: what differs in what is asked and in what comes of it."""
+    """Put cases side by side: what differs in what is asked and in what comes of it.
+
+    Parameters
+    ----------
+    *cases : path or Case
+        Two or more: files, names of cases that ship, or cases.
+
+    Returns
+    -------
+    Comparison
+        Rows of what differs, a column a case.
+
+    Raises
+    ------
+    InputError
+        Fewer than two cases, of other kinds, or one that cannot be read.
+    """
     from asperity.start.compare import compare as side_by_side
 
     def answered(command: Command, case: Case) -> "Result":
@@ -295,7 +321,20 @@ def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":
 
 
 def check(case: str | os.PathLike[str], settings: Sequence[str] = ()) -> "tuple[Mistake, ...]":
-    """Return all mistakes of a case file, each with its line; none for one that can be used."""
+    """Return all mistakes of a case file, each with its line; none for one that can be used.
+
+    Parameters
+    ----------
+    case : path
+        A TOML file, or the name of a case that ships.
+    settings : sequence of str
+        Changes of the case, as with ``--set``.
+
+    Returns
+    -------
+    tuple of Mistake
+        Line, key and a sentence of each.
+    """
     from asperity.casefile.check import check_case
 
     return check_case(case, case_tables(), settings)[1]
@@ -310,6 +349,16 @@ def read(path: str | os.PathLike[str], settings: Sequence[str] = ()) -> "Case | 
         ``.nc`` is an answer, which can be drawn and shown again; everything else a case.
     settings : sequence of str
         Changes of a case, as with ``--set``.
+
+    Returns
+    -------
+    Case or Result
+        By the ending of the file.
+
+    Raises
+    ------
+    InputError, StorageError
+        It cannot be read, or is not what its ending says.
     """
     if Path(path).suffix == ".nc":
         from asperity.results import read as read_answer

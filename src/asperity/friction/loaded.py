@@ -97,7 +97,7 @@ def advance_loaded(sx, sy, d1x, d1y, d2x, d2y, limit_0, limit_1, exponent, law, 
     limit_0, limit_1 : float
         Friction force at full slip before and after the step over that at the reference load, 0 or
         more; a contact that is open at the end (0) has a straight asperity.
-    exponent, law
+    exponent, law : float, int
         As in `asperity.friction.dahl.advance`, which this is at a constant limit, to the last bit
         where that is 1.
     keeps : int
@@ -143,7 +143,7 @@ def friction_loss(sx, sy, wx, wy, dx, dy, limit_0, limit_1, keeps):
         Deflection before and after, over the limit at the reference load.
     dx, dy : float
         Slip of the step, over the same.
-    limit_0, limit_1, keeps
+    limit_0, limit_1, keeps : float, float, int
         As in `advance_loaded`.
 
     Returns
