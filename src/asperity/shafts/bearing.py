@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import ValidationInfo, model_validator
 
 from asperity.errors import InputError, choices, shown
+from asperity.formulas.traced import number
 from asperity.gearset.library import Sourced
 from asperity.shafts.dimensions import DIMENSIONS
 from asperity.shafts.rolling import equivalent
@@ -149,7 +150,7 @@ class RollingBearing(Sourced):
         """C_u, N."""
         if self.fatigue_limit is not None:
             return self.fatigue_limit
-        return float(fatigue_load_limit(self.static_rating, self.elements))
+        return number(fatigue_load_limit(self.static_rating, self.elements))
 
     @property
     def carries_axial(self) -> bool:
@@ -181,7 +182,7 @@ class RollingBearing(Sourced):
     def induced(self, radial: float) -> float:
         """Return the axial force that it makes of its radial load, N; adjusted bearings only."""
         if self.kind == "taper":
-            return float(equivalent.induced_of_taper(radial, self.Y or 1.0))
+            return number(equivalent.induced_of_taper(radial, self.Y or 1.0))
         return equivalent.induced_of_angular(self.angle)(radial)
 
 

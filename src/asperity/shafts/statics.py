@@ -7,11 +7,12 @@ that x = -s. Forces on bearings are those of the shaft on them.
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.formulas.traced import total
 
 Vector = tuple[float, float, float]
 
@@ -55,7 +56,12 @@ class Reactions(NamedTuple):
     @property
     def radial(self) -> tuple[float, float]:
         """Resultant of each, N."""
-        return math.hypot(*self.first), math.hypot(*self.second)
+        return resultant(*self.first), resultant(*self.second)
+
+
+def resultant(y: Any, z: Any) -> Any:
+    """Return the length of a vector across the shaft."""
+    return math.hypot(y, z) if isinstance(y, float) else np.sqrt(y**2 + z**2)
 
 
 def mesh_load(at: float, force: Vector, radius: float) -> PointLoad:
@@ -82,12 +88,12 @@ def reactions(loads: Sequence[PointLoad], first: float, second: float) -> Reacti
         fz.append(load.force[2])
         moment_z.append(arm * load.force[1] + load.couple[2])
         moment_y.append(arm * load.force[2] - load.couple[1])
-    a_y, a_z = math.fsum(moment_z) / span, math.fsum(moment_y) / span
+    a_y, a_z = total(moment_z) / span, total(moment_y) / span
     return Reactions(
         (a_y, a_z),
-        (math.fsum((*fy, -a_y)), math.fsum((*fz, -a_z))),
-        math.fsum(load.force[0] for load in loads),
-        -math.fsum(load.couple[0] for load in loads),
+        (total((*fy, -a_y)), total((*fz, -a_z))),
+        total(load.force[0] for load in loads),
+        -total(load.couple[0] for load in loads),
     )
 
 
