@@ -118,6 +118,42 @@ class Moments(NamedTuple):
     axial: FloatArray
 
 
+def section(
+    at: Any,
+    loads: Sequence[PointLoad],
+    carried: Reactions,
+    bearings: tuple[Any, Any],
+    fixed: tuple[Any, Any],
+    *,
+    behind: bool,
+) -> tuple[Any, Any, Any]:
+    """Return bending moment and torque in N mm and axial force in N of one section.
+
+    As `moments` has them of many; all numbers may be traced.
+
+    Parameters
+    ----------
+    at : float
+        Position, mm.
+    loads, carried, bearings, fixed
+        As in `moments`.
+    behind : bool
+        Whether the side away from the end is meant, else that before the section.
+    """
+    every = list(loads)
+    for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
+        every.append(PointLoad(place, (-fx, -fy, -fz)))
+    every.append(PointLoad(0.0, (0.0, 0.0, 0.0), (carried.torque, 0.0, 0.0)))
+    before = [load for load in every if (load.at <= at if behind else load.at < at)]
+    bending_y = total([(at - load.at) * load.force[1] + load.couple[2] for load in before] or [0.0])
+    bending_z = total([(at - load.at) * load.force[2] - load.couple[1] for load in before] or [0.0])
+    return (
+        resultant(bending_y, bending_z),
+        total([load.couple[0] for load in before] or [0.0]),
+        total([load.force[0] for load in before] or [0.0]),
+    )
+
+
 def moments(
     places: FloatArray,
     loads: Sequence[PointLoad],
