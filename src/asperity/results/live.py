@@ -27,9 +27,17 @@ _HEADING = ("symbol", "value", "unit", "meaning", "equation", "source", "asked",
 class About(Protocol):
     """What is known of an input."""
 
-    symbol: str
-    unit: str
-    meaning: str
+    @property
+    def symbol(self) -> str:
+        """As the standard writes it."""
+
+    @property
+    def unit(self) -> str:
+        """In which its cell is."""
+
+    @property
+    def meaning(self) -> str:
+        """In words."""
 
 
 class Cells:
@@ -48,7 +56,7 @@ class Cells:
         self._known: dict[str, tuple[Traced, Traced]] = {}
         self._units: dict[str, str] = {}
 
-    def input(self, path: str, value: float, unit: str = "") -> Traced:
+    def input(self, path: str, value: float, unit: str = "") -> Any:
         """Return an input as a number that is calculated with.
 
         Parameters

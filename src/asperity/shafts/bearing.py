@@ -146,7 +146,7 @@ class RollingBearing(Sourced):
         return 500.0 * (self.bore + self.outside_diameter)
 
     @property
-    def endless_below(self) -> float:
+    def endless_below(self) -> Any:
         """C_u, N."""
         if self.fatigue_limit is not None:
             return self.fatigue_limit
@@ -179,7 +179,7 @@ class RollingBearing(Sourced):
             return equivalent.taper(self.e or 1.0, self.Y or 1.0, self.Y0 or 1.0)
         return equivalent.CYLINDRICAL
 
-    def induced(self, radial: float) -> float:
+    def induced(self, radial: Any) -> Any:
         """Return the axial force that it makes of its radial load, N; adjusted bearings only."""
         if self.kind == "taper":
             return number(equivalent.induced_of_taper(radial, self.Y or 1.0))

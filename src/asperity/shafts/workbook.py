@@ -96,7 +96,8 @@ class _Live:
         value = getattr(self._thing, name)
         if isinstance(value, bool) or not isinstance(value, int | float):
             return value
-        return self._cells.input(f"{self._path}.{name}", value, unit_of(type(self._thing), name))
+        unit = unit_of(type(self._thing), name) or ""
+        return self._cells.input(f"{self._path}.{name}", value, unit)
 
 
 class _Shaft:

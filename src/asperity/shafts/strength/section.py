@@ -1,7 +1,7 @@
 """A section of a shaft that is judged: notch factors, and safeties by DIN 743 and others."""
 
 import math
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -236,9 +236,7 @@ def judged(
     )  # fmt: skip
 
 
-def _borne_amplitude(
-    part: float, sensitivity: float, mean: float, amplitude: float, case: int
-) -> float:
+def _borne_amplitude(part: Any, sensitivity: Any, mean: Any, amplitude: Any, case: int) -> Any:
     if case == 1:
         return part - sensitivity * mean
     if not amplitude > 0.0:
@@ -248,7 +246,7 @@ def _borne_amplitude(
 
 def _yield_safety(
     steel: ShaftSteel, borne: Strength, stresses: tuple[float, float, float], peak: float
-) -> float:
+) -> Any:
     bend, pull, twist = (peak * each for each in stresses)
     strength_at_size = 1e-6 * steel.yield_strength
     k, gamma = borne.k_1[1], borne.gamma_f
