@@ -6,8 +6,6 @@
         ratio: float = quantity("F_d/(mu F_N)", "", "mean drive force over mu F_N")
         force: float = quantity("F_d", "N", "mean drive force")
         course: FloatArray = quantity("x", "m", "position", dims=("time",))
-
-The class is a frozen dataclass without further ado.
 """
 
 import dataclasses
@@ -175,7 +173,17 @@ def quantity(
 def labelled(symbol: str, unit: str, meaning: str, **options: Any) -> Callable[[F], F]:
     """Declare what follows from fields as a quantity, between ``@property`` and its function.
 
-    The parameters are those of :class:`Label`.
+    Parameters
+    ----------
+    symbol, unit, meaning : str
+        As of :class:`Label`.
+    **options
+        The other attributes of :class:`Label`.
+
+    Returns
+    -------
+    callable
+        The decorator.
     """
 
     def mark(function: F) -> F:
@@ -205,7 +213,20 @@ def measured(
 
 
 def part(of: "type[Quantities]", prefix: str = "", *, default: Any = dataclasses.MISSING) -> Any:
-    """Declare a field as an answer within the answer, or None."""
+    """Declare a field as an answer within the answer, or None.
+
+    Parameters
+    ----------
+    of, prefix : type of Quantities, str
+        The class of the answer, and what stands before the names of its quantities.
+    default : object
+        As of a field; None where the answer may be missing.
+
+    Returns
+    -------
+    dataclasses.Field
+        The field.
+    """
     return dataclasses.field(default=default, metadata={_LABEL: Part(of, prefix)})
 
 
