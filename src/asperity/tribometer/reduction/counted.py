@@ -2,18 +2,27 @@ r"""Levels of a speed that an encoder's counter tells.
 
 Pulses are counted over a while, and shown until the next count is there. What is shown adds up to
 the angle, but for a part of a pulse and late: what one count has too much, the next has too little.
-So the means over blocks j that are as long as a count, B, or longer are
+So the means over blocks j that are as long as a count, B, are
 
 .. math:: S_j = S + g\,(\bar T_j - L) + e_j + (n_{j+1} - n_j)/B
 
 in a window, with the torque's swings :math:`\bar T_j - L` as much earlier as the speed is late, the
-signal's own noise e, and the part of a pulse n that is passed at the end of a block, of variance
-:math:`s^2/12` where the angle has steps s. Over a window all parts cancel but two: what they leave
-in a level falls with the square of the time. Noise that is told by short blocks alone has counts
-that are too large and too small for lasting noise, which falls with the time; and a motor that
-gives way to the torque a second later seems not to give way at all.
+signal's own noise e, and at the end of a block the part n of a pulse that what is shown is behind.
+Where a count ends, that is anything up to a step s of the angle, of variance :math:`s^2/12`, and
+has nothing to do with the last one; in between what is shown adds up along a line. The blocks of a
+window end a share w of a count behind such ends, so that with :math:`q = w(1-w)`
 
-How late the speed is, is what makes the signal likeliest.
+.. math:: \langle n_j^2\rangle = (1-2q)\,s^2/12, \qquad \langle n_j n_{j+1}\rangle = q\,s^2/12
+
+and the differences have the variance :math:`2(1-3q)\,s^2/12` and the covariances
+:math:`-(1-4q)\,s^2/12` and :math:`-q\,s^2/12` with the next one and that behind. Over a window all
+parts cancel but two: what they leave in a level falls with the square of the time. Noise that is
+told by short blocks alone has counts that are too large and too small for lasting noise, which
+falls with the time; and a motor that gives way to the torque a second later seems not to give way
+at all.
+
+Counts end where what is shown changes least between two ends. How late the speed is, by a count or
+more if it is counted, is what makes the signal likeliest.
 """
 
 import math
@@ -21,7 +30,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from asperity.arrays import BoolArray, FloatArray
+from asperity.arrays import BoolArray, FloatArray, IntArray
 from asperity.tribometer.reduction.levels import (
     EXPECTED_GIVE,
     Levels,
@@ -45,8 +54,9 @@ class _Fit:
     """
 
     def __init__(
-        self, there: BoolArray, signal: FloatArray, shaken: BoolArray, length: float, step: float
-    ) -> None:
+        self, there: BoolArray, signal: FloatArray, shaken: BoolArray, length: float,
+        step: float, behind: FloatArray,
+    ) -> None:  # fmt: skip
         self.there, self.shaken, self.length = there, shaken, length
         self.middle = signal.sum(axis=1) / there.sum(axis=1)
         self.rest = np.where(there, signal - self.middle[:, None], 0.0)
@@ -55,8 +65,10 @@ class _Fit:
         places = np.arange(there.shape[1])
         self.apart = np.abs(places[:, None] - places)
         self.both = both.astype(np.float64)
-        self.steps = self.both * ((2.0 * (self.apart == 0) - (self.apart == 1)) / 12.0)
-        self.steps *= (step / length) ** 2
+        q = (behind * (1.0 - behind))[:, None, None]
+        parts = 2.0 * (1.0 - 3.0 * q) * (self.apart == 0) - (1.0 - 4.0 * q) * (self.apart == 1)
+        parts -= q * (self.apart == 2)
+        self.steps = self.both * parts * (step / length) ** 2 / 12.0
         self.none = np.where(both, 0.0, np.eye(places.size))
         self.least = math.log(_FLOOR * (step / length) ** 2 / 6.0)
 
@@ -140,28 +152,33 @@ def estimate_counted(
     """
     each = max(round(count_time / float(np.median(np.diff(times)))), 1)
     length = each * float(np.median(np.diff(times)))
-    places, leads = [], []
+    places = []
     for one in range(len(shaken)):
         here = np.flatnonzero((window == one) & ~left_out)
-        leads.append(int(here[0] - np.searchsorted(window, one)))
         many = here.size // each
         places.append(here[here.size - many * each :].reshape(many, each))
     if min(map(len, places)) < _FEWEST:
         return None
     there = np.arange(max(map(len, places))) < np.array([[len(one)] for one in places])
     size = float(np.abs(signal).max()) or 1.0
-    fit = _Fit(there, _means(signal / size, places, there), np.asarray(shaken), length, step / size)
+    first = np.searchsorted(window, np.arange(len(shaken)))
+    begins = np.array([one[0, 0] for one in places])
+    behind = _behind(times, signal, window, ~left_out, each)[begins]
+    fit = _Fit(
+        there, _means(signal / size, places, there), np.asarray(shaken), length, step / size,
+        behind / each,
+    )  # fmt: skip
     free = 3 if any(shaken) and not all(shaken) else 2
     variance = float((fit.rest**2).sum()) / float(there.sum() - len(places))
     given = np.array([math.log(max(variance, math.exp(fit.least))), math.log(0.3 / length), 0.0])
     late = 0
     for _ in range(2):
         tried = []
-        for many in range(0, min(leads) + 1, _EVERY):
-            fit.swings = _means(swings, places, there, many)
+        for many in range(0, int((begins - first).min()) + 1, _EVERY):
+            fit.swings = _counted(swings, places, there, first, behind, many)
             tried.append((fit.solve(given)[0], many))
         late = min(tried)[1]
-        fit.swings = _means(swings, places, there, late)
+        fit.swings = _counted(swings, places, there, first, behind, late)
         given = likeliest(lambda trial: fit.solve(trial)[0], given, free)
     slopes, spread = doubt(fit.solve, given, len(shaken), range(free))
     _, estimate, information = fit.solve(given)
@@ -188,10 +205,46 @@ def estimate_counted(
     )  # fmt: skip
 
 
-def _means(
-    values: FloatArray, places: Sequence[FloatArray], there: BoolArray, back: int = 0
-) -> FloatArray:
-    """Return means over blocks, a row a window, of what was so many short blocks earlier."""
-    made = np.zeros(there.shape)
-    made[there] = values[np.concatenate(places) - back].mean(axis=1)
+def _behind(
+    times: FloatArray, signal: FloatArray, window: IntArray, here: BoolArray, each: int
+) -> IntArray:
+    """Return how many short blocks each one begins behind the end of a count."""
+    number = np.round((times - times[0]) / np.median(np.diff(times))).astype(np.int64)
+    within = []
+    for end in range(each):
+        of = (number - end) // each + (number[-1] + each) * window
+        _, of = np.unique(of[here], return_inverse=True)
+        sums, many = np.bincount(of, signal[here]), np.bincount(of)
+        within.append(float(np.square(signal[here] - (sums / many)[of]).sum()))
+    made: IntArray = (number - int(np.argmin(within))) % each
     return made
+
+
+def _means(values: FloatArray, places: Sequence[IntArray], there: BoolArray) -> FloatArray:
+    """Return means over blocks, a row a window."""
+    made = np.zeros(there.shape)
+    made[there] = values[np.concatenate(places)].mean(axis=1)
+    return made
+
+
+def _counted(
+    swings: FloatArray, places: Sequence[IntArray], there: BoolArray, first: IntArray,
+    behind: IntArray, late: int,
+) -> FloatArray:  # fmt: skip
+    """Return swings as they are shown, late by so many short blocks on the whole.
+
+    What is late by a count or more is counted: a block shows the share of the last count but one
+    that it begins behind its end, and of the last one the rest.
+    """
+
+    def earlier(back: IntArray) -> FloatArray:
+        # The torque is not known before its window.
+        rows = [np.maximum(*of) for of in zip(map(np.subtract, places, back), first, strict=True)]
+        return _means(swings, rows, there)
+
+    each = places[0].shape[1]
+    if late < each:
+        return earlier(np.full(len(places), late))
+    share = (behind / each)[:, None]
+    made: FloatArray = (1.0 - share) * earlier(behind + late)
+    return made + share * earlier(behind + late - each)
