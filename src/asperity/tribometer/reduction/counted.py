@@ -27,6 +27,7 @@ more if it is counted, is what makes the signal likeliest.
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
