@@ -23,7 +23,7 @@ from asperity.rating.bs721.rating import rated as rated_bs721
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import Fact, facts
-from asperity.rating.inputs import Inputs, Part, Values
+from asperity.rating.inputs import FROM_SI, Inputs, Part, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.result import Rating
 from asperity.rating.variation import derived
@@ -35,8 +35,6 @@ _VALUE = 1  # column
 _GIVEN_WIDTHS = (12, 24, 10, 44, 44)
 _FOUND_WIDTHS = (12, 24, 10, 44, 60, 44, 10, 10)
 _SHOWN_WIDTHS = (14, 10)
-# Numbers of a case that are in SI, where the sheet has the standards' units.
-_FROM_SI = {"MPa": 1e-6, "mm2/s": 1e6}
 _HEADING = ("symbol", "value", "unit", "meaning", "equation", "source", "asked", "holds")
 _REMARKS = (
     "Coloured cells are there to be changed; all other numbers follow.",
@@ -195,7 +193,8 @@ class _Cells:
         if path not in self._known:
             fact = _fact(path)
             self._units[path] = unit = fact.unit if fact else unit
-            size = _FROM_SI.get(unit, 1.0) if "." in path else 1.0
+            # Tables are in SI.
+            size = FROM_SI.get(unit, 1.0) if "." in path else 1.0
             shown = Traced(math.degrees(value) if unit == "deg" else value * size)
             number = np.radians(shown) if unit == "deg" else shown if size == 1.0 else shown / size
             self._known[path] = shown, number

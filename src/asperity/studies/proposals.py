@@ -20,6 +20,7 @@ from asperity.gearset.shelf import hob_of, shelf
 from asperity.gearset.threads import thread_room
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
+from asperity.rating.inputs import FROM_SI
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.standards import STANDARDS, tables_of
@@ -31,8 +32,6 @@ from asperity.studies.series import grid
 RANKS = {"size": "centre_distance", "efficiency": "efficiency", "margin": "margin"}
 LOCKS = ("", "rest", "motion")
 """When the worm must lock itself; empty: never."""
-
-_FROM_SI = 1e3
 
 
 def propose(
@@ -113,8 +112,8 @@ def propose(
         STANDARDS,
         starts=starts,
         wheel_teeth=teeth,
-        centre_distance=distance / _FROM_SI,
-        axial_module=module / _FROM_SI,
+        centre_distance=distance / FROM_SI["mm"],
+        axial_module=module / FROM_SI["mm"],
         diameter_factor=factor,
     )
     margins, least, rated_by_all = _margins(rated)
