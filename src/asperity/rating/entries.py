@@ -17,9 +17,10 @@ from asperity.errors import InputError
 from asperity.files import store
 from asperity.gearset.library import GIVEN
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
-from asperity.rating.inputs import FROM_SI, Inputs, scaled
+from asperity.rating.inputs import Inputs, scaled
 from asperity.rating.result import Entry
 from asperity.sources import Source, weakest
+from asperity.units.standards import FROM_SI
 
 DEFINITION = Source("definition", "verified")
 

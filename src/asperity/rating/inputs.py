@@ -17,18 +17,13 @@ from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
 from asperity.rating.load_steps import LoadStep
 from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
+from asperity.units.standards import FROM_SI, RPM
 
 Values = dict[str, Real]
 """What a standard's calculation found, by the keys of a rating; NaN where there is no answer."""
 
 _HOUR = 3600.0
 _ZERO_CELSIUS = 273.15
-RPM = 60.0 / (2.0 * math.pi)
-"""Turns a minute in a radian a second."""
-
-FROM_SI = {"mm": 1e3, "um": 1e6, "rpm": RPM, "MPa": 1e-6, "mm2/s": 1e6}
-"""Size of the SI unit in the units of the standards, where they are others."""
-
 _SPAN = 1.5
 _STRENGTH_SHARE = 0.1
 

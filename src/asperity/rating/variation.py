@@ -30,13 +30,13 @@ from asperity.gearset.geometry import diameters
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.proportions import RULES, Heights
 from asperity.rating.inputs import (
-    FROM_SI,
     GEOMETRY,
     Inputs,
     face_width_that_carries,
     inputs,
 )
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.units.standards import FROM_SI
 
 _ROUNDING = 1e-12
 

@@ -20,7 +20,6 @@ from asperity.gearset.shelf import hob_of, shelf
 from asperity.gearset.threads import thread_room
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
-from asperity.rating.inputs import FROM_SI
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.standards import STANDARDS, tables_of
@@ -28,6 +27,7 @@ from asperity.rating.variants import Variants, variants
 from asperity.studies.proposed import MOST, Proposal, Proposals
 from asperity.studies.requirements import Requirements
 from asperity.studies.series import grid
+from asperity.units.standards import FROM_SI
 
 RANKS = {"size": "centre_distance", "efficiency": "efficiency", "margin": "margin"}
 LOCKS = ("", "rest", "motion")

@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 from asperity.arrays import Real
 from asperity.errors import InputError, nearest
 from asperity.rating.entries import facts
-from asperity.rating.inputs import FROM_SI, Inputs
+from asperity.rating.inputs import Inputs
+from asperity.units.standards import FROM_SI
 
 _TO_SI = {unit: 1.0 / size for unit, size in FROM_SI.items()} | {"deg": math.radians(1.0)}
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from asperity.arrays import Real, smaller
 from asperity.formulas import current_mask, masking
-from asperity.rating.inputs import FROM_SI, Inputs, Values
+from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import (
     balance,
     contact,
@@ -32,6 +32,7 @@ from asperity.rating.iso14521 import (
 )
 from asperity.rating.iso14521.housed import housing_of
 from asperity.rating.iso14521.wearing import sump_of, temperatures, wear_of
+from asperity.units.standards import FROM_SI
 
 ROOT_LIFE_FACTOR = 1.0
 """Y_NL, the default of MITCalc; that by wheel and grade has no document."""
