@@ -40,6 +40,7 @@ _LEVEL_BLOCK = 0.1  # s, in which noise and run-out are told apart
 _FEWEST = 10  # of these in a window; reduction.least_window has as many blocks at least
 _DATED = TORQUE, STEEL, BRONZE, CURRENT, "acceleration"  # what numbers rest on
 _LEAST_OF_SPEED = 1.0  # s of it that have settled, in a window
+_COUNTS = 3.0  # in the time a speed takes to settle: one begun before, one behind, and a filter
 _WIDE = 5.0  # points to either side, above which an interval is wide
 _PART_TURN = 1.0
 _FUNDAMENTAL = 8.0 / math.pi**2  # of a triangle: what a chain that passes one tone leaves of it
@@ -180,6 +181,8 @@ def _joint(blocks: Blocks, windows: _Windows, pair: Pair, given: Reduction) -> J
         times, signals, (steel, bronze), of_window,
         [place % 2 == 1 for place in range(len(windows.parts))], drift=given.drift,
         left_out=left_out,
+        pulses=dict.fromkeys((STEEL, BRONZE), 2.0 * math.pi / pair.drives.encoder_pulses),
+        count_time=given.speed_settling / _COUNTS,
     )  # fmt: skip
 
 

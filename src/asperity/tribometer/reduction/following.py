@@ -159,7 +159,10 @@ class Following:
         yield Cause(f"{name}: calibration", kind, covariance, line.degrees_of_freedom)
         for what, most in line.limits:
             yield Cause(f"{name}: {what}", "B", np.diag([most**2 / 3.0] * 2))
-        if name in (STEEL, BRONZE):
+        if (told := self.joint.levels[name].steps) is not None:
+            here = slice(2 * self.place, 2 * self.place + 2)
+            yield Cause(f"{name}: steps of the encoder", "B", told[here, here])
+        elif name in (STEEL, BRONZE):
             # A window begins and ends between two pulses: each end is off by a part of one.
             steps = [
                 2.0 * math.pi / (self.pair.drives.encoder_pulses * one) for one in self.seconds

@@ -19,6 +19,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
+from asperity.tribometer.reduction.counted import estimate_counted
 from asperity.tribometer.reduction.levels import Levels, estimate_levels
 from asperity.tribometer.uncertainty import Budget, Budgeted, Cause, Contribution
 
@@ -174,6 +175,8 @@ def estimate_jointly(
     *,
     drift: bool = True,
     left_out: Mapping[str, BoolArray] | None = None,
+    pulses: Mapping[str, float] | None = None,
+    count_time: float = 0.0,
 ) -> Joint:
     """Estimate the levels of several signals in all windows of a file.
 
@@ -195,6 +198,10 @@ def estimate_jointly(
         Of a signal other than the torque the blocks in which it is not what it should be, such as
         speeds that still change on their way through an encoder's counter. One is left of each
         window, which its level takes up.
+    pulses : mapping of str to float, optional
+        Of speeds that an encoder's counter tells, the angle of a pulse, rad.
+    count_time : float
+        That these are counted over, s, or a longer time; zero where they are not counted.
 
     Raises
     ------
@@ -210,7 +217,12 @@ def estimate_jointly(
             continue
         here = ~left_out[name] if left_out and name in left_out else whole
         kept[name] = here
-        levels[name] = estimate_levels(
+        counted = None
+        if count_time > 0.0 and pulses and name in pulses:
+            counted = estimate_counted(
+                times, signal, window, shaken, swings, ~here, pulses[name], count_time
+            )
+        levels[name] = counted or estimate_levels(
             times[here], signal[here], (angles[0][here], angles[1][here]), window[here], shaken,
             drift=drift, swings=swings[here],
         )  # fmt: skip
