@@ -114,7 +114,7 @@ class Panel:
     legend: Mapping[str, Any] | None = None
     tight: bool = True
     limits: Mapping[str, Any] = dataclasses.field(default_factory=dict)
-    more: "Callable[[Axes], None] | None" = None
+    more: "Callable[[Axes], object] | None" = None
 
     def put(self, axes: "Axes") -> None:
         """Draw it."""
