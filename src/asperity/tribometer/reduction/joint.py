@@ -21,7 +21,7 @@ import numpy as np
 from asperity.arrays import BoolArray, FloatArray
 from asperity.tribometer.reduction.counted import estimate_counted
 from asperity.tribometer.reduction.levels import Levels, estimate_levels
-from asperity.tribometer.uncertainty import Budget, Cause, Contribution
+from asperity.tribometer.uncertainty import Budget, Budgeted, Cause, Contribution
 
 TORQUE = "torque_steel"
 _FEWEST_FREEDOM = 3.0
@@ -29,34 +29,6 @@ _STEP = 1e-6  # of the larger level, for slopes: differences of both sides are r
 
 Pairs = Mapping[str, FloatArray]
 """Of each signal its level before, and with vibration."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Interval:
-    """A number with the ends of its interval and its standard deviation."""
-
-    value: float
-    low: float
-    high: float
-    deviation: float
-    budget: Budget
-
-    @classmethod
-    def of(cls, budget: Budget) -> "Interval":
-        """Return the interval that a budget leaves."""
-        half = budget.expanded
-        return cls(
-            budget.value, budget.value - half, budget.value + half, budget.uncertainty, budget
-        )
-
-    def times(self, factor: float) -> "Interval":
-        """Return it in another unit."""
-        return Interval.of(self.budget.times(factor))
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Both ends."""
-        return self.low, self.high
 
 
 @dataclasses.dataclass(frozen=True)
@@ -89,7 +61,7 @@ class Joint:
         confidence: float,
         added: Mapping[str, Sequence[Cause]] | None = None,
         beside: Sequence[Contribution] = (),
-    ) -> Interval:
+    ) -> Budgeted:
         """Return what follows from levels of two windows, with its interval.
 
         Parameters
@@ -141,7 +113,7 @@ class Joint:
             if both:
                 others.append(_correlation(f"{one} and {other}: correlation of their noises", both))
         noises = _with_freedom(noises, doubts, others)
-        return Interval.of(Budget(of(pairs), (*noises, *others), confidence))
+        return Budgeted.of(Budget(of(pairs), (*noises, *others), confidence))
 
 
 def _noise(name: str) -> str:
