@@ -135,7 +135,25 @@ class Command:
         return self.name.replace(" ", "-")
 
     def prepared(self, case: "Case", **options: Any) -> Any:
-        """Return the problem of a case, refused if it cannot be solved."""
+        """Return the problem of a case, refused if it cannot be solved.
+
+        Parameters
+        ----------
+        case : Case
+            What it is asked of.
+        **options
+            Of the command, by name.
+
+        Returns
+        -------
+        object
+            What the command's ``prepare`` makes of it, for `solved`.
+
+        Raises
+        ------
+        InputError
+            The case is of another kind, or cannot be solved.
+        """
         if self.needs and case.raw and not any(name in case for name in self.needs + self.either):
             tables = " and ".join(f"[{name}]" for name in self.needs)
             tables += "".join(f" or [{name}]" for name in self.either)
@@ -146,7 +164,20 @@ class Command:
         return loaded(f"{self.module}:prepare")(case, **options)
 
     def solved(self, problem: Any, run: "Run") -> "Result":
-        """Return the answer to a problem."""
+        """Return the answer to a problem.
+
+        Parameters
+        ----------
+        problem : object
+            From `prepared`.
+        run : Run
+            Where its state is kept and who is told how far it is.
+
+        Returns
+        -------
+        Result
+            Of the command's class.
+        """
         answer: Result = loaded(f"{self.module}:answer")(problem, run)
         return answer
 
@@ -156,7 +187,22 @@ class Command:
         return {one.name: None if one.many else one.default for one in self.options}
 
     def case_of(self, name: str, settings: Sequence[str], **options: Any) -> "Case":
-        """Return the case it is asked for, read as it reads cases."""
+        """Return the case it is asked for, read as it reads cases.
+
+        Parameters
+        ----------
+        name : str
+            A file, or a case that ships.
+        settings : sequence of str
+            As with ``--set``.
+        **options
+            Of the command, which one that reads in its own way is given.
+
+        Returns
+        -------
+        Case
+            Read and validated.
+        """
         from asperity.casefile import read_case
         from asperity.commands.tables import case_tables
 
@@ -165,6 +211,18 @@ class Command:
 
     def given(self, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> dict[str, Any]:
         """Return what is given beside a case from a page, as the command line would have read it.
+
+        Parameters
+        ----------
+        arguments : mapping of str to object
+            By name: a text, or a list of them.
+        options : mapping of str to object
+            By name: a text, a number or a truth.
+
+        Returns
+        -------
+        dict of str to object
+            Both by name, as of the kind that the command takes.
 
         Raises
         ------
@@ -201,7 +259,22 @@ class Command:
         return made
 
     def line(self, case: str, settings: Iterable[str], given: Mapping[str, Any]) -> str:
-        """Return what does the same on a terminal, and prints it as JSON."""
+        """Return what does the same on a terminal, and prints it as JSON.
+
+        Parameters
+        ----------
+        case : str
+            The case's name.
+        settings : iterable of str
+            As with ``--set``.
+        given : mapping of str to object
+            Arguments and options by name, as from `given`.
+
+        Returns
+        -------
+        str
+            A line for a shell.
+        """
         words = ["asperity", *self.name.split()]
         for argument in self.arguments:
             words += given[argument.name] if argument.many else [given[argument.name]]

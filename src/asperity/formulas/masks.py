@@ -100,6 +100,11 @@ def masking(mask: Mask | tuple[int, ...] = ()) -> Iterator[Mask]:
     mask : Mask or tuple of int
         What keeps the reasons, or the shape of a new one.
 
+    Yields
+    ------
+    Mask
+        The reasons so far.
+
     Examples
     --------
     >>> torque = Symbol("T", "N m")

@@ -47,10 +47,12 @@ class Model:
 
     Attributes
     ----------
-    slider, friction, solve : Slider, Friction, Solve
+    slider, friction : Slider, Friction
         The tables of the case.
     vibration : Vibration or None
         None: the base is at rest.
+    solve : Solve
+        How it is solved.
     shape : Shape or None
         The vibration's waveform.
     normal : Normal or None
@@ -87,7 +89,23 @@ class Model:
 
     @classmethod
     def from_case(cls, case: Case) -> Self:
-        """Gather the tables of a case; [vibration] and [solve] may be missing."""
+        """Gather the tables of a case; [vibration] and [solve] may be missing.
+
+        Parameters
+        ----------
+        case : Case
+            With ``[slider]`` and ``[friction]``.
+
+        Returns
+        -------
+        Model
+            The body of the case.
+
+        Raises
+        ------
+        InputError
+            A table is missing, or two of them do not go together.
+        """
         given = case.get(Vibration)
         vibration = given.of_body() if given else None
         shape = vibration.shape(case.folder) if vibration is not None else None
@@ -130,7 +148,7 @@ class Model:
             return 0.0
         return self.vibration.displacement(self.shape, self.slider.drive_velocity)
 
-    @property
+    @functools.cached_property
     def start(self) -> float:
         """Start of the vibration, s; of a wave with corners, on which steps end, a whole step."""
         given = self.vibration.start if self.vibration is not None else 0.0
@@ -157,7 +175,7 @@ class Model:
         """Angle between vibration and plane of contact, rad."""
         return self.vibration.elevation if self.vibration is not None else 0.0
 
-    @property
+    @functools.cached_property
     def unit_direction(self) -> tuple[float, float, float]:
         """Direction of the vibration: along the drive, across it, up."""
         flat, up = unit_vector(self.elevation)
@@ -185,14 +203,14 @@ class Model:
         """Whether the body, not the base, is shaken."""
         return self.vibration is not None and self.vibration.applied_to == "body"
 
-    @property
+    @functools.cached_property
     def ring_period(self) -> float:
         """Period in which the body rings on its drive, s; 0 for a rigid drive."""
         if self.slider.drive_stiffness is None or self.slider.mass is None:
             return 0.0
         return 2.0 * math.pi * math.sqrt(self.slider.mass / self.slider.drive_stiffness)
 
-    @property
+    @functools.cached_property
     def window(self) -> float:
         """Length the means are taken over, s, before it is cut to whole cycles."""
         least = _WINDOW_CYCLES / self.frequency if self.vibrates else 0.0

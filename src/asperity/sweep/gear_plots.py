@@ -7,7 +7,7 @@ import numpy as np
 from asperity.rating.demands import DEMANDS
 from asperity.rating.standing import NAMES
 from asperity.results.figures import BLACK, COLOURS, DASHES, legend, panels
-from asperity.sweep.axes import POINT
+from asperity.sweep.axis import POINT
 from asperity.sweep.maps import axis_label, plane, ticks
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import numpy as np
 
 from asperity.errors import InputError
 from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, legend, panels
-from asperity.sweep.axes import POINT
+from asperity.sweep.axis import POINT
 from asperity.sweep.gear_plots import plot_along, plot_plane
 from asperity.sweep.maps import balances, plot_map, resonances
 from asperity.sweep.result import MOST_AXES

@@ -15,7 +15,7 @@ from asperity.results import Result, quantity
 from asperity.results.settled import MARK, marked
 from asperity.results.table import Table
 from asperity.slider.cycle_map import UNSTABLE
-from asperity.sweep.axes import Axis, spanned
+from asperity.sweep.axis import Axis, spanned
 from asperity.sweep.subject import Subject, named
 
 if TYPE_CHECKING:

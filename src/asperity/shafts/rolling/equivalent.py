@@ -1,12 +1,13 @@
 """Equivalent loads of rolling bearings, and how two adjusted ones share the axial load."""
 
 from collections.abc import Callable
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import Symbol, finite, formula, not_negative, positive
+from asperity.formulas.traced import number
 from asperity.shafts import symbols as s
 
 _X = Annotated[Real, Symbol("X", "", not_negative)]
@@ -73,17 +74,16 @@ def taper(limit: float, y: float, y0: float) -> Factors:
     return Factors(limit, (1.0, 0.0), (0.4, y), (0.5, y0))
 
 
-def deep_groove(factor: float, axial: float, static_rating: float) -> Factors:
+def deep_groove(factor: Any, axial: Any, static_rating: Any) -> Factors:
     """Return the factors of a deep groove ball bearing under an axial load, N."""
-    relative = float(relative_axial_load(factor, axial, static_rating))
-    limit = float(np.interp(relative, _RELATIVE, _E))
-    y = float(np.interp(relative, _RELATIVE, _Y_OF))
+    relative = relative_axial_load(factor, axial, static_rating)
+    limit, y = (number(np.interp(relative, _RELATIVE, row)) for row in (_E, _Y_OF))
     return Factors(limit, (1.0, 0.0), (_DEEP_X, y), (0.6, 0.5))
 
 
-def outside_table(factor: float, axial: float, static_rating: float) -> bool:
+def outside_table(factor: Any, axial: Any, static_rating: Any) -> bool:
     """Whether the axial load of a deep groove ball bearing is more than the table reaches."""
-    return float(relative_axial_load(factor, axial, static_rating)) > _RELATIVE[-1]
+    return bool(relative_axial_load(factor, axial, static_rating) > _RELATIVE[-1])
 
 
 @formula(symbol="f", equation="f_0 F_a/C_0", source=s.ISO_281)
@@ -104,15 +104,18 @@ def combined_load(radial: s.F_r, axial: s.F_a, x: _X, y: _Y) -> Real:
     return x * radial + y * axial
 
 
-def dynamic_load(factors: Factors, radial: float, axial: float) -> float:
+def dynamic_load(factors: Factors, radial: Any, axial: Any) -> Any:
     """Return the equivalent dynamic load P, N."""
-    pair = factors.above if axial > factors.limit * radial else factors.below
-    return float(combined_load(radial, axial, *pair))
+    below = combined_load(radial, axial, *factors.below)
+    if factors is CYLINDRICAL:
+        return number(below)
+    above = combined_load(radial, axial, *factors.above)
+    return number(np.where(axial > factors.limit * radial, above, below))
 
 
-def static_load(factors: Factors, radial: float, axial: float) -> float:
+def static_load(factors: Factors, radial: Any, axial: Any) -> Any:
     """Return the equivalent static load P_0, N; at least the radial load."""
-    return max(float(combined_load(radial, axial, *factors.static)), radial)
+    return number(np.maximum(combined_load(radial, axial, *factors.static), radial))
 
 
 @formula(symbol="S", unit="N", equation="F_r/(2 Y)", source=s.ISO_281)
