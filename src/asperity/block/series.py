@@ -59,7 +59,9 @@ def packed_series(problem: "BlockProblem", frames: tuple[Frame, ...]) -> bytes:
         raise InputError("the result has no frames to draw; solve with history=True")
     mesh, contact = problem.mesh, problem.body.nodes
     nodes, quads = np.unique(mesh.skin(), return_inverse=True)
-    told = [data for _, data in fields(problem, frames)]
+    told = [
+        {name: np.asarray(of) for name, of in data.items()} for _, data in fields(problem, frames)
+    ]
     header = {
         "time_s": [frame.time for frame in frames],
         "drive_force_N": [frame.drive_force for frame in frames],

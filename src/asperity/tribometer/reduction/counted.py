@@ -27,6 +27,7 @@ more if it is counted, is what makes the signal likeliest.
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -206,7 +207,7 @@ def estimate_counted(
 
 
 def _behind(
-    times: FloatArray, signal: FloatArray, window: IntArray, here: BoolArray, each: int
+    times: FloatArray, signal: FloatArray, window: Any, here: BoolArray, each: int
 ) -> IntArray:
     """Return how many short blocks each one begins behind the end of a count."""
     number = np.round((times - times[0]) / np.median(np.diff(times))).astype(np.int64)
@@ -247,4 +248,5 @@ def _counted(
         return earlier(np.full(len(places), late))
     share = (behind / each)[:, None]
     made: FloatArray = (1.0 - share) * earlier(behind + late)
-    return made + share * earlier(behind + late - each)
+    made = made + share * earlier(behind + late - each)
+    return made

@@ -78,19 +78,19 @@ class SegmentResult(Quantities):
     @labelled("", "%", "lower end of the change's interval", only="file")
     def low(self) -> float | None:
         """Lower end of the interval of the torque's change, %."""
-        return self.torque_change and self.torque_change.low
+        return None if self.torque_change is None else self.torque_change.low
 
     @property
     @labelled("", "%", "upper end of the change's interval", only="file")
     def high(self) -> float | None:
         """Upper end of the interval of the torque's change, %."""
-        return self.torque_change and self.torque_change.high
+        return None if self.torque_change is None else self.torque_change.high
 
     @property
     @labelled("", "%", "standard deviation of the change", only="file")
     def deviation(self) -> float | None:
         """Standard deviation of the torque's change, %."""
-        return self.torque_change and self.torque_change.deviation
+        return None if self.torque_change is None else self.torque_change.deviation
 
     full_efficiency_change: Budgeted | None = measured(
         "d eta", "%", "change of the efficiency in which motor and gear lose, points",
@@ -105,7 +105,7 @@ class SegmentResult(Quantities):
     @labelled("", "mm/s", "standard deviation of the sliding velocity with vibration", only="file")
     def sliding_velocity_deviation(self) -> float | None:
         """Standard deviation of the sliding velocity with vibration, mm/s."""
-        return self.sliding_velocity_with and self.sliding_velocity_with.deviation
+        return None if self.sliding_velocity_with is None else self.sliding_velocity_with.deviation
 
     bronze_turns: float | None = _beside("", "", "turns of the bronze disc in the window")
     film_parameter: float | None = _beside("lambda", "", "film over roughness before")

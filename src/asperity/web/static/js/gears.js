@@ -44,8 +44,8 @@ function useMesh({ geometry, mode, speed, pressed }) {
     const valueAt = pressed ? pressedBy(pressed) : (point) => sliding(section, point, speed);
     const line = lineOf(section, valueAt);
     const range = span(line.map(({ value }) => value));
-    const drawn = { threads: threadsOf(section), wheel: wheelOf(section), view: windowOf(section) };
-    return { section, line, range, valueAt, ...drawn };
+    const [threads, wheel, view] = [threadsOf(section), wheelOf(section), windowOf(section)];
+    return { section, line, range, valueAt, threads, wheel, view };
   }, [JSON.stringify(geometry), speed, pressed]);
   const { section, range, valueAt } = made;
   const colour = (value) => shade((value - range[0]) / (range[1] - range[0]));
@@ -104,14 +104,14 @@ export function Gears({ geometry, mode = "", speed, pressed = null }) {
   const shown = by === "pressure" ? pressed : null;
   const { picture, made, colour, playing } = useMesh({ geometry, mode, speed, pressed: shown });
   const { range } = made;
-  const says = `Worm and wheel in mesh, cut through the middle of the wheel.
-    ${shown ? "Pressed with" : "The surfaces slide at"} ${digits(range[0], 3)} to ${digits(range[1], 3)}
-    ${shown ? "MPa" : "m/s"}.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
+  const does = shown ? "Pressed with" : "The surfaces slide at";
+  const says = `Worm and wheel in mesh, cut through the middle of the wheel. ${does}
+    ${digits(range[0], 3)} to ${digits(range[1], 3)} ${shown ? "MPa" : "m/s"}.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
   return html`<section class="panel" aria-label="in mesh"><h2>In mesh</h2>
     <${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode} says=${says} />
     <div class="row"><${Play} ...${playing} />
       ${pressed ? html`<span class="choice"><label for="line-shows">line</label>${" "}
-        <select id="line-shows" value=${by} onChange=${({ target }) => setBy(target.value)}>
+        <select id="line-shows" value=${by} onChange=${(event) => setBy(event.target.value)}>
           <option value="sliding">sliding velocity</option><option value="pressure">pressure</option></select></span>`
         : null}
       <${Legend} range=${range} unit=${shown ? "MPa" : "m/s"} label=${shown
