@@ -151,9 +151,12 @@ class Docstring(Validator):
                 if not field.exclude or key in self._doc_parameters(["Parameters"])
             )
         if dataclasses.is_dataclass(self.obj):
-            said = getattr(self.obj, "_labels", {})
+            said = {
+                *getattr(self.obj, "_labels", ()),
+                *(field.name for field in dataclasses.fields(self.obj) if field.metadata),
+            }
             fields = (field.name for field in dataclasses.fields(self.obj) if field.init)
-            hidden = {"notes", *(name for name in said)}
+            hidden = said | ({"notes"} if issubclass(self.obj, Quantities) else set())
             return tuple(n for n in fields if n not in hidden and not n.startswith("_"))
         return super().signature_parameters
 

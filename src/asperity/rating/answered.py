@@ -12,13 +12,13 @@ from asperity.gearset.lubricants import Lubricant
 from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.rating.alternatives import Alternative, alternatives
-from asperity.rating.by_standard import judge_of
+from asperity.rating.by_standard import judge_of, require_consistent
 from asperity.rating.changes import changed_words
 from asperity.rating.driven import driven
 from asperity.rating.inputs import inputs
 from asperity.rating.levers import levers
 from asperity.rating.parameters import RatingOptions
-from asperity.rating.rate import Rated, rate, rate_case, require_consistent, run_of
+from asperity.rating.rate import Rated, rate, rate_case, run_of
 from asperity.rating.standards import ALL, STANDARDS
 from asperity.runs import Run
 

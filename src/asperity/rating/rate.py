@@ -14,7 +14,7 @@ from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.alternatives import Alternative
 from asperity.rating.bs721.tables import Tables
-from asperity.rating.by_standard import PROMISED, rate_by
+from asperity.rating.by_standard import PROMISED, rate_by, require_consistent
 from asperity.rating.driven import driven, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.duty_words import duty_lines, loads_line
@@ -23,8 +23,6 @@ from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs, inputs
-from asperity.rating.iso14521.calculation import film_parameter_of
-from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.levers import Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
@@ -370,7 +368,20 @@ def rate(
 
 
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
-    """Rate the worm gearset of a case file; as `rate`."""
+    """Rate the worm gearset of a case file; as `rate`.
+
+    Parameters
+    ----------
+    case : Case
+        With ``[gearset]`` and ``[operation]``.
+    standards : sequence of str
+        Of `STANDARDS`.
+
+    Returns
+    -------
+    Rated
+        As of `rate`.
+    """
     options = case.get(RatingOptions)
     gearset, operation = case.require(Gearset), run_of(case)
     with naming_source(case):
@@ -382,19 +393,3 @@ def run_of(case: Case) -> Operation:
     """Return how the gearset of a case is run; what is refused names the case."""
     with naming_source(case):
         return operation_of(case)
-
-
-def require_consistent(given: Inputs, by_iso: bool) -> None:
-    """Raise InputError where the gearset's numbers do not belong together."""
-    try:
-        given.gearset.require_consistent()
-    except InputError as error:
-        # The end of h* tells more about a ratio or module that is too large.
-        try:
-            if by_iso:
-                film_parameter_of(given)
-        except FilmParameterError as film:
-            raise FilmParameterError(
-                f"{film}; {error}", film.value, film.driver, film.limits
-            ) from None
-        raise
