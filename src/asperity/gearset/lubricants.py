@@ -131,12 +131,12 @@ class Lubricant(Sourced):
 
         Parameters
         ----------
-        temperature : float or ndarray
+        temperature : array_like
             K.
 
         Returns
         -------
-        float or ndarray
+        float or ndarray, shape of ``temperature``
             m2/s.
         """
         nu = oil.kinematic_viscosity(
@@ -149,12 +149,12 @@ class Lubricant(Sourced):
 
         Parameters
         ----------
-        temperature : float or ndarray
+        temperature : array_like
             K.
 
         Returns
         -------
-        float or ndarray
+        float or ndarray, shape of ``temperature``
             kg/m3.
         """
         own = self.base.density_15 if self.density_15 is None else self.density_15
@@ -165,12 +165,12 @@ class Lubricant(Sourced):
 
         Parameters
         ----------
-        temperature : float or ndarray
+        temperature : array_like
             K.
 
         Returns
         -------
-        float or ndarray
+        float or ndarray, shape of ``temperature``
             Pa s.
         """
         return self.kinematic_viscosity(temperature) * self.density(temperature)

@@ -59,7 +59,22 @@ class Reactions(NamedTuple):
 
 
 def mesh_load(at: float, force: Vector, radius: float) -> PointLoad:
-    """Return the load of teeth that touch at y = ``radius`` from the shaft's axis, mm."""
+    """Return the load of teeth that touch at y = ``radius`` from the shaft's axis, mm.
+
+    Parameters
+    ----------
+    at : float
+        Position, mm.
+    force : tuple of float
+        On the shaft, by x, y and z, N.
+    radius : float
+        Where the teeth touch, mm.
+
+    Returns
+    -------
+    PointLoad
+        The force at the axis, and the couple of its arm.
+    """
     fx, _, fz = force
     return PointLoad(at, force, (radius * fz, 0.0, -radius * fx))
 
@@ -73,6 +88,11 @@ def reactions(loads: Sequence[PointLoad], first: float, second: float) -> Reacti
         On the shaft.
     first, second : float
         Positions of the bearings, mm; different.
+
+    Returns
+    -------
+    Reactions
+        By equilibrium of forces and couples.
     """
     span = second - first
     fy, fz, moment_y, moment_z = [0.0], [0.0], [0.0], [0.0]
@@ -123,7 +143,7 @@ def moments(
 
     Parameters
     ----------
-    places : ndarray
+    places : ndarray, shape (places,)
         Positions, mm.
     loads : sequence of PointLoad
         On the shaft.
@@ -133,6 +153,11 @@ def moments(
         Where they are, mm.
     fixed : tuple of float
         Axial force of each of them, along x, N.
+
+    Returns
+    -------
+    Moments
+        On either side of each place.
     """
     every = list(loads)
     for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):

@@ -50,6 +50,16 @@ def given_shafts(case: Case) -> bool:
 def prepare(case: Case) -> Prepared:
     """Return the shafts of a case.
 
+    Parameters
+    ----------
+    case : Case
+        With ``[gearset]``, ``[operation]`` and one of ``[worm_shaft]`` and ``[wheel_shaft]``.
+
+    Returns
+    -------
+    Prepared
+        For `answer`.
+
     Raises
     ------
     InputError
@@ -76,7 +86,23 @@ def prepare(case: Case) -> Prepared:
 
 
 def answer(problem: Prepared, _: Run) -> ShaftStudy:
-    """Find what both shafts and their bearings come to."""
+    """Find what both shafts and their bearings come to.
+
+    Parameters
+    ----------
+    problem : Prepared
+        From `prepare`.
+
+    Returns
+    -------
+    ShaftStudy
+        Loads, deflection, safeties and lives.
+
+    Raises
+    ------
+    InputError
+        ISO/TR 14521 has no answer for the gearset, whose losses the loads follow from.
+    """
     iso = rate_by("iso14521", problem.given, problem.tables)
     return study(problem, loads_of(problem.given, iso), iso)
 
@@ -131,6 +157,11 @@ def shaft_rows(
         Left out: those of the operation.
     iso : Rating, optional
         By ISO/TR 14521, where it is there already.
+
+    Returns
+    -------
+    tuple of Row
+        Empty without a shaft.
     """
     if not given_shafts(case):
         return ()

@@ -93,7 +93,13 @@ class Proposal(NamedTuple):
 
 
 class Proposals(Result):
-    """Gearsets that are proposed for a ratio, a torque and a speed."""
+    """Gearsets that are proposed for a ratio, a torque and a speed.
+
+    Attributes
+    ----------
+    found : tuple of Proposal
+        The best first.
+    """
 
     title: ClassVar[str] = "Worm gearsets for what is asked"
     stem: ClassVar[str] = "size"
@@ -174,6 +180,11 @@ def propose(
         Whether the worm must lock itself, at rest or in motion, by every standard that rates it.
     requirements : Requirements, optional
         What is kept beside the safeties.
+
+    Returns
+    -------
+    Proposals
+        The best first.
 
     Raises
     ------

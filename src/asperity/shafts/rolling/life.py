@@ -54,7 +54,20 @@ def rating_life_hours(rating: s.C, load: s.P, exponent: s.p, speed: s.n) -> Real
 
 
 def spectrum_life(hours: Sequence[float], lives: Sequence[float]) -> float:
-    """Return the life under several loads, h, by their hours and the life under each alone."""
+    """Return the life under several loads, h, by their hours and the life under each alone.
+
+    Parameters
+    ----------
+    hours : sequence of float, shape (n,)
+        How long each load acts, h.
+    lives : sequence of float, shape (n,)
+        Life under each of them alone, h.
+
+    Returns
+    -------
+    float
+        h, by linear damage (Palmgren and Miner).
+    """
     shares = np.asarray(hours) / np.sum(hours)
     return float(1.0 / np.sum(shares / np.asarray(lives)))
 
