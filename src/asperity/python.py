@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from asperity.slider.result import SlideResult
     from asperity.start.compare import Comparison
     from asperity.studies.optimise import Optimum
-    from asperity.studies.proposals import Proposals
+    from asperity.studies.proposed import Proposals
 
 What: TypeAlias = "str | os.PathLike[str] | Case | Table | Model"
 
@@ -229,10 +229,11 @@ def flank(
 
 
 def size(
-    ratio: float | None,
-    output_torque: Any,
-    worm_speed: Any,
+    ratio: float | None = None,
+    output_torque: Any = None,
+    worm_speed: Any = None,
     *,
+    case: str = "",
     rank: str = "size",
     settings: Sequence[str] = (),
     cut: bool = True,
@@ -242,10 +243,13 @@ def size(
 
     Parameters
     ----------
-    ratio : float or None
-        Of the speeds; None: that of ``requirements.ratio`` among the settings.
-    output_torque, worm_speed : str or quantity of pint
-        Of the wheel and of the worm: ``"300 N m"``, ``"1500 rpm"``.
+    ratio : float, optional
+        Of the speeds; left out: that of ``requirements.ratio`` in the case or among the settings.
+    output_torque, worm_speed : str or quantity of pint, optional
+        Of the wheel and of the worm: ``"300 N m"``, ``"1500 rpm"``. Left out: those of the case,
+        or of the greatest load of its spectrum.
+    case : str
+        A case file that says all but the gearset, as ``asperity new duty`` begins it.
     rank : {'size', 'efficiency', 'margin'}
         What the first one is best in.
     settings : sequence of str
@@ -268,11 +272,14 @@ def size(
     """
     from asperity.casefile.case import apply, listed
     from asperity.rating.parameters import Operation
-    from asperity.start.gear import begun, drop_begun_life, proposals, ratio_of
+    from asperity.start.duty import complete, duty
+    from asperity.start.gear import drop_begun_life, proposals, ratio_of
     from asperity.units import Named, quantity_of
 
-    values = begun()
+    values = duty(case)
     for key, value in (("output_torque", output_torque), ("worm_speed", worm_speed)):
+        if value is None:
+            continue
         quantity = quantity_of(Operation, key)
         assert quantity is not None
         try:
@@ -282,6 +289,7 @@ def size(
         values["operation"][key] = f"{number!r} {quantity.unit}"
     given = {apply(values, setting, case_tables()) for setting in listed(settings)}
     drop_begun_life(values, given)
+    complete(values)
     wanted = None if ratio is None else ratio_of(ratio)
     return proposals(values, wanted, rank, cut=cut, locks=locks)
 
@@ -346,11 +354,6 @@ def read(path: str | os.PathLike[str], settings: Sequence[str] = ()) -> "Case | 
     -------
     Case or Result
         By the ending of the file.
-
-    Raises
-    ------
-    InputError, StorageError
-        It cannot be read, or is not what its ending says.
     """
     if Path(path).suffix == ".nc":
         from asperity.results import read as read_answer
@@ -386,10 +389,7 @@ def _tables(what: Sequence[What]) -> "list[Any]":
     """Return the tables given, with those that models of sliding bodies hold."""
     from asperity.slider.model import Model
 
-    found: list[Any] = []
-    for given in what:
-        found += given.tables if isinstance(given, Model) else [given]
-    return found
+    return [t for given in what for t in (given.tables if isinstance(given, Model) else [given])]
 
 
 def _answer(name: str, what: Sequence[What], settings: Sequence[str], **options: Any) -> "Result":

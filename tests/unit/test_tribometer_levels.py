@@ -18,6 +18,7 @@ from asperity.tribometer.tables import TABLES
 from asperity.tribometer.uncertainty import Cause
 
 BLOCK = 0.1  # s: means over it are what the levels are estimated from
+FINE = 10  # samples of a block
 # Noise of a block, noise that lasts, for how long, run-out of each disc, drift an hour, loss while
 # the rig warms; the supply.
 NOISES = {
@@ -61,13 +62,17 @@ def counted(speed, rng):
 def joint(noise, seed, *, by_pulses=False):
     """Levels of a simulated file of six frequencies, by means over blocks."""
     white, coloured, memory, runout, drift, warming, volts = noise
+    more = math.sqrt(FINE)  # of white noise, in each sample of a block
     rig = Imperfections(
-        white=white, coloured=coloured, noise_time=memory, runout_steel=runout,
+        white=more * white, coloured=coloured, noise_time=memory, runout_steel=runout,
         runout_bronze=runout, drift=drift, warming=warming, give=GIVE, draw=DRAW,
-        speed_noise=0.05, current_noise=0.005,
+        speed_noise=more * 0.05, current_noise=more * 0.005,
     )  # fmt: skip
-    parts = list(stream(phases(volts), rig, BLOCK, np.random.default_rng(seed)))
-    signals = {name: np.concatenate([part[name] for part in parts]) for name in SIGNALS}
+    parts = list(stream(phases(volts), rig, BLOCK / FINE, np.random.default_rng(seed)))
+    signals = {
+        name: np.concatenate([part[name] for part in parts]).reshape(-1, FINE).mean(axis=1)
+        for name in SIGNALS
+    }
     if by_pulses:
         rng = np.random.default_rng(seed)
         signals |= {name: counted(signals[name], rng) for name in SIGNALS if "speed" in name}

@@ -17,14 +17,7 @@ force, :math:`F_N/F_{N,ref}` where friction is proportional to the load (its pow
 
 import math
 
-from asperity.friction.dahl import (
-    SERIES_BOUND,
-    TINY,
-    VECTOR,
-    advance,
-    relaxation,
-    relaxation_gain,
-)
+from asperity.friction.dahl import TINY, VECTOR, advance, relaxation
 from asperity.kernels.compiled import kernel
 
 STIFFNESS = 0
@@ -138,46 +131,6 @@ def advance_loaded(sx, sy, d1x, d1y, d2x, d2y, limit_0, limit_1, exponent, law, 
     if limit_1 < limit_0 and wx * wx + wy * wy > limit_1 * limit_1:
         wx, wy = slip_back(wx, wy, sx, sy, d1x + d2x, d1y + d2y, limit_0, limit_1, exponent, law)
     return wx, wy, wx, wy
-
-
-@kernel(inline="always")
-def relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1):
-    """Deflection as `advance_loaded` has it: law `VECTOR`, exponent 1, `STIFFNESS`.
-
-    No branch and no call, so that a loop over cases becomes vector instructions.
-    """
-    limit = 0.5 * (limit_0 + limit_1)
-    length = math.sqrt(dx * dx + dy * dy)
-    # One division for the relaxation and its reciprocal.
-    both = 1.0 / (length * limit + 1e-280)
-    decay = length * length * both
-    least = decay if decay < SERIES_BOUND else SERIES_BOUND
-    gain = relaxation_gain(least)
-    left = 1.0 - least * gain
-    # Beyond the series its root of order 64, which at the bound is below rounding's reach of one.
-    part = (decay if decay < 64.0 * SERIES_BOUND else 64.0 * SERIES_BOUND) * (1.0 / 64.0)
-    root = 1.0 - part * relaxation_gain(part)
-    root *= root
-    root *= root
-    root *= root
-    root *= root
-    root *= root
-    root *= root
-    left = left if decay < SERIES_BOUND else root
-    gain = gain if decay < SERIES_BOUND else (1.0 - root) * limit * limit * both
-    wx = sx * left + dx * gain
-    wy = sy * left + dy * gain
-    # As `slip_back`, of a deflection that was not above its limit.
-    size = math.sqrt(wx * wx + wy * wy)
-    over = size - limit_1 if limit_1 < limit_0 else 0.0
-    over = over if over > 0.0 else 0.0
-    turn = 0.5 * over * length * both
-    tx = wx + turn * dx
-    ty = wy + turn * dy
-    back = limit_1 / math.sqrt(tx * tx + ty * ty + 1e-280)
-    back = back if over > 0.0 else 1.0
-    back = back if limit_1 > TINY else 0.0
-    return tx * back, ty * back
 
 
 @kernel

@@ -3,7 +3,7 @@
 A data file is TOML. ``[source.ID]`` says where values come from (``name``, ``confidence``,
 ``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[worm.NAME]``,
 ``[steel.NAME]``, ``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]``, ``[motor.NAME]``,
-``[bearing.NAME]`` or ``[shaft_steel.NAME]``, with the keys of its class. Its
+``[bearing.NAME]``, ``[shaft_steel.NAME]`` or ``[hob.NAME]``, with the keys of its class. Its
 key ``from`` names the source of each value by key, with ``"*"`` for all others::
 
     [source.maker]
@@ -45,6 +45,7 @@ SECTIONS: Mapping[str, str] = {
     "motor": "motor",
     "bearing": "rolling bearing",
     "shaft_steel": "steel of shafts",
+    "hob": "hob",
 }
 """The tables of a data file, and what they hold."""
 

@@ -83,7 +83,7 @@ class Operation(Table):
         Required life in turns of the wheel. Give this or ``life``; left out: ``life``.
     life : float or str, optional
         Required life, s. Left out: 25000 h.
-    duty_cycle : list of table, optional
+    duty_cycle : list of table or str, optional
         Parts of the required life, each a `LoadStep`, in place of ``life``; none above
         ``output_torque``.
     lubricant : str or table

@@ -36,7 +36,7 @@ from asperity.rating.verdict import Verdict, screen
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
 from asperity.results.system import shown_frame
-from asperity.results.table import Column, Table
+from asperity.results.table import Table
 
 if TYPE_CHECKING:
     from asperity.results.report import Heading, Section
@@ -227,12 +227,8 @@ class Rated(Result):
         tables = [rating.table(sources=sources) for rating in self.ratings]
         if self.duty_cycle:
             tables.append(duty_table(self.duty_cycle))
-        rows = self.self_locking.to_rows()
-        if rows:
-            degrees = self.self_locking.to_json()["lead_angle_deg"]
-            columns = tuple(Column(name) for name in rows[0])
-            title = f"Self-locking at a lead angle of {degrees:.4g} deg"
-            tables.append(Table(columns, tuple(tuple(row.values()) for row in rows), title))
+        if self.self_locking.verdicts:
+            tables.append(self.self_locking.table())
         if self.holding:
             tables.append(held_table(self.holding))
         if self.given.operation.spectrum is not None:

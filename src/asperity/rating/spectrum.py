@@ -102,8 +102,9 @@ class Spectrum(Table):
 
     Parameters
     ----------
-    step : list of table
-        Steps of the whole life, in any order. Give them or ``duty_class``.
+    step : list of table, or str
+        Steps of the whole life, in any order, also as "250 N m, 1400 rpm, 500 h; 60 N m, 700 rpm,
+        3000 h". Give them or ``duty_class``.
     duty_class : str
         Of a valve's actuator, "EN 15714-2 A" to "EN 15714-2 D": its steps follow from the rated
         torque, ``stroke`` and ``cycles``.

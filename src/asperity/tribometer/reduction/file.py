@@ -150,11 +150,15 @@ def _joint(blocks: Blocks, windows: _Windows, pair: Pair, given: Reduction) -> J
     late = np.zeros(blocks.count)
     for part, unsettled in zip(windows.parts, windows.unsettled, strict=True):
         late[part.first : part.first + unsettled] = 1.0
+    settling = [
+        (part.first, part.first + unsettled, part.last)
+        for part, unsettled in zip(windows.parts, windows.unsettled, strict=True)
+    ]
     columns = np.column_stack(
         (
             blocks.time,
-            angle(blocks, "speed_steel", pair.drives.gear_ratio),
-            angle(blocks, "speed_bronze", pair.drives.bronze_gear_ratio),
+            angle(blocks, STEEL, pair.drives.gear_ratio, settling),
+            angle(blocks, BRONZE, pair.drives.bronze_gear_ratio, settling),
             late,
             *(blocks.means[name] for name in names),
         )

@@ -24,7 +24,7 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
-from asperity.tribometer.reduction.noise import lasting, whitened
+from asperity.tribometer.reduction.noise import share_of_state, weighed, whitened
 
 _RUNOUT = 0.05  # what run-out and drift are expected to be at most, as a share: loosely held
 _GIVE = 1.0  # what a signal gives to the whole torque, as a share: loosely held
@@ -136,7 +136,8 @@ class _Fit:
         products = np.empty((width, width))
         if self.rows.shape != columns.shape:
             self.rows = np.empty_like(columns)
-        logarithm = whitened(self.times, columns, sizes, share, memory, self.rows, products)
+        state = share * share_of_state(memory, self.block)
+        logarithm = whitened(self.times, columns, sizes, state, memory, self.rows, products)
         normal, right, square = products[:-1, :-1], products[:-1, -1], float(products[-1, -1])
         free = self.signal.size - width + 1
         scale = self.scale if math.isnan(given[3]) else math.exp(given[3])
@@ -236,8 +237,10 @@ def estimate_levels(
     sizes = np.where(fit.shaken[window], ratio, 1.0)
     level = fit.member @ fit.levels
     swung = level * (fit.shared @ fit.shape) if not fit.linear else fit.shared @ fit.shape
-    rest = np.empty_like(times)
-    lasting(times, signal / size - level - swung, sizes, share, memory, rest)
+    left, rest = signal / size - level - swung, np.empty_like(times)
+    state = share * share_of_state(memory, fit.block)
+    weighed(times, left, sizes, state, memory, rest)
+    rest = left - (1.0 - share) * sizes * rest
     white = (size * deviation) ** 2 * (1.0 - share) * np.where(fit.shaken, ratio, 1.0) ** 2
     c = np.zeros(5)
     if not fit.linear:
