@@ -5,6 +5,11 @@ from asperity.commands.command import Argument, Command, Option
 GROUPS = {"rig": "A disc-on-disc tribometer: plan, procedure, recordings and their reduction."}
 """Commands that have a name in common, and what they are about."""
 
+_RECORDINGS = Argument("recordings", "REC...", "Recordings of a rig.", many=True)
+_CONFIG = Option(
+    "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
+)
+
 COMMANDS = (
     Command(
         "slide",
@@ -306,13 +311,9 @@ COMMANDS = (
         module="asperity.tribometer.checking.study",
         read="asperity.tribometer.checking.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
-        options=(
-            Option(
-                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
-            ),
-        ),
+        options=(_CONFIG,),
     ),
     Command(
         "rig reduce",
@@ -322,12 +323,10 @@ COMMANDS = (
         module="asperity.tribometer.reduction.study",
         read="asperity.tribometer.reduction.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
         options=(
-            Option(
-                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
-            ),
+            _CONFIG,
             Option("budget", "Tell what every number is uncertain by (GUM).", default=False),
         ),
     ),
