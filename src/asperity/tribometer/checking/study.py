@@ -1,11 +1,11 @@
 """The command ``asperity rig check``: what is wrong with what was heard."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.casefile import Case
 from asperity.runs import Run
 from asperity.tribometer.checking.result import Checked, Found
 from asperity.tribometer.reduction import study as reduction
