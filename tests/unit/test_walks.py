@@ -19,6 +19,7 @@ from asperity.tribometer.options import Plan
 PACKAGE = Path(asperity.__file__).parent
 DOCS = Path(__file__).parents[2] / "docs"
 TEXT = (DOCS / "built.rst").read_text("utf-8")
+PAGES = [*sorted(DOCS.glob("*.rst")), *(DOCS.parent / n for n in ("README.md", "CONTRIBUTING.md"))]
 COMMAND_NAMES = {command.name for command in COMMANDS} | {"page"}
 
 
@@ -65,6 +66,12 @@ def exists(name):
     return last == "useLive" and "function useLive(" in (
         PACKAGE / "web/static/js/api.js"
     ).read_text("utf-8")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_dotted_name_of_a_page_exists(page):
+    found = {*re.findall(r"`~?asperity\.([a-z]\w*(?:\.\w+)+)[`(]", page.read_text("utf-8"))}
+    assert sorted(name for name in found if not exists(name)) == []
 
 
 def test_there_are_four_walks_of_at_least_six_steps(drawing):
