@@ -271,22 +271,11 @@ def size(
         A value without a unit or out of bounds, no ratio, or no gearset that does what is asked.
     """
     from asperity.casefile.case import apply, listed
-    from asperity.rating.parameters import Operation
-    from asperity.start.duty import complete, duty
+    from asperity.start.duty import complete, duty, run_at
     from asperity.start.gear import drop_begun_life, proposals, ratio_of
-    from asperity.units import Named, quantity_of
 
     values = duty(case)
-    for key, value in (("output_torque", output_torque), ("worm_speed", worm_speed)):
-        if value is None:
-            continue
-        quantity = quantity_of(Operation, key)
-        assert quantity is not None
-        try:
-            number = quantity.check(value, named=Named(), key=key)
-        except InputError as error:
-            raise InputError(f"{key} is {shown(value)}; {error}") from None
-        values["operation"][key] = f"{number!r} {quantity.unit}"
+    run_at(values, output_torque=output_torque, worm_speed=worm_speed)
     given = {apply(values, setting, case_tables()) for setting in listed(settings)}
     drop_begun_life(values, given)
     complete(values)

@@ -317,3 +317,30 @@ def test_of_two_states_below_a_resonance_a_note_tells_of_the_other(tmp_path):
     assert alone.ratio == pytest.approx(0.874, abs=1e-3)
     (note,) = solve_periodic(model, history=False, rested=True).notes
     assert f"with the ratio {alone.ratio:.5g}, repeats itself as well" in note
+
+
+@pytest.mark.parametrize("case", ["table-4.1-L3", "table-4.3"])
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 2.0])
+def test_where_the_way_of_a_cycle_is_lost_beside_the_deflection_limit_nothing_is_settled(
+    case, exponent
+):
+    # A state stands still there for want of digits; by the limit of slow slips the ratio with
+    # exponent 1 is the mean velocity over the mean speed, 0.953, and "1.000, settled" stood here.
+    asked = ["solve.method=periodic", "vibration.velocity_ratio=1.2"]
+    law = f"friction.exponent={exponent}"
+    for power in (-16, -18, -21, -27):
+        slow = f"slider.drive_velocity={10.0**power!r} m/s"
+        found = solve(Model.from_case(read_case(case, TABLES, [*asked, slow, law])), history=False)
+        assert not found.settled
+        assert found.step_error is None
+
+
+def test_slow_slips_end_where_the_mean_velocity_is_over_the_mean_speed():
+    turn = 2.0 * np.pi * (np.arange(100_000) + 0.5) / 100_000
+    wanted = 1.0 / np.mean(np.abs(1.0 + 6.0 * np.cos(turn)))
+    for slow in (1e-7, 1e-9, 1e-10):
+        asked = ["solve.method=periodic", f"slider.drive_velocity={slow!r} m/s"]
+        case = read_case("table-4.1-L3", TABLES, [*asked, "vibration.velocity_ratio=6"])
+        found = solve(Model.from_case(case), history=False)
+        assert found.settled
+        assert found.ratio == pytest.approx(wanted, rel=2e-5)

@@ -58,6 +58,22 @@ def test_at_a_constant_load_the_update_is_that_without_one_to_the_last_bit(expon
         assert (found[0] / scale, found[1] / scale, fx / 4, fy / 4) == (*wanted, *wanted)
 
 
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+@pytest.mark.parametrize("exponent", EXPONENTS)
+def test_loads_deflections_and_slips_four_times_as_large_make_four_times_the_friction(
+    exponent, law
+):
+    random = np.random.default_rng(4)
+    limits, slips = random_path(random, 300)
+    for first, last, slip in zip(limits, limits[1:], 0.1 * slips, strict=False):
+        s = first * random.uniform(-0.7, 0.7, 2)
+        wanted = advance_loaded(*s, *slip, first, last, exponent, law, STIFFNESS)
+        found = advance_loaded(
+            *(4.0 * s), *(4.0 * slip), 4.0 * first, 4.0 * last, exponent, law, STIFFNESS
+        )
+        assert np.abs(np.array(found) / 4.0 - wanted).max() <= 1e-14 * (first + last)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_with_the_stiffness_kept_ten_thousand_paths_of_load_and_slip_gain_nothing(law):

@@ -140,9 +140,9 @@ def covered(seeds, size, path):
         )
         for segment, truth in zip(reduce_recording(one)[1], truths(given), strict=True):
             for name, value, (low, high) in (
-                ("torque", segment.torque_change, segment.torque_change_ci95),
-                ("power", segment.power_change, segment.power_change_ci95),
-                ("level", segment.torque_before, segment.torque_before_ci95),
+                ("torque", segment.torque_change.value, segment.torque_change.ends),
+                ("power", segment.power_change.value, segment.power_change.ends),
+                ("level", segment.torque_before.value, segment.torque_before.ends),
             ):
                 held.append(low <= truth[name] <= high)
                 over.append((value - truth[name]) / (high - low))
@@ -208,7 +208,7 @@ def test_a_zero_takes_the_place_of_the_offset_of_its_calibration(tmp_path):
     widths = []
     for settings in ((), (unsure,)):
         one = reducible(path, 'plan.frequencies=["200 Hz","210 Hz","220 Hz"]', *settings)
-        low, high = reduce_recording(one)[1][0].torque_change_ci95
+        low, high = reduce_recording(one)[1][0].torque_change.ends
         widths.append(high - low)
     # The gain is not in a change in percent, and the offset went with the zero.
     assert widths[1] == pytest.approx(widths[0], rel=0.02)

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.block.problem import BlockProblem
-from asperity.block.series import Frame, write_block_series
+from asperity.block.series import Frame, packed_series, write_block_series
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
@@ -169,6 +169,10 @@ class BlockResult(SlideResult):
             f"{len(body.mode_frequency)} modes,\n{self.scheme}, law {self.law}, "
             f"{self.increments} increments"
         )
+
+    def attached(self) -> Mapping[str, bytes]:
+        """Return the file that the block is drawn from in motion, where frames of it were kept."""
+        return {"frames.bin": packed_series(self.problem, self.frames)} if self.frames else {}
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and pictures, and an animation for ParaView."""

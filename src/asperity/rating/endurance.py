@@ -13,8 +13,9 @@ from typing import Any
 from asperity.rating.inputs import Inputs
 from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
-from asperity.results.quantity import Number, Quantities, Sentence, quantity
+from asperity.results.quantity import Quantities, quantity
 from asperity.results.table import Table, table_of_rows
+from asperity.results.words import Number, Sentence
 
 _ROOT = 1.06  # of the wear that the root of a tooth loses, as in its thickness
 _PITTING_CAP = 1.6

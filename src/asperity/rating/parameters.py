@@ -26,7 +26,7 @@ from asperity.rating.load_steps import (
     steps_of,
 )
 from asperity.rating.spectrum import Spectrum
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 from asperity.units import Quantity
 
 DEFAULT_LIFE = 25000.0 * 3600.0

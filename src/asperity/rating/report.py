@@ -14,9 +14,9 @@ from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
 from asperity.rating.verdict import bar, locking_line, power_lines
-from asperity.results.quantity import Number, Sentence, text_of
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
+from asperity.results.words import Number, Sentence, text_of
 from asperity.sources import Source
 
 _NAMED = ("symbol", "value", "unit", "meaning", "equation", "source")

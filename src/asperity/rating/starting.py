@@ -21,8 +21,9 @@ from asperity.rating.iso14521.symbols import alpha_n, gamma_m1
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES
-from asperity.results.quantity import Number, Quantities, Sentence, quantity
+from asperity.results.quantity import Quantities, quantity
 from asperity.results.table import Table, table_of_rows
+from asperity.results.words import Number, Sentence
 from asperity.sources import Source
 
 mu_0 = Annotated[Real, Symbol("mu_0", "", not_negative)]

@@ -13,8 +13,8 @@ from asperity.rating.result import Rating
 from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
-from asperity.results.quantity import Number, Sentence
 from asperity.results.system import shown_text
+from asperity.results.words import Number, Sentence
 
 _LONGEST = 3.0
 _BAR = 27

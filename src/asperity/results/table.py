@@ -4,7 +4,8 @@ import dataclasses
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, Self
 
-from asperity.results.quantity import Number, Quantities, text_of
+from asperity.results.quantity import Quantities
+from asperity.results.words import Number, text_of
 
 __all__ = ["Bar", "Cell", "Column", "Number", "Table", "table_of", "table_of_rows"]
 

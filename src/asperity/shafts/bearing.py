@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import ValidationInfo, model_validator
 
 from asperity.errors import InputError, choices, shown
+from asperity.formulas.traced import number
 from asperity.gearset.library import Sourced
 from asperity.shafts.dimensions import DIMENSIONS
 from asperity.shafts.rolling import equivalent
@@ -145,11 +146,11 @@ class RollingBearing(Sourced):
         return 500.0 * (self.bore + self.outside_diameter)
 
     @property
-    def endless_below(self) -> float:
+    def endless_below(self) -> Any:
         """C_u, N."""
         if self.fatigue_limit is not None:
             return self.fatigue_limit
-        return float(fatigue_load_limit(self.static_rating, self.elements))
+        return number(fatigue_load_limit(self.static_rating, self.elements))
 
     @property
     def carries_axial(self) -> bool:
@@ -201,21 +202,21 @@ class RollingBearing(Sourced):
             return equivalent.taper(self.e or 1.0, self.Y or 1.0, self.Y0 or 1.0)
         return equivalent.CYLINDRICAL
 
-    def induced(self, radial: float) -> float:
+    def induced(self, radial: Any) -> Any:
         """Return the axial force that it makes of its radial load, N; adjusted bearings only.
 
         Parameters
         ----------
-        radial : float
-            N.
+        radial : array_like
+            F_r, N.
 
         Returns
         -------
-        float
+        float or ndarray, shape of ``radial``
             N.
         """
         if self.kind == "taper":
-            return float(equivalent.induced_of_taper(radial, self.Y or 1.0))
+            return number(equivalent.induced_of_taper(radial, self.Y or 1.0))
         return equivalent.induced_of_angular(self.angle)(radial)
 
 

@@ -136,7 +136,7 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
     if options.life is not None:
         life = scaled(options.life, 1.0 / 3600.0)
     return ShaftStudy.of(
-        given.gearset.name,
+        given,
         found,
         loads,
         life,

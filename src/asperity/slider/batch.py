@@ -5,6 +5,7 @@ import functools
 import math
 import time
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -276,14 +277,13 @@ def _answer(
     if not np.all(np.isfinite(column)):
         return ConvergenceError("the march left the finite numbers; give a smaller solve.step")
     sums = _sums(column, body, start_free)
-    half = table.middle - table.window_start
-    first_half = float(quarters[1])
+    half, first_half = table.middle - table.window_start, float(quarters[1])
     second = (sums["drive_force"] - first_half) / (table.window - half)
     residual = abs(float(second - first_half / half))
     broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
-    ends = np.array([table.window_start, *table.quarters, table.steps])
-    forces = np.array([0.0, *quarters, sums["drive_force"]])
-    means = (np.diff(forces) / np.maximum(np.diff(ends), 1)).tolist()
+    ends = pairwise([table.window_start, *table.quarters, table.steps])
+    forces = pairwise([0.0, *quarters.tolist(), float(sums["drive_force"])])
+    means = [(b - a) / max(to - at, 1) for (a, b), (at, to) in zip(forces, ends, strict=True)]
     standing = march_standing(model, table, residual, broke=broke, means=means)
     error = None
     notes = march_notes(model, table, residual, broke=broke) + ringing_notes(model)

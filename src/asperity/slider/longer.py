@@ -157,10 +157,17 @@ def _fading(
     tau = 0.25 * window * quarters
     begin = model.duration - window
     change = residual / apart(window / tau)
-    duration = model.duration
-    for _ in range(_MOST_TRIED):
-        duration *= _NEXT
-        longer = min(model.window, WINDOW_SHARE * (duration - model.start))
+    whole, start = model.window, model.start
+    # On the way no window makes the halves differ by less than its least or its greatest does:
+    # durations that are surely too short for them are passed over.
+    differ = min(apart(0.5 * window / tau), apart(whole / tau))
+    early = begin + tau * math.log(max(change * differ / (_LEFT * UNSTEADY), 1.0))
+    earliest = min(early + whole, (early - WINDOW_SHARE * start) / (1.0 - WINDOW_SHARE))
+    times = max(earliest / model.duration, 1.0)
+    passed = max(math.floor(math.log(times) / math.log(_NEXT)) - 1, 0)
+    for tried in range(passed, _MOST_TRIED):
+        duration = model.duration * _NEXT ** (tried + 1)
+        longer = min(whole, WINDOW_SHARE * (duration - start))
         later = duration - longer - begin
         left = change * math.exp(-later / tau)
         windows = longer / tau

@@ -148,7 +148,7 @@ class Model:
             return 0.0
         return self.vibration.displacement(self.shape, self.slider.drive_velocity)
 
-    @property
+    @functools.cached_property
     def start(self) -> float:
         """Start of the vibration, s; of a wave with corners, on which steps end, a whole step."""
         given = self.vibration.start if self.vibration is not None else 0.0
@@ -175,7 +175,7 @@ class Model:
         """Angle between vibration and plane of contact, rad."""
         return self.vibration.elevation if self.vibration is not None else 0.0
 
-    @property
+    @functools.cached_property
     def unit_direction(self) -> tuple[float, float, float]:
         """Direction of the vibration: along the drive, across it, up."""
         flat, up = unit_vector(self.elevation)
@@ -203,14 +203,14 @@ class Model:
         """Whether the body, not the base, is shaken."""
         return self.vibration is not None and self.vibration.applied_to == "body"
 
-    @property
+    @functools.cached_property
     def ring_period(self) -> float:
         """Period in which the body rings on its drive, s; 0 for a rigid drive."""
         if self.slider.drive_stiffness is None or self.slider.mass is None:
             return 0.0
         return 2.0 * math.pi * math.sqrt(self.slider.mass / self.slider.drive_stiffness)
 
-    @property
+    @functools.cached_property
     def window(self) -> float:
         """Length the means are taken over, s, before it is cut to whole cycles."""
         least = _WINDOW_CYCLES / self.frequency if self.vibrates else 0.0

@@ -14,6 +14,7 @@ from asperity.slider.history import History
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.result import SlideResult
+from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import ACCEPTED, SETTLING
 from asperity.slider.steady import growth_rate, sticks_and_slips, two_states
 from asperity.slider.step_error import error_of_state, refined
@@ -22,10 +23,12 @@ from asperity.slider.summary import history_of, summarise
 _LEAST_STEPS = 256
 _REST_STEPS = 64
 _MOST_STEPS = 1e6
+_LEAST_WAY = 1e-10  # of the deflection limit, that a drive goes in a cycle
 _OF_MANY = (
     "one of many: nothing damps a disturbance, and the ratio follows it; shown is the one without "
     "a ringing of its own"
 )
+_LOST = "the drive goes so little in a cycle that a state that changes could not be told from it"
 _MARCH = "march it from rest with solve.method 'march'"
 _NOT_FOLLOWED = (
     "friction falls with the speed: a body from rest may stick and slip instead, which takes too "
@@ -186,6 +189,11 @@ def standing_of(cycle: Cycle, growth: float) -> Standing:
         return Standing(False, f"{repeats}, but a disturbance grows {growth:.3g} times")
     if cycle.one_of_many(growth):
         return Standing(False, f"{repeats}, but is {_OF_MANY}")
+    p = cycle.body.p
+    if p.model != COULOMB and (cycle.increments.any() or cycle.rises.any()):
+        way = p.drive * (cycle.increments.size - 1) / cycle.period
+        if way < _LEAST_WAY:
+            return Standing(False, f"{repeats}, but {_LOST}")
     return Standing(True, repeats)
 
 

@@ -1,5 +1,6 @@
 """When a march takes its means, and what its reader should know of them."""
 
+import functools
 import math
 from collections.abc import Sequence
 
@@ -71,7 +72,7 @@ class Timetable:
         self.middle = self.window_start + half * parts
         self.tail = tail * parts
 
-    @property
+    @functools.cached_property
     def quarters(self) -> tuple[int, int, int]:
         """Steps at which the first three quarters of the window end, in whole blocks."""
         first = (self.middle - self.window_start) // 2 // BLOCK * BLOCK

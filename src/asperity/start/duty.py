@@ -1,13 +1,17 @@
 """What a gearset is sized for: a case file that says everything but the gearset."""
 
+from typing import Any
+
 from asperity.casefile.case import read_raw
 from asperity.casefile.table import names_file
 from asperity.commands import case_tables
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, nearest, shown
 from asperity.rating.load_steps import LOADS
+from asperity.rating.parameters import Operation
 from asperity.rating.spectrum import Spectrum
 from asperity.start.gear import begun, drop_begun_life
 from asperity.start.kinds import Values
+from asperity.units import Named, quantity_of
 
 _ASKED = {"output_torque": "300 N m", "worm_speed": "1500 rpm"}
 
@@ -79,3 +83,29 @@ def complete(values: Values) -> None:
                 f"operation.{key} is missing; give it, as --{key.replace('_', '-')} '{example}', "
                 "or in a case file (asperity new duty begins one)"
             )
+
+
+def run_at(values: Values, **given: Any) -> None:
+    """Set torque and speed that are texts or quantities of pint; None leaves what is there.
+
+    Parameters
+    ----------
+    values : dict
+        As `duty` returns them, changed in place.
+    **given
+        By key of the operation.
+
+    Raises
+    ------
+    InputError
+        One without a unit, or out of bounds.
+    """
+    for key, value in given.items():
+        if value is not None:
+            quantity = quantity_of(Operation, key)
+            assert quantity is not None
+            try:
+                number = quantity.check(value, named=Named(), key=key)
+            except InputError as error:
+                raise InputError(f"{key} is {shown(value)}; {error}") from None
+            values["operation"][key] = f"{number!r} {quantity.unit}"

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from asperity.files.store import write_text
+from asperity.errors import AsperityError
+from asperity.files.store import read_text, write_text
 from asperity.web.folder import ANSWER, REQUEST, SO_FAR, STATE
 
 ENDED = ("stopped", "done", "failed")
@@ -72,6 +73,15 @@ class Job:
         """Whether its answer is there."""
         path = self.home / ANSWER
         return path.is_file() and not path.is_symlink()
+
+    @property
+    def asked(self) -> Any:
+        """What was asked for, as the page asked it; None where that cannot be read."""
+        path = self.home / REQUEST
+        with contextlib.suppress(OSError, ValueError, AsperityError):
+            # What is no number there would be none in the list of all.
+            return None if path.is_symlink() else json.loads(read_text(path), parse_constant=str)
+        return None
 
     @property
     def brief(self) -> dict[str, str]:

@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.contact.candidates.records import Answer, Candidates, History, Kept, Laws, Work
+from asperity.contact.candidates.records import Answer, Candidates, Kept, Laws, Work
 from asperity.contact.interface.friction import DAHL, PointFriction
+from asperity.contact.interface.records import Committed
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.drive.elastic.friction import Sliding
 from asperity.drive.elastic.march import march
@@ -160,7 +161,7 @@ class TeethModel(ReducedModel):
             candidates=Candidates.workspace(body, places),
             answer=Answer.workspace(body, places),
             kept=Kept.workspace(body, places, KEPT),
-            history=History.none(body),
+            history=Committed.none(body.nodes, len(body.weights)),
             earlier=np.zeros((len(body.weights), 3)),
             work=Work.workspace(body, len(body.weights)),
             gathered=gathered,

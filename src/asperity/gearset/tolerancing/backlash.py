@@ -23,8 +23,8 @@ from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.allowances import Allowances
 from asperity.gearset.tolerancing.table import Temperatures, Tolerances
-from asperity.results.quantity import Number, Sentence, text_of
 from asperity.results.table import Column, Table
+from asperity.results.words import Number, Sentence, text_of
 from asperity.sources import Source
 
 EXPANSION: Mapping[str, float] = {

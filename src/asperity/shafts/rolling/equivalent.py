@@ -1,12 +1,13 @@
 """Equivalent loads of rolling bearings, and how two adjusted ones share the axial load."""
 
 from collections.abc import Callable
-from typing import Annotated, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import Symbol, finite, formula, not_negative, positive
+from asperity.formulas.traced import number
 from asperity.shafts import symbols as s
 
 _X = Annotated[Real, Symbol("X", "", not_negative)]
@@ -96,14 +97,14 @@ def taper(limit: float, y: float, y0: float) -> Factors:
     return Factors(limit, (1.0, 0.0), (0.4, y), (0.5, y0))
 
 
-def deep_groove(factor: float, axial: float, static_rating: float) -> Factors:
+def deep_groove(factor: Any, axial: Any, static_rating: Any) -> Factors:
     """Return the factors of a deep groove ball bearing under an axial load, N.
 
     Parameters
     ----------
     factor : float
         f_0 of the bearing's table.
-    axial, static_rating : float
+    axial, static_rating : array_like
         F_a and C_0, N.
 
     Returns
@@ -111,13 +112,12 @@ def deep_groove(factor: float, axial: float, static_rating: float) -> Factors:
     Factors
         Linear between the rows of f_0 F_a/C_0, at the ends those of the end.
     """
-    relative = float(relative_axial_load(factor, axial, static_rating))
-    limit = float(np.interp(relative, _RELATIVE, _E))
-    y = float(np.interp(relative, _RELATIVE, _Y_OF))
+    relative = relative_axial_load(factor, axial, static_rating)
+    limit, y = (number(np.interp(relative, _RELATIVE, row)) for row in (_E, _Y_OF))
     return Factors(limit, (1.0, 0.0), (_DEEP_X, y), (0.6, 0.5))
 
 
-def outside_table(factor: float, axial: float, static_rating: float) -> bool:
+def outside_table(factor: Any, axial: Any, static_rating: Any) -> bool:
     """Whether the axial load of a deep groove ball bearing is more than the table reaches.
 
     Parameters
@@ -125,14 +125,14 @@ def outside_table(factor: float, axial: float, static_rating: float) -> bool:
     factor : float
         f_0 of the bearing's table.
     axial, static_rating : float
-        F_a and C_0, N.
+        F_a and C_0, N, of one load.
 
     Returns
     -------
     bool
         True above 6.89.
     """
-    return float(relative_axial_load(factor, axial, static_rating)) > _RELATIVE[-1]
+    return bool(relative_axial_load(factor, axial, static_rating) > _RELATIVE[-1])
 
 
 @formula(symbol="f", equation="f_0 F_a/C_0", source=s.ISO_281)
@@ -153,41 +153,44 @@ def combined_load(radial: s.F_r, axial: s.F_a, x: _X, y: _Y) -> Real:
     return x * radial + y * axial
 
 
-def dynamic_load(factors: Factors, radial: float, axial: float) -> float:
+def dynamic_load(factors: Factors, radial: Any, axial: Any) -> Any:
     """Return the equivalent dynamic load P, N.
 
     Parameters
     ----------
     factors : Factors
         Of the bearing.
-    radial, axial : float
+    radial, axial : array_like
         F_r and F_a, N, 0 or more.
 
     Returns
     -------
-    float
+    float or ndarray, shape of the loads
         P = X F_r + Y F_a, N; ISO 281.
     """
-    pair = factors.above if axial > factors.limit * radial else factors.below
-    return float(combined_load(radial, axial, *pair))
+    below = combined_load(radial, axial, *factors.below)
+    if factors is CYLINDRICAL:
+        return number(below)
+    above = combined_load(radial, axial, *factors.above)
+    return number(np.where(axial > factors.limit * radial, above, below))
 
 
-def static_load(factors: Factors, radial: float, axial: float) -> float:
+def static_load(factors: Factors, radial: Any, axial: Any) -> Any:
     """Return the equivalent static load P_0, N; at least the radial load.
 
     Parameters
     ----------
     factors : Factors
-        Of the bearing.
-    radial, axial : float
-        F_r and F_a, N, 0 or more.
+        As of `dynamic_load`.
+    radial, axial : array_like
+        As of `dynamic_load`.
 
     Returns
     -------
-    float
+    float or ndarray, shape of the loads
         P_0 = X_0 F_r + Y_0 F_a, N; ISO 76.
     """
-    return max(float(combined_load(radial, axial, *factors.static)), radial)
+    return number(np.maximum(combined_load(radial, axial, *factors.static), radial))
 
 
 @formula(symbol="S", unit="N", equation="F_r/(2 Y)", source=s.ISO_281)

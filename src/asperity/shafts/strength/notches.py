@@ -140,5 +140,5 @@ def seat_factor(
 
 def _size(diameter: Real, factor: Real) -> Real:
     """Return K_3, the geometric size factor of notch factors."""
-    d = np.clip(diameter, 7.5, 150.0)
+    d = np.minimum(np.maximum(diameter, 7.5), 150.0)
     return 1.0 - 0.2 * np.log10(factor) * np.log10(d / 7.5) / math.log10(20.0)

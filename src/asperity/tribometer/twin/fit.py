@@ -132,7 +132,7 @@ def _measured(segment: SegmentResult) -> Iterator[Measured]:
     frequency = segment.commanded or segment.frequency
     torques = segment.torque_before, segment.torque_with
     sliding = segment.sliding_velocity_before, segment.sliding_velocity_with
-    numbers = [one for one in (*torques, *sliding) if one is not None]
+    numbers = [one.value for one in (*torques, *sliding) if one is not None]
     if segment.quality == REFUSED or frequency is None or len(numbers) < 4:
         return
     before, after, slow, fast = numbers

@@ -6,7 +6,7 @@ import { digits } from "./units.js";
 /** From low to high, told apart by those who do not see all colours: cividis. */
 const STOPS = "00224e 123570 3b496c 575d6d 707173 8a8678 a59c74 c3b369 e1cc55 fee838".split(" ");
 const RGB = STOPS.map((text) => [0, 2, 4].map((at) => parseInt(text.slice(at, at + 2), 16)));
-const LEVELS = 24;
+export const LEVELS = 24;
 
 /** Red, green and blue, 0 to 255, of a share from 0 to 1. */
 export function colourAt(share) {
@@ -40,7 +40,7 @@ export function gridCells(rows, columns) {
 }
 
 /** A path of the cells of each level, and of those without a value. */
-function painted({ x, y, cells, values, range: [low, high] }) {
+export function painted({ x, y, cells, values, range: [low, high] }) {
   const paths = Array.from({ length: LEVELS + 1 }, () => "");
   for (const cell of cells) {
     const mean = cell.reduce((sum, at) => sum + values[at], 0) / cell.length;

@@ -21,7 +21,7 @@ const ordered = (value) => (value?.constructor === Object
   ? Object.entries(value).sort().map(([key, each]) => [key, ordered(each)]) : value);
 
 /** A short name for what is asked. @param {object} body */
-function nameOf(body) {
+export function nameOf(body) {
   let sum = 5381;
   for (const sign of JSON.stringify(ordered(body))) sum = (sum * 33 + sign.codePointAt(0)) >>> 0;
   return sum.toString(36);
@@ -31,16 +31,31 @@ function nameOf(body) {
 const shipped = signal([]);
 get("shown/index.json").then((found) => (shipped.value = found), () => {});
 
+/** What a case is called on the page. */
+const aliasOf = (name) => about.value?.cases.find((each) => each.name === name)?.alias || name;
+
 /**
- * The answer that ships for a command of a case, whatever else is set; null where there is none.
+ * The answer that ships for what is asked, whatever else is set; null where there is none.
  * @param {any} asked @param {string} slot
+ * @param {boolean} any whether that of another case is shown where the case has none of its own
  */
-function exampleOf(asked, slot) {
+function exampleOf(asked, slot, any) {
+  if (!asked) return null;
   const named = (name) => about.value?.cases.find(({ alias }) => alias && alias === name)?.name ?? name;
-  const kind = ({ command, case: name, options }) => nameOf({ command, name: named(name), options });
-  const found = asked && shipped.value.find((each) => each.slot === slot && kind(each.asked) === kind(asked));
-  const same = found && nameOf({ ...found.asked, case: asked.case });
-  return found ? { ...found, id: `shown/${found.at}`, name: same } : null;
+  const kind = ({ command, options }) => nameOf({ command, options });
+  const alike = shipped.value.filter((each) => each.slot === slot && kind(each.asked) === kind(asked));
+  const own = alike.find((each) => named(each.asked.case) === named(asked.case));
+  const found = own ?? (any ? alike[0] : null);
+  const same = own && nameOf({ ...own.asked, case: asked.case });
+  return found ? { ...found, id: `shown/${found.at}`, name: same, other: own ? "" : aliasOf(found.asked.case) } : null;
+}
+
+/** The answer that ships for a command, whatever is set: its id and what it is; null until it is there, or unwanted. */
+export function useShipped(command, wanted) {
+  const example = wanted && shipped.value.find(({ asked }) => asked.command === command);
+  const id = example ? `shown/${example.at}` : "";
+  const data = useAsked(id && answerOf(id), (leave) => get(answerOf(id), leave)).found;
+  return data && { ...example, id, data };
 }
 
 const isShipped = (id) => id.startsWith("shown/");
@@ -64,9 +79,10 @@ const NOTHING = { job: null, data: null, error: null, asking: false };
  * @param {string} command
  * @param {object | null} body what a new one would be asked: case, settings, options
  * @param {string} slot what tells it from another job of the same command on the screen
+ * @param {boolean} any whether an answer that ships may be of another case
  * @returns {Job}
  */
-export function useJob(command, body, slot = "") {
+export function useJob(command, body, slot = "", any = false) {
   const asked = body && { command, ...body };
   const name = asked ? nameOf(asked) : "";
   const param = `job-${command}${slot}`;
@@ -104,11 +120,11 @@ export function useJob(command, body, slot = "") {
   };
   const stop = () => post(`/api/jobs/${id}/stop`, {});
   // What ships is shown until the reader's own is there.
-  const example = state.data ? null : exampleOf(asked, slot);
+  const example = state.data ? null : exampleOf(asked, slot, any);
   const ships = useAsked(example ? answerOf(example.id) : "", (leave) => get(answerOf(example.id), leave)).found;
   const found = { can: Boolean(asked), start, stop, id, ...state };
   if (!ships) return { ...found, from: state.data ? id : "", stale: Boolean(id) && of !== name };
-  const job = state.job ?? { state: "done", files: example.files, shipped: true };
+  const job = state.job ?? { state: "done", files: example.files, shipped: true, other: example.other };
   return { ...found, job, from: example.id, files: example.files, data: ships, stale: example.name !== name };
 }
 
@@ -146,12 +162,15 @@ export function left({ state, done, total, seconds, answered }) {
   return `${state}, ${done} of ${total}${rest}`;
 }
 
+const shippedSays = ({ other }, stale) => `an answer that ships${other ? `, of the case ${other}`
+  : stale ? ", to the case as it is written" : ""}; your own takes its place`;
+
 /** Begin, how far it is, stop. @param {{work: Job, label: string}} props */
 export function Work({ work, label }) {
   const { job, asking, can, stale, start, stop } = work;
   const running = job && !ENDED.includes(job.state);
   const said = asking ? "begun" : running ? left(job)
-    : job?.shipped ? `an answer that ships${stale ? ", to the case as it is written" : ""}; your own takes its place`
+    : job?.shipped ? shippedSays(job, stale)
     : stale && job ? "something was set since; this is the answer to what was asked before"
     : job ? left(job) : "";
   return html`<div class="work">
@@ -172,7 +191,8 @@ export const WorkPanel = ({ title, name, says, label, work, children }) => html`
     <${Work} work=${work} label=${label} />
     <div class=${work.stale ? "before" : ""}>
       ${work.data ? html`<${Notes} notes=${work.data.notes} />` : null}
-      ${children}</div>
+      ${children}
+      <${Files} job=${work.job} /></div>
   </section>`;
 
 /** Several errors or none, as a screen tells one. */

@@ -1,12 +1,13 @@
 /** A case over a grid: axes, how long it takes, a map that fills, and the file of it. */
 import { html, useEffect, useState } from "../../vendor/preact.js";
+import { axisOf, MOST, over, textOf } from "../axes.js";
 import { commandLine, forms, get, useCaseFile, useLive } from "../api.js";
 import { AllKeys, Box, fieldOf, words } from "../form.js";
 import { Heat } from "../heat.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
-import { digits, inUnit, split } from "../units.js";
+import { digits, split } from "../units.js";
 import { dataOf, Files, lasting, useJob, Work } from "../work.js";
 
 const SLIDE = { tables: ["slider", "friction", "vibration", "normal"], rest: ["solve"], verb: "slide", shown: "ratio",
@@ -22,36 +23,6 @@ const SLOW = 504;
 const LEAST = 5e-4;
 /** The variable that says which points have settled. */
 const SETTLED = "settled";
-/** The most points of an axis. */
-const MOST = 500;
-
-/** An axis as it stands in the address; its count is NaN where what stands there is refused. */
-function axisOf(text) {
-  const [path, from, to, points = "2", spacing] = text.split("~");
-  const typed = points.trim() ? Number(points) : NaN;
-  const count = Number.isInteger(typed) && typed >= 1 && typed <= MOST ? typed : NaN;
-  return path.includes(".") ? { path, from, to, points, count, spacing } : null;
-}
-
-const textOf = ({ path, from, to, points, spacing }) => [path, from, to, points, spacing].join("~");
-
-/** The values of an axis as `--over` takes them. */
-function over({ path, from, to, count, spacing }) {
-  const [low, unit] = split(from);
-  const [high, other] = split(to);
-  const usual = other || unit || fieldOf(path)?.unit || "";
-  const first = unit && unit !== usual ? inUnit(from, usual) : low;
-  const at = (place) => {
-    const share = count > 1 ? place / (count - 1) : 0;
-    return spacing === "log" ? first * (high / first) ** share : first + (high - first) * share;
-  };
-  const step = digits((high - first) / (count - 1), 6);
-  const even = spacing !== "log" && count > 1 && first + (count - 1) * Number(step) === high && Number(step) > 0;
-  const values = even ? [`${digits(first, 12)}:${digits(high, 12)}:${step}`]
-    : Array.from({ length: count }, (_, place) => digits(at(place), 6));
-  return `${path}=${values.join(",")}${usual ? ` ${usual}` : ""}`;
-}
-
 export function view() {
   const { name, settings } = useCase();
   const { params } = route.value;
