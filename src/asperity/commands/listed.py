@@ -11,6 +11,7 @@ _COLUMNS = (
     Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
     Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
 )
+_RECORDINGS = Argument("recordings", "REC...", "Recordings of a rig.", many=True)
 _RIG = Option("config", "The rig's configuration; left out: the one in each recording.", "CONFIG")
 
 COMMANDS = (
@@ -330,7 +331,7 @@ COMMANDS = (
         module="asperity.tribometer.checking.study",
         read="asperity.tribometer.checking.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
         options=(_RIG,),
     ),
@@ -342,7 +343,7 @@ COMMANDS = (
         module="asperity.tribometer.reduction.study",
         read="asperity.tribometer.reduction.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
         options=(
             _RIG,
