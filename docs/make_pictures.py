@@ -22,7 +22,7 @@ from asperity.slider.closed_forms import (
     transverse_ratio,
 )
 from asperity.slider.periodic import solve_periodic
-from asperity.slider.plots import shade_flight
+from asperity.slider.plots import flight_of
 from asperity.sweep.branches import answer, prepare
 from asperity.thesis.contents import FIGURES
 
@@ -229,7 +229,8 @@ def plot_two_cycles(
     scale, unit = (1e3, "ms") if time[-1] - time[0] > 1e-3 else (1e6, "µs")
     at = scale * (time - time[0])
     for axes in (upper, lower):
-        shade_flight(axes, at, load, label="in flight" if axes is upper else None)
+        for mark in flight_of(at, load, "in flight" if axes is upper else None):
+            mark.put(axes)
         axes.margins(x=0.0)
     upper.plot(at, load, color=BLUE, label="normal force")
     upper.axhline(static_load, color=BLACK, dashes=(4, 3), linewidth=1.0, label="at rest")
@@ -254,6 +255,42 @@ def mean_of(time: FloatArray, values: FloatArray) -> float:
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
+def catalogues() -> "Figure":
+    """Torques and efficiencies of two makers' gearboxes of 63 mm, and what three standards have."""
+    import gear_cases
+
+    one, other = (
+        [p for p in positions() if p.centre_distance == 63]
+        for positions in (gear_cases.catalogue, gear_cases.selection)
+    )
+    figure, (torque, efficiency) = panels(1, 2, width=8.4, height=3.9)
+    shown = (
+        (torque, "torque", one, "a maker", "s"),
+        (torque, "torque", other, "another maker", "^"),
+        (torque, "bs_wear", one, "BS 721, wear", "o-"),
+        (torque, "agma_torque", one, "AGMA 6034", "D--"),
+        (efficiency, "efficiency", one, "a maker", "s"),
+        (efficiency, "efficiency", other, "another maker", "^"),
+        (efficiency, "iso_gearbox", one, "ISO/TR 14521, gearbox", "v-"),
+        (efficiency, "bs_teeth", one, "BS 721, teeth alone", "o--"),
+    )
+    colours = {
+        "bs_wear": BLUE,
+        "bs_teeth": BLUE,
+        "agma_torque": VERMILION,
+        "iso_gearbox": VERMILION,
+    }
+    for axes, name, positions, label, style in shown:
+        points = [(p.ratio, getattr(p, name)) for p in positions if getattr(p, name) is not None]
+        axes.plot(*zip(*points, strict=True), style, label=label, color=colours.get(name, BLACK),
+                  markersize=6, markerfacecolor="none" if name in colours else BLACK)  # fmt: skip
+    torque.set(xlabel="ratio", ylabel="torque of the wheel (N m)", ylim=(0, None), xlim=(0, 105))
+    efficiency.set(xlabel="ratio", ylabel="efficiency (%)", ylim=(0, 100), xlim=(0, 105))
+    torque.legend(loc="lower left")
+    efficiency.legend(loc="lower left")
+    return figure
+
+
 if __name__ == "__main__":
     drawn = {
         "shaken": shaken(),
@@ -269,6 +306,7 @@ if __name__ == "__main__":
         ),
         "drive_locking": of_command("locking", "drive-actuator"),
         "shafts": of_command("shafts", "actuator-shafts"),
+        "catalogue": catalogues(),
     }  # fmt: skip
     for name, figure in drawn.items():
         write_atomically(

@@ -6,9 +6,11 @@ server of its own, and keeps what the page then takes: the answer, its variables
 
 import json
 import shutil
+import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from urllib.parse import parse_qs, urlsplit
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "tests"))
@@ -46,16 +48,18 @@ def keep(served, at, asked, identity, slot):
     (folder / "answer.json").write_text(json.dumps(served.get(f"{path}/answer").json) + "\n")
     files = served.get(path).json["files"]
     listed = served.get(f"{path}/data")
-    if listed.status == 200 and asked["command"] not in ("flank", "optimise"):
+    if listed.status == 200 and asked["command"] not in WITHOUT:
         names = NAMES.get(at, [*listed.json])
         data = served.get(f"{path}/data?names={','.join(names)}").json
         (folder / "data.json").write_text(json.dumps(data) + "\n")
-    kept = [name for name in files if name == "flanks.bin"]
+    kept = [name for name in files if name in ("flanks.bin", "frames.bin")]
     for name in kept:
         (folder / name).write_bytes(served.get(f"{path}/files/{name}").body)
     return {"asked": asked, "slot": slot, "at": at, "files": kept}
 
 
+# Of these the answer alone is drawn.
+WITHOUT = ("flank", "optimise", "rig reduce", "fit")
 # Variables that the screens draw, of files that hold many more.
 NAMES = {
     "drive-static": [
@@ -67,6 +71,71 @@ NAMES = {
     "block-settled": ["friction", "slider_friction"],
     "block-march": ["pressure", "faces", "node_x", "node_y", "drive_force"],
 }
+
+
+RUN = "simulated-run.nc"
+
+
+def rig(served, seen):
+    """Record on the simulated rig, reduce that and fit a law; yields the lines of the list."""
+    page = seen.open("rig")
+    page.get_by_role("button", name="record one on the simulated rig").click()
+    page.wait_for_url(lambda at: "rec=" in at, timeout=PATIENCE)
+    recorded = parse_qs(urlsplit(page.url).fragment.partition("?")[2])["rec"][0]
+    _, identity, file = recorded.split("/")
+    body = served.get(f"/api/jobs/{identity}/files/{file}").body
+    (served.folder / RUN).write_bytes(body)
+    with page.expect_response(lambda one: one.url.endswith("/do/signals")) as told:
+        seen.open("rig", case="disc-on-disc", rec=RUN)
+    signals = told.value.json()
+    asked, identity = made(served, page, "reduce")
+    line = keep(served, "rig-reduce", asked, identity, "")
+    (SHOWN / "rig-reduce/signals.json").write_text(json.dumps(signals) + "\n")
+    # The recording is large, and made again by what it was made by.
+    recorded = served.get(f"/api/jobs/{recorded.split('/')[1]}").json["line"]
+    yield line | {"files": ["signals.json"], "of": recorded}
+    measured = served.get(f"/api/jobs/{identity}/files/measurements.csv").body
+    asked, identity = made(served, page, "fit")
+    line = keep(served, "fit", asked, identity, "")
+    (SHOWN / "fit/measurements.csv").write_bytes(measured)
+    yield line | {"files": ["measurements.csv"]}
+
+
+def thesis(served, seen):
+    """Make the thesis's claims and figures; yields the line of the list."""
+    folder = served.folder / "out/thesis"
+    command = [sys.executable, "-m", "asperity", "thesis", "--out", str(folder)]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    ledger = served.get("/api/thesis").json
+    # Its pictures are many, and drawn where it is made.
+    unmade = {"kept": False, "picture": "", "how": []}
+    kept = {"folder": "", "figures": [one | unmade for one in ledger["figures"]]}
+    told = {
+        "answer": ledger | kept,
+        "entries": [],
+        "notes": [],
+        "command": "asperity thesis ",
+        "toml": "",
+    }
+    (SHOWN / "thesis").mkdir(exist_ok=True)
+    (SHOWN / "thesis/answer.json").write_text(json.dumps(told, ensure_ascii=False) + "\n")
+    yield {
+        "asked": {"command": "thesis", "case": "", "settings": {}},
+        "slot": "",
+        "at": "thesis",
+        "files": [],
+    }
+
+
+def jobs_of(served, seen, screen):
+    """Begin the jobs of a screen one after the other; yields the lines of the list."""
+    page = seen.open(screen)
+    for label, slot in SCREENS[screen].items():
+        asked, identity = made(served, page, label)
+        yield keep(served, asked["command"].replace(" ", "-") + slot, asked, identity, slot)
+
+
+OTHERS = {"rig": rig, "thesis": thesis}
 
 
 def main(names):
@@ -86,15 +155,12 @@ def main(names):
         )
         try:
             seen = Seen(browser, served)
-            for screen in names or SCREENS:
-                page = seen.open(screen)
-                for label, slot in SCREENS[screen].items():
-                    asked, identity = made(served, page, label)
-                    at = asked["command"].replace(" ", "-") + slot
-                    line = keep(served, at, asked, identity, slot)
-                    lines = [one for one in lines if one["at"] != at] + [line]
+            for screen in names or [*SCREENS, *OTHERS]:
+                own = OTHERS.get(screen)
+                for line in own(served, seen) if own else jobs_of(served, seen, screen):
+                    lines = [one for one in lines if one["at"] != line["at"]] + [line]
                     listing.write_text(json.dumps(lines, indent=1) + "\n")
-                    print(at, flush=True)
+                    print(line["at"], flush=True)
         finally:
             browser.close()
             served.close()

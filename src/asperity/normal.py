@@ -163,7 +163,23 @@ class Normal(Table):
         return LAWS[self.law]
 
     def slope(self, load: float) -> float:
-        """Slope of the force at a load in N, k_z, N/m."""
+        """Slope of the force at a load in N, k_z, N/m.
+
+        Parameters
+        ----------
+        load : float
+            Dead load or preload :math:`W`, N.
+
+        Returns
+        -------
+        float
+            :math:`k_z`, N/m.
+
+        Raises
+        ------
+        InputError
+            The law is ``constant``.
+        """
         if self.stiffness is not None:
             return self.stiffness
         if self.penetration is None:
@@ -171,7 +187,25 @@ class Normal(Table):
         return _SLOPE_AT_LOAD[self.law] * load / self.penetration
 
     def loss(self, load: float, mass: float | None) -> float:
-        """Damping :math:`c`, s/m, at a load in N and with the body's mass in kg."""
+        r"""Damping :math:`c`, s/m, at a load in N and with the body's mass in kg.
+
+        Parameters
+        ----------
+        load : float
+            Dead load or preload :math:`W`, N.
+        mass : float or None
+            Of the body, kg, to which a damping ratio refers.
+
+        Returns
+        -------
+        float
+            :math:`c = 2\zeta\sqrt{k_z m}/W` or as it is given, s/m.
+
+        Raises
+        ------
+        InputError
+            A damping ratio without a mass.
+        """
         if self.damping is not None:
             return self.damping
         if not self.damping_ratio:

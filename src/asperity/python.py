@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from asperity.slider.result import SlideResult
     from asperity.start.compare import Comparison
     from asperity.studies.optimise import Optimum
-    from asperity.studies.proposals import Proposals
+    from asperity.studies.proposed import Proposals
 
 What: TypeAlias = "str | os.PathLike[str] | Case | Table | Model"
 
@@ -229,10 +229,11 @@ def flank(
 
 
 def size(
-    ratio: float | None,
-    output_torque: Any,
-    worm_speed: Any,
+    ratio: float | None = None,
+    output_torque: Any = None,
+    worm_speed: Any = None,
     *,
+    case: str = "",
     rank: str = "size",
     settings: Sequence[str] = (),
     cut: bool = True,
@@ -242,10 +243,13 @@ def size(
 
     Parameters
     ----------
-    ratio : float or None
-        Of the speeds; None: that of ``requirements.ratio`` among the settings.
-    output_torque, worm_speed : str or quantity of pint
-        Of the wheel and of the worm: ``"300 N m"``, ``"1500 rpm"``.
+    ratio : float, optional
+        Of the speeds; left out: that of ``requirements.ratio`` in the case or among the settings.
+    output_torque, worm_speed : str or quantity of pint, optional
+        Of the wheel and of the worm: ``"300 N m"``, ``"1500 rpm"``. Left out: those of the case,
+        or of the greatest load of its spectrum.
+    case : str
+        A case file that says all but the gearset, as ``asperity new duty`` begins it.
     rank : {'size', 'efficiency', 'margin'}
         What the first one is best in.
     settings : sequence of str
@@ -255,29 +259,48 @@ def size(
         Whether to leave out what no hob cuts.
     locks : {'', 'rest', 'motion'}
         Whether the worm must lock itself, at rest or in motion.
+
+    Returns
+    -------
+    Proposals
+        The best first.
+
+    Raises
+    ------
+    InputError
+        A value without a unit or out of bounds, no ratio, or no gearset that does what is asked.
     """
     from asperity.casefile.case import apply, listed
-    from asperity.rating.parameters import Operation
-    from asperity.start.gear import begun, drop_begun_life, proposals, ratio_of
-    from asperity.units import Named, quantity_of
+    from asperity.start.duty import complete, duty, run_at
+    from asperity.start.gear import drop_begun_life, proposals, ratio_of
 
-    values = begun()
-    for key, value in (("output_torque", output_torque), ("worm_speed", worm_speed)):
-        quantity = quantity_of(Operation, key)
-        assert quantity is not None
-        try:
-            number = quantity.check(value, named=Named(), key=key)
-        except InputError as error:
-            raise InputError(f"{key} is {shown(value)}; {error}") from None
-        values["operation"][key] = f"{number!r} {quantity.unit}"
+    values = duty(case)
+    run_at(values, output_torque=output_torque, worm_speed=worm_speed)
     given = {apply(values, setting, case_tables()) for setting in listed(settings)}
     drop_begun_life(values, given)
+    complete(values)
     wanted = None if ratio is None else ratio_of(ratio)
     return proposals(values, wanted, rank, cut=cut, locks=locks)
 
 
 def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":
-    """Put cases side by side: what differs in what is asked and in what comes of it."""
+    """Put cases side by side: what differs in what is asked and in what comes of it.
+
+    Parameters
+    ----------
+    *cases : path or Case
+        Two or more: files, names of cases that ship, or cases.
+
+    Returns
+    -------
+    Comparison
+        Rows of what differs, a column a case.
+
+    Raises
+    ------
+    InputError
+        Fewer than two cases, of other kinds, or one that cannot be read.
+    """
     from asperity.start.compare import compare as side_by_side
 
     def answered(command: Command, case: Case) -> "Result":
@@ -287,7 +310,20 @@ def compare(*cases: str | os.PathLike[str] | Case) -> "Comparison":
 
 
 def check(case: str | os.PathLike[str], settings: Sequence[str] = ()) -> "tuple[Mistake, ...]":
-    """Return all mistakes of a case file, each with its line; none for one that can be used."""
+    """Return all mistakes of a case file, each with its line; none for one that can be used.
+
+    Parameters
+    ----------
+    case : path
+        A TOML file, or the name of a case that ships.
+    settings : sequence of str
+        Changes of the case, as with ``--set``.
+
+    Returns
+    -------
+    tuple of Mistake
+        Line, key and a sentence of each.
+    """
     from asperity.casefile.check import check_case
 
     return check_case(case, case_tables(), settings)[1]
@@ -302,6 +338,11 @@ def read(path: str | os.PathLike[str], settings: Sequence[str] = ()) -> "Case | 
         ``.nc`` is an answer, which can be drawn and shown again; everything else a case.
     settings : sequence of str
         Changes of a case, as with ``--set``.
+
+    Returns
+    -------
+    Case or Result
+        By the ending of the file.
     """
     if Path(path).suffix == ".nc":
         from asperity.results import read as read_answer
@@ -337,10 +378,7 @@ def _tables(what: Sequence[What]) -> "list[Any]":
     """Return the tables given, with those that models of sliding bodies hold."""
     from asperity.slider.model import Model
 
-    found: list[Any] = []
-    for given in what:
-        found += given.tables if isinstance(given, Model) else [given]
-    return found
+    return [t for given in what for t in (given.tables if isinstance(given, Model) else [given])]
 
 
 def _answer(name: str, what: Sequence[What], settings: Sequence[str], **options: Any) -> "Result":

@@ -13,6 +13,7 @@ from apparatus.rig_signals import NOISY, TORQUE, record, run_of
 
 from asperity.files.store import write_dataset
 from asperity.results import read
+from asperity.results.interval import Interval
 from asperity.tribometer.recording import Recorder, Source
 from asperity.tribometer.reduction.result import SegmentResult
 from asperity.tribometer.reduction.study import repeats
@@ -201,7 +202,7 @@ def test_repeats_of_a_cell_are_pooled():
     def measured(frequency, change):
         return SegmentResult(
             file="", mode="transverse", lubricant="oil", waveform="sine", commanded=frequency,
-            motor_voltage=1.0, torque_change=change, quality="good",
+            motor_voltage=1.0, torque_change=Interval(change, None, None), quality="good",
         )  # fmt: skip
 
     # Of 2 and 4 about 3, and of 10, 10 and 13 about 11: squares of 2 and 6, freedoms of 1 and 2.

@@ -13,9 +13,9 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.rating import rate_case
-from asperity.results.quantity import Number, Sentence
 from asperity.results.system import US, converted, shown_in, shown_table, shown_text
 from asperity.results.table import Column, Table
+from asperity.results.words import Number, Sentence
 
 PINT = {
     "uin": "microinch", "in2": "inch**2", "in3": "inch**3", "1/in": "1/inch", "in/rad": "inch",

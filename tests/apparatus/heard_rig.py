@@ -37,6 +37,7 @@ RANGES = {
     "acceleration": 5.0,
 }  # fmt: skip
 _BITS = 16  # counts: twelve bits in sixteen
+_ROUNDS = 3  # after which torques are those of the discs' own angles to 1e-6 N m
 _RISE = 0.15  # s in which discs start and stop, and vibration comes up
 
 
@@ -171,15 +172,17 @@ def made(given: Settings, fault: Callable[[Run], None] | None = None) -> Run:
     on, shaken = _risen(on, given.rate), _risen(shaken, given.rate)
     lasting = [_lasting(given, time.size, rng) for _ in range(2)]
     start_angles = rng.uniform(0.0, 2.0 * math.pi, 2)
-    speeds = _speed(given, TORQUE) / GEARS[0], _bronze_speed() / GEARS[1]
-    turned = [np.cumsum(on) / given.rate * speed for speed in speeds]
     share = 1.0 + given.drift * (time - 0.5 * total) / 3600.0
-    for angle, begun in zip(turned, start_angles, strict=True):
-        share += given.runout * np.cos(angle + begun)
-    force = TORQUE / RADII[0] * on * (1.0 - shaken) * share + lasting[0] / RADII[0] * on
-    torque = RADII[0] * force
-    speed = on * np.maximum(_speed(given, torque), 0.0)
     bronze = on * _bronze_speed()
+    speed, force = on * _speed(given, TORQUE), np.zeros(time.size)
+    for _ in range(_ROUNDS):
+        # A disc that is braked is behind, and so is its run-out.
+        swung = share.copy()
+        for turning, gear, begun in zip((speed, bronze), GEARS, start_angles, strict=True):
+            swung += given.runout * np.cos(np.cumsum(turning) / given.rate / gear + begun)
+        force = TORQUE / RADII[0] * on * (1.0 - shaken) * swung + lasting[0] / RADII[0] * on
+        speed = on * np.maximum(_speed(given, RADII[0] * force), 0.0)
+    torque = RADII[0] * force
     hum = given.hum * np.sin(2.0 * math.pi * 50.0 * time) + given.hum / 3.0 * np.sin(
         2.0 * math.pi * 150.0 * time
     )

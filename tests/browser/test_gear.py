@@ -181,7 +181,8 @@ def test_a_wheel_is_cut_and_its_lines_move_with_the_worm_where_nothing_draws_in_
     seen.page.add_init_script(NO_WEBGL)
     page = seen.open("flanks", case="gearset-3")
     page.get_by_role("button", name="cut the wheel").click()
-    page.get_by_text("the lines nearest to the worm").wait_for(timeout=LONGEST)
+    done(page, "what is set")
+    expect(page.get_by_text("the lines nearest to the worm")).to_be_visible()
     expect(page.get_by_text("no WebGL")).to_be_visible()
     lines = page.locator(".touching")
     before = lines.get_attribute("d")
@@ -197,18 +198,25 @@ def test_a_wheel_is_cut_and_its_lines_move_with_the_worm_where_nothing_draws_in_
     page.get_by_role("img", name="Line load").wait_for(timeout=LONGEST)
 
 
+def done(page, box):
+    """Wait until the reader's own answer stands where one that ships stood."""
+    said = page.get_by_label(box, exact=True).locator(".work [role=status]")
+    expect(said).to_contain_text("done after", timeout=LONGEST)
+
+
 def test_a_torque_ratio_stands_beside_its_balance_and_whether_it_settled(seen, server):
     page = seen.open("drive", case="drive-actuator")
     page.get_by_role("button", name="shake it").click()
-    page.get_by_text("Worth it?").wait_for(timeout=LONGEST)
+    done(page, "shaken")
     answer = answered(copied(page), server.folder)
     for key in ("torque_ratio", "torque_balance", "power_actuator_W", "saved_per_actuator_W_W"):
         assert shown(page, key) == pytest.approx(answer[key], rel=1e-12)
     expect(page.locator(".ratio")).to_contain_text("✓ settled")
-    for button, then in (("try each way", "least force on the teeth"),
-                         ("take the motor off", "Creep of the wheel")):  # fmt: skip
+    for button, box, then in (("try each way", "which way", "least force on the teeth"),
+                              ("take the motor off", "locking", "Creep of the wheel")):  # fmt: skip
         page.get_by_role("button", name=button).click()
-        page.get_by_text(then).first.wait_for(timeout=LONGEST)
+        done(page, box)
+        expect(page.get_by_text(then).first).to_be_visible()
     page.set_viewport_size({"width": 360, "height": 900})
     assert page.evaluate("document.documentElement.scrollWidth") == 360
 
@@ -216,7 +224,7 @@ def test_a_torque_ratio_stands_beside_its_balance_and_whether_it_settled(seen, s
 def test_a_job_says_that_something_was_set_since(seen):
     page = seen.open("drive", case="drive-actuator")
     page.get_by_role("button", name="shake it").click()
-    page.get_by_text("Worth it?").wait_for(timeout=LONGEST)
+    done(page, "shaken")
     field(page, "operation.output_torque", "50 N m")
     expect(page.get_by_text("something was set since")).to_be_visible()
     page.go_back()

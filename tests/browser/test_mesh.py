@@ -47,6 +47,25 @@ def test_teeth_and_threads_touch_where_it_is_said_and_slide_as_the_closed_form(s
     assert seen_so["unmoved"] == pytest.approx([0.0] * 9, abs=1e-12)
 
 
+PRESSED = """async () => {
+  const { pressedBy } = await import("/js/mesh.js");
+  const radius = [], face = [], pressure = [];
+  for (const z of [-5, -0.4, 0, 0.4, 5]) for (let k = 0; k <= 10; k += 1) {
+    radius.push(30 + k);
+    face.push(z);
+    pressure.push(Math.abs(z) > 1 ? 1e6 : 7 * (30 + k));
+  }
+  const at = pressedBy({ radius, face, pressure });
+  return [29, 30, 33.25, 40, 41].map((r) => at({ x: 0.6 * r, y: 0.8 * r }));
+}"""
+
+
+def test_the_pressure_on_the_line_is_that_of_the_middle_of_the_face_at_its_radius(seen):
+    page = seen.open("gear", case="gearset-3")
+    # Beyond the flank it is that of its edge.
+    assert page.evaluate(PRESSED) == pytest.approx([210, 210, 232.75, 280, 280])
+
+
 def test_it_moves_until_it_is_stopped_and_not_for_those_who_want_no_motion(seen_as):
     page = seen_as().open("gear", case="gearset-3")
     wheel = page.get_by_label("in mesh").locator("[data-of=wheel]")
@@ -71,6 +90,13 @@ def test_a_drive_has_four_ways_side_by_side_and_its_powers_as_strips(seen):
         "mean powers: motor 280 W, 50 %; actuator 283 W, 50 %; "
         "load 166 W, 29 %; friction 397 W, 71 %",
     )
+    # The line shows the pressure too, since the answer under load has it.
+    mesh = page.get_by_label("in mesh")
+    expect(mesh.get_by_text("m/s: sliding velocity")).to_be_visible()
+    slow = mesh.locator("svg.mesh path[stroke^=rgb]").first.get_attribute("stroke")
+    mesh.get_by_label("line", exact=True).select_option("pressure")
+    expect(mesh.get_by_text("MPa: largest pressure over a pitch")).to_be_visible()
+    assert mesh.locator("svg.mesh path[stroke^=rgb]").first.get_attribute("stroke") != slow
     page.get_by_role("button", name="take axial").click()
     expect(page.locator("#field-vibration-mode")).to_have_value("axial")
     expect(page.get_by_label("in mesh").get_by_text("along its axis")).to_be_visible()

@@ -129,7 +129,9 @@ def test_claims_are_found_by_words_and_verdict_and_say_what_makes_them(seen, ser
         settled(page)
         page.reload()
         expect(rows).to_have_count(1)
-        page.get_by_label("reproduced").check()
+        page.get_by_label("not made here").check()
+        expect(rows).to_have_count(1)
+        page.get_by_label("arithmetic").check()
         expect(rows).to_have_count(0)
     finally:
         shutil.rmtree(folder.parent)

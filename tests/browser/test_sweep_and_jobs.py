@@ -1,6 +1,7 @@
 """Grids, elastic blocks and the list of jobs in a browser."""
 
 import re
+from urllib.parse import parse_qs
 
 import pytest
 from apparatus.browser import answered, copied
@@ -40,6 +41,12 @@ def test_a_grid_that_is_solved_is_what_the_command_line_finds(seen, server):
     assert download.value.suggested_filename == "sweep.nc"
     page.reload()
     expect(page.get_by_text("6 of 6 points")).to_be_visible()
+    address = page.url
+    page.get_by_role("link", name="Jobs", exact=True).click()
+    page.locator(".jobs li").filter(has_text="velocity_ratio=2,").get_by_role("link").click()
+    expect(page.get_by_text("6 of 6 points")).to_be_visible()
+    state(page, DONE)
+    assert parse_qs(address.partition("?")[2]) == parse_qs(page.url.partition("?")[2])
 
 
 def test_points_that_no_grid_has_are_refused_also_from_an_address(seen):
@@ -109,6 +116,31 @@ def test_a_click_is_seen_at_once_and_what_was_solved_when_it_was_stopped_is_show
     expect(page.locator("figcaption").first).to_have_text(shown_then)
 
 
+LEFT = """async (jobs) => {
+  const { left } = await import("/js/work.js");
+  return jobs.map((job) => left({ state: "running", answered: false, ...job }));
+}"""
+
+
+def test_a_wait_tells_what_has_passed_and_the_rest_at_the_pace_so_far(seen):
+    page = seen.open("jobs")
+    jobs = [
+        {"done": 10, "total": 100, "seconds": 10},
+        # It has become slower: so has the rest.
+        {"done": 20, "total": 100, "seconds": 60},
+        {"done": 0, "total": 0, "seconds": 42},
+        {"done": 1, "total": 100, "seconds": 1},
+        {"state": "done", "done": 1, "total": 1, "seconds": 540},
+    ]
+    assert page.evaluate(LEFT, jobs) == [
+        "running, 10 of 100, for 10 s, about 90 s left",
+        "running, 20 of 100, for 60 s, about 4 min left",
+        "running for 42 s",
+        "running, 1 of 100, for 1 s",
+        "done after 9 min",
+    ]
+
+
 def test_a_job_is_deleted_with_its_files_once_that_is_confirmed(seen):
     page = seen.open(
         "sweep", case="body-shaken-along", x="vibration.velocity_ratio~3~9~2~log",
@@ -141,3 +173,20 @@ def test_a_block_is_marched_and_its_pressure_shown(seen, server):
     marched = page.get_by_label("Marched in time").locator("[data-key=ratio]").first
     ratio = float(marched.get_attribute("data-value"))
     assert ratio == pytest.approx(answer["ratio"], rel=1e-9)
+    # Its files stand on its screen, and the frames that were kept play.
+    box = page.get_by_label("Marched in time")
+    expect(box.get_by_role("button", name="block.nc", exact=True)).to_be_visible()
+    skin = box.locator("[data-of=skin]")
+    before = skin.inner_html()
+    page.wait_for_timeout(500)
+    assert skin.inner_html() != before
+    # It is listed with its picture, and opens where it belongs as it was asked for.
+    page.get_by_role("link", name="Jobs", exact=True).click()
+    listed = page.locator(".jobs li").filter(has_text="[2, 2, 2]")
+    expect(listed.get_by_role("img", name="what block")).to_be_visible()
+    listed.get_by_role("link", name="block block-shaken-along").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("Elastic block")
+    expect(page.locator(".work [role=status]").nth(1)).to_have_text(DONE)
+    expect(
+        page.get_by_label("Marched in time").locator("[data-key=ratio]").first
+    ).to_have_attribute("data-value", str(ratio))

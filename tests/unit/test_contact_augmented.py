@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from asperity.contact.candidates.newton import look
+from asperity.contact.candidates.records import Answer, Candidates, Laws, Work
 from asperity.contact.increment import ContactState, IncrementProblem
-from asperity.contact.increment.equations import Increment
 from asperity.contact.interface.counter_motion import SurfaceMotion
 from asperity.contact.interface.friction import DAHL, PointFriction
 from asperity.contact.interface.normal import NormalLaw
@@ -16,7 +17,7 @@ from asperity.mesh import box
 FACE = contact_surface(box([4e-3, 3e-3, 1e-3], [4, 3, 1], 1), "bottom")
 
 
-def test_how_far_assumed_tractions_are_off_is_the_root_of_their_squared_integral():
+def test_how_far_assumed_tractions_are_off_is_their_squared_integral():
     nodes = len(FACE.positions)
     law = PointFriction(DAHL, 0.3, 7e-8, VECTOR)
     problem = IncrementProblem(
@@ -27,9 +28,15 @@ def test_how_far_assumed_tractions_are_off_is_the_root_of_their_squared_integral
     # A millimetre above the surface the laws give no traction to any that is assumed.
     free = np.tile([0.0, 0.0, 1e-3], nodes)
     numbers = SurfaceMotion().numbers()
-    increment = Increment(problem, free, numbers, state.committed(state.multiplier))
     assumed = 1e6 * np.random.default_rng(3).normal(size=(problem.points, 3))
-    found = increment.augmented(assumed, np.zeros_like(free), 1e14)
-    assert np.all(found.points.traction == 0.0)
-    root = np.sqrt((FACE.weights.ravel() * (assumed**2).sum(axis=1)).sum())
-    assert found.off == pytest.approx(root, rel=1e-9)
+    answer = Answer.workspace(problem.body, 1).of(0)._replace(free=free)
+    answer.force[:] = assumed * problem.body.weights[:, None]
+    laws = Laws(problem.interface, problem.tolerance, 0.0, problem.most_iterations)
+    off = look(
+        problem.body, Candidates.whole(problem.body), laws, numbers,
+        state.committed(state.multiplier), answer, Work.workspace(problem.body, problem.points),
+        True, 1e14,
+    )  # fmt: skip
+    assert np.all(answer.traction == 0.0)
+    squares = (FACE.weights.ravel() * (assumed**2).sum(axis=1)).sum()
+    assert off == pytest.approx(squares, rel=1e-9)

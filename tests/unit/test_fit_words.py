@@ -105,7 +105,7 @@ def test_without_deviations_intervals_follow_from_the_residuals(tmp_path, monkey
     # Student's distribution of four degrees of freedom, where known deviations take 1.96.
     known = solved(tmp_path, monkeypatch, values, sd=float(result.deviation[0]))
     for own, other in zip(result.parameters, known.parameters, strict=True):
-        widths = [math.log(one.ci95[1] / one.ci95[0]) for one in (own, other)]
+        widths = [math.log(one.ends[1] / one.ends[0]) for one in (own, other)]
         assert widths[0] / widths[1] == pytest.approx(2.776 / 1.960, rel=0.02)
 
 
@@ -119,14 +119,14 @@ def test_of_many_sets_without_deviations_intervals_hold_the_truth(tmp_path, monk
         noise = 0.01 * np.random.default_rng(seed).normal(size=6)
         data = dataclasses.replace(problem.data, values=curve(K, 70e-9, 0.2) + noise)
         (one,) = answer(dataclasses.replace(problem, data=data), Run()).parameters
-        held.append(one.ci95[0] <= 70e-9 <= one.ci95[1])
+        held.append(one.ends[0] <= 70e-9 <= one.ends[1])
     assert 34 <= sum(held) <= 40
 
 
 def test_an_exact_table_without_deviations_has_narrow_intervals(tmp_path, monkeypatch):
     (one, _) = solved(tmp_path, monkeypatch, TRUE, sd=None).parameters
     assert one.value == pytest.approx(70e-9, rel=1e-5)
-    assert one.ci95[0] < one.value < one.ci95[1]
+    assert one.ends[0] < one.value < one.ends[1]
 
 
 @pytest.mark.parametrize(

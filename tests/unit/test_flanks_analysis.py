@@ -27,7 +27,7 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.rating import Operation
-from asperity.results.quantity import text_of
+from asperity.results.words import text_of
 
 CASE = read_case("gearset-3b", case_tables(), ())
 GEARSET = CASE.require(Gearset)

@@ -83,7 +83,7 @@ def test_many_steps_go_together_as_arrays_and_give_what_each_gives_alone(monkeyp
             if isinstance(one.value, float):
                 assert one.value == pytest.approx(other.value, rel=1e-12), one.key
     for one, other in zip(parts, alone.duty_cycle, strict=True):
-        assert one == pytest.approx(other, rel=1e-12)
+        assert one.to_json() == pytest.approx(other.to_json(), rel=1e-12)
 
 
 def test_a_step_without_an_answer_among_many_leaves_the_wear_without_one():

@@ -140,9 +140,9 @@ def covered(seeds, size, path):
         )
         for segment, truth in zip(reduce_recording(one)[1], truths(given), strict=True):
             for name, value, (low, high) in (
-                ("torque", segment.torque_change, segment.torque_change_ci95),
-                ("power", segment.power_change, segment.power_change_ci95),
-                ("level", segment.torque_before, segment.torque_before_ci95),
+                ("torque", segment.torque_change.value, segment.torque_change.ends),
+                ("power", segment.power_change.value, segment.power_change.ends),
+                ("level", segment.torque_before.value, segment.torque_before.ends),
             ):
                 held.append(low <= truth[name] <= high)
                 over.append((value - truth[name]) / (high - low))
@@ -161,11 +161,8 @@ def test_a_zero_that_is_off_and_drifts_is_taken_off(tmp_path):
 @pytest.mark.parametrize("size", [0.01, 0.02])
 def test_intervals_hold_the_truth_whatever_the_zero(tmp_path, size):
     held, _ = covered(range(200), size, tmp_path / "run.nc")
-    # 0.97 is asked for: intervals are wider than they need be (0.972 and 0.973), and why is not
-    # proven. With the deviation of run-out over root six, of drift over root three they are 0.975
-    # and 0.973, and 0.975 where no zero is off. This bound is what stands, no evidence for what
-    # is asked.
-    assert 0.93 <= np.mean(held) <= 0.98
+    # 1,800 intervals: of files with nine each, the share has a deviation of 0.006.
+    assert 0.93 <= np.mean(held) <= 0.97
 
 
 def zero(times, values, deviation=1e-3):
@@ -208,7 +205,7 @@ def test_a_zero_takes_the_place_of_the_offset_of_its_calibration(tmp_path):
     widths = []
     for settings in ((), (unsure,)):
         one = reducible(path, 'plan.frequencies=["200 Hz","210 Hz","220 Hz"]', *settings)
-        low, high = reduce_recording(one)[1][0].torque_change_ci95
+        low, high = reduce_recording(one)[1][0].torque_change.ends
         widths.append(high - low)
     # The gain is not in a change in percent, and the offset went with the zero.
     assert widths[1] == pytest.approx(widths[0], rel=0.02)

@@ -143,13 +143,13 @@ def test_an_encoder_that_lags_costs_no_segment_and_leans_on_no_speed(tmp_path):
     assert [one.quality for one in found] == ["good", "good"]
     # What the rig was fitted to, 2.5 and 5.5 mm/s at 750 Hz; too early the second one is 4.7.
     at_750 = found[1]
-    assert at_750.sliding_velocity_before == pytest.approx(2.5, abs=0.5)
-    assert at_750.sliding_velocity_with == pytest.approx(5.5, abs=0.25)
-    low, high = at_750.sliding_velocity_with_ci95
+    assert at_750.sliding_velocity_before.value == pytest.approx(2.5, abs=0.5)
+    assert at_750.sliding_velocity_with.value == pytest.approx(5.5, abs=0.25)
+    low, high = at_750.sliding_velocity_with.ends
     assert low < 5.5 < high
     hasty = case.replace(["reduction.speed_settling=1 s"])
     early = reduce_recording(Reducible(opened, hasty))[1][1]
-    assert early.sliding_velocity_with < 5.2
+    assert early.sliding_velocity_with.value < 5.2
     slow = case.replace(["reduction.speed_settling=4 s"])
     assert any("before reduction.speed_settling = 4 s" in flag
                for flag in reduce_recording(Reducible(opened, slow))[1][1].flags)  # fmt: skip

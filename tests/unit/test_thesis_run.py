@@ -29,10 +29,15 @@ MODULE = """
 import os, time
 import numpy as np
 from asperity.runs.workers import Task
+from asperity.thesis import said
 from asperity.thesis.exhibits import claim, figure, table
 from asperity.thesis.products import Finding, Grid, labelled
 
 HERE = os.path.dirname(__file__)
+words = said._read()
+words["figure"]["9.1"] = {"title": "Figure", "caption": "F."}
+words["table"] |= dict.fromkeys(("9.1", "9.2"), {"title": "Table", "caption": "T."})
+words["claim"]["9.3"] = {"section": "9", "claim": "Text.", "thesis": "1"}
 
 def note(name):
     with open(os.path.join(HERE, "made"), "a") as file:
@@ -42,24 +47,24 @@ def draw(dataset):
     from matplotlib.figure import Figure
     return Figure()
 
-@figure("9.1", "Figure", "F.", draw, "figure 9.1")
+@figure("9.1", draw, "figure 9.1")
 def drawn(name, full=False):
     note(name + " in full" * full)
     return labelled(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"]
 
-@table("9.1", "Table", "T.")
+@table("9.1")
 def calculated():
     note("table 9.1")
     return Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("gone", "")), ("how",))
 
-@table("9.2", "Table", "T.")
+@table("9.2")
 def harmed():
     if os.path.exists(os.path.join(HERE, "harm")):
         raise ZeroDivisionError("nothing to divide by")
     note("table 9.2")
     return Grid(("symbol",), (("q_1",),), ())
 
-@claim("9.3", "9", "Text.", "1")
+@claim("9.3")
 def claimed():
     note("claim 9.3")
     return Finding.judged({"one": True}, "1", "Because.", {"ratio": 1.0}, ["asperity cases"])

@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.block.problem import BlockProblem
-from asperity.block.series import Frame, write_block_series
+from asperity.block.series import Frame, packed_series, write_block_series
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
@@ -16,7 +16,21 @@ from asperity.slider.result import inputs as slider_inputs
 
 
 class BlockResult(SlideResult):
-    """The answer for one elastic block: that of a sliding body, and what only a contact has."""
+    """The answer for one elastic block: that of a sliding body, and what only a contact has.
+
+    Attributes
+    ----------
+    problem : BlockProblem
+        What was asked.
+    march_seconds : float
+        That the increments of the march took, s.
+    timed : int
+        Increments that took them.
+    point_pressure : ndarray, shape (q,)
+        Mean in the window at the integration points of the contact, Pa.
+    frames : tuple of Frame
+        Of the last cycles, for the VTU files.
+    """
 
     title: ClassVar[str] = "Elastic block"
     stem: ClassVar[str] = "block"
@@ -155,6 +169,10 @@ class BlockResult(SlideResult):
             f"{len(body.mode_frequency)} modes,\n{self.scheme}, law {self.law}, "
             f"{self.increments} increments"
         )
+
+    def attached(self) -> Mapping[str, bytes]:
+        """Return the file that the block is drawn from in motion, where frames of it were kept."""
+        return {"frames.bin": packed_series(self.problem, self.frames)} if self.frames else {}
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and pictures, and an animation for ParaView."""

@@ -10,6 +10,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.contact.elastic.modes import whole_shapes
 from asperity.errors import InputError
+from asperity.mesh.packed import floats, indices, packed
 from asperity.mesh.vtu import Data, write_series
 
 if TYPE_CHECKING:
@@ -38,6 +39,42 @@ def write_block_series(problem: "BlockProblem", frames: tuple[Frame, ...], path:
     if not frames:
         raise InputError("the result has no frames to write; solve with history=True")
     return write_series(path, problem.mesh, fields(problem, frames))
+
+
+def packed_series(problem: "BlockProblem", frames: tuple[Frame, ...]) -> bytes:
+    """Return a block's frames in one small file that a program draws from.
+
+    Of the skin's corner nodes ``points`` (m) and ``quads``; ``deformation`` (m) of each point and
+    ``pressure`` (Pa) of each contact node in every frame; in the header the frames' times (s)
+    and drive forces (N).
+
+    Parameters
+    ----------
+    problem : BlockProblem
+        The block.
+    frames : tuple of Frame
+        At least one.
+    """
+    if not frames:
+        raise InputError("the result has no frames to draw; solve with history=True")
+    mesh, contact = problem.mesh, problem.body.nodes
+    nodes, quads = np.unique(mesh.skin(), return_inverse=True)
+    told = [
+        {name: np.asarray(of) for name, of in data.items()} for _, data in fields(problem, frames)
+    ]
+    header = {
+        "time_s": [frame.time for frame in frames],
+        "drive_force_N": [frame.drive_force for frame in frames],
+    }
+    return packed(
+        header,
+        {
+            "points": floats(mesh.points[nodes]),
+            "quads": indices(quads.reshape(-1, 4)),
+            "deformation": floats(np.array([data["deformation"][nodes] for data in told])),
+            "pressure": floats(np.array([data["pressure_Pa"][contact] for data in told])),
+        },
+    )
 
 
 def fields(problem: "BlockProblem", frames: tuple[Frame, ...]) -> Iterator[tuple[float, Data]]:

@@ -68,7 +68,18 @@ class Case:
     @overload
     def require(self, table: type[T]) -> T: ...
     def require(self, table: str | type[T]) -> Table | T:
-        """Return a table by name or class; raises InputError if the case does not have it."""
+        """Return a table by name or class; raises InputError if the case does not have it.
+
+        Parameters
+        ----------
+        table : str or type of Table
+            Its name, or its class.
+
+        Returns
+        -------
+        Table
+            Of that class.
+        """
         name = table if isinstance(table, str) else table.table
         if name not in self.tables:
             raise InputError(f"{self.source}: the table [{name}] is missing; add it")
@@ -79,16 +90,56 @@ class Case:
     @overload
     def get(self, table: type[T], default: None = None) -> T | None: ...
     def get(self, table: type[T], default: T | None = None) -> T | None:
-        """Return a table by its class, or the default if the case does not have it."""
+        """Return a table by its class, or the default if the case does not have it.
+
+        Parameters
+        ----------
+        table : type of Table
+            Its class.
+        default : Table, optional
+            What stands in for it.
+
+        Returns
+        -------
+        Table or None
+            Of that class.
+        """
         return self.require(table) if table.table in self.tables else default
 
     def origin(self, key: str) -> str:
-        """Return what gave the value of a ``table.key``: a setting, or else the file."""
+        """Return what gave the value of a ``table.key``: a setting, or else the file.
+
+        Parameters
+        ----------
+        key : str
+            ``table.key``.
+
+        Returns
+        -------
+        str
+            The file's name, or ``--set`` with what was set.
+        """
         setting = self.settings.get(key)
         return self.source if setting is None else f"--set {setting}"
 
     def replace(self, settings: Iterable[str]) -> "Case":
-        """Return the case with ``table.key=value`` settings applied, all validated afterwards."""
+        """Return the case with ``table.key=value`` settings applied, all validated afterwards.
+
+        Parameters
+        ----------
+        settings : iterable of str
+            ``table.key=value``, units with their numbers.
+
+        Returns
+        -------
+        Case
+            Another one; this one stays as it is.
+
+        Raises
+        ------
+        InputError
+            A key that no table has, or a value that is not allowed.
+        """
         raw = {name: dict(entries) for name, entries in self.raw.items()}
         given = dict(self.settings)
         for setting in listed(settings):
@@ -105,6 +156,21 @@ class Case:
 
         This is the fast way for many cases: only the tables concerned are validated. None removes
         a key; one form of the same thing replaces another.
+
+        Parameters
+        ----------
+        values : mapping of str to object
+            Values by ``table.key``, in SI; None removes a key.
+
+        Returns
+        -------
+        Case
+            Another one; this one stays as it is.
+
+        Raises
+        ------
+        InputError
+            A key that no table has, or a value that is not allowed.
         """
         changed: dict[str, dict[str, Any]] = {}
         raw = dict(self.raw)
@@ -206,6 +272,11 @@ def read_case(
         ``table.key=value`` to add or replace. What has a unit needs it, as in the file; an angle
         without one is in degrees. A relative file name starts at the working directory, where one
         in the file starts at the file's folder.
+
+    Returns
+    -------
+    Case
+        Its tables, and what it was read from.
 
     Raises
     ------

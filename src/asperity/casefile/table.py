@@ -36,6 +36,8 @@ class Table(pydantic.BaseModel):
 
     Parameters
     ----------
+    *arguments
+        Refused: every key is named.
     units : str, sequence of str or mapping, optional
         What bare numbers are in: ``"SI"``, units such as ``"mm, rpm"``, or a unit by key. Left
         out, what has a unit must be text such as ``"75 mm"`` or a quantity of pint.
@@ -79,7 +81,20 @@ class Table(pydantic.BaseModel):
 
     @classmethod
     def model_validate(cls, obj: Any, **options: Any) -> Self:
-        """Validate a mapping of keys to values, bare numbers in SI; raises InputError."""
+        """Validate a mapping of keys to values, bare numbers in SI; raises InputError.
+
+        Parameters
+        ----------
+        obj : mapping of str to object
+            Values by key.
+        **options
+            Of `pydantic.BaseModel.model_validate`.
+
+        Returns
+        -------
+        Table
+            Of the class it is called on.
+        """
         cls.built()
         try:
             return super().model_validate(obj, **options)
@@ -97,8 +112,13 @@ class Table(pydantic.BaseModel):
             Values by key. One form of the same thing replaces another; None removes a key.
         deep : bool
             Without meaning: what a table holds cannot be changed.
-        units
+        units : str, sequence of str or mapping, optional
             As in the constructor, for the numbers of `update`.
+
+        Returns
+        -------
+        Table
+            Of the same class.
         """
         replaced: set[str] = set()
         for key, value in (update or {}).items():
@@ -144,7 +164,18 @@ class Table(pydantic.BaseModel):
 
     @classmethod
     def forms(cls, given: Collection[str]) -> Iterator[str]:
-        """Yield a sentence for each thing that is given in two forms, or in none."""
+        """Yield a sentence for each thing that is given in two forms, or in none.
+
+        Parameters
+        ----------
+        given : collection of str
+            Keys that have a value.
+
+        Yields
+        ------
+        str
+            What to keep or to add.
+        """
         for group in (*cls.alternatives, *cls.required_alternatives):
             found = [f"{cls.table}.{key}" for key in group if key in given]
             if len(found) > 1:
@@ -161,7 +192,18 @@ class Table(pydantic.BaseModel):
 
     @classmethod
     def sentence(cls, detail: ErrorDetails) -> str:
-        """Return what is wrong as a line that begins with ``table.key``."""
+        """Return what is wrong as a line that begins with ``table.key``.
+
+        Parameters
+        ----------
+        detail : dict
+            One of pydantic's errors.
+
+        Returns
+        -------
+        str
+            What was given and what is allowed.
+        """
         return " ".join(cls._sentence(detail).split())
 
     @classmethod
@@ -209,12 +251,38 @@ def trouble_with(value: object) -> str:
 
 
 def same_thing(model: type[Table], key: str) -> set[str]:
-    """Return the key and those that are other forms of the same thing."""
+    """Return the key and those that are other forms of the same thing.
+
+    Parameters
+    ----------
+    model : type of Table
+        The table.
+    key : str
+        Of the table.
+
+    Returns
+    -------
+    set of str
+        The key alone where it has no other form.
+    """
     groups = (*model.alternatives, *model.required_alternatives)
     return {key}.union(*(group for group in groups if key in group))
 
 
 def names_file(model: type[Table], key: str) -> bool:
-    """Whether a key's value is the name of a file."""
+    """Whether a key's value is the name of a file.
+
+    Parameters
+    ----------
+    model : type of Table
+        The table.
+    key : str
+        Of the table.
+
+    Returns
+    -------
+    bool
+        False of a key that the table does not have.
+    """
     field = model.model_fields.get(key)
     return field is not None and Path in (field.annotation, *get_args(field.annotation))

@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from asperity.cli import outcome
+from asperity.cli import begin, outcome
 from asperity.cli.helped import as_written
 from asperity.cli.made import made
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
@@ -28,8 +28,6 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
     help="What imposed vibration does to friction between sliding surfaces.",
 )
-_TORQUE = typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
-_SPEED = typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
 
 
 @app.callback(invoke_without_command=True)
@@ -156,72 +154,8 @@ def cases(
         print_cases(as_json=as_json)
 
 
-@app.command()
-@reported
-def new(
-    kind: Annotated[
-        str, typer.Argument(metavar="KIND", help="gear, slide, block, drive, rig or bearing.")
-    ],
-    file: Annotated[
-        str, typer.Argument(metavar="FILE", help="The file to write; KIND.toml if left out.")
-    ] = "",
-    ratio: Annotated[
-        str, typer.Option("--ratio", metavar="RATIO", help="Of a gear's speeds; 40 if left out.")
-    ] = "",
-    output_torque: Annotated[str | None, _TORQUE] = None,
-    worm_speed: Annotated[str | None, _SPEED] = None,
-    read: Annotated[
-        str, typer.Option("--from", metavar="FILE.rexs", help="A gear from another program's REXS.")
-    ] = "",
-    settings: SetOption = None,
-    defaults: Annotated[bool, typer.Option("--defaults", help="Ask nothing.")] = False,
-    as_json: JsonOption = False,
-) -> None:
-    """Write a commented case file of your own, asking what is to be in it.
-
-    A gearset is sized from ratio, torque and speed.
-    """
-    from asperity.cli.new import new as run
-
-    path = Path(file) if file else None
-    asked = {"output_torque": output_torque, "worm_speed": worm_speed}
-    run(kind, path, asked, settings or (), ratio, read, defaults=defaults, as_json=as_json)
-
-
-@app.command()
-@reported
-def size(
-    output_torque: Annotated[str, _TORQUE],
-    worm_speed: Annotated[str, _SPEED],
-    ratio: Annotated[
-        str,
-        typer.Option("--ratio", metavar="RATIO", help="Of the speeds; else requirements.ratio."),
-    ] = "",
-    rank: Annotated[
-        str, typer.Option("--rank", metavar="BY", help="size, efficiency or margin.")
-    ] = "size",
-    locks: Annotated[
-        str, typer.Option("--locks", metavar="WHEN", help="rest or motion: it must lock itself.")
-    ] = "",
-    uncut: Annotated[
-        bool, typer.Option("--uncut", help="Do not look whether a hob cuts each wheel.")
-    ] = False,
-    settings: SetOption = None,
-    as_json: JsonOption = False,
-    out: OutOption = None,
-) -> None:
-    """Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.
-
-    What --set says of starts, teeth, centre distance, module, diameter factor or profile shift is
-    held. The wheels of those that are shown are cut; the first time of all that takes half a
-    minute.
-
-    With --out also size.json, size.nc and a case file for each proposal.
-    """
-    from asperity.cli.new import size as run
-
-    asked = {"output_torque": output_torque, "worm_speed": worm_speed}
-    run(ratio, asked, settings or (), rank, locks, cut=not uncut, as_json=as_json, out=out)
+app.command()(begin.new)
+app.command()(begin.size)
 
 
 @app.command()
@@ -331,6 +265,19 @@ def bearings(as_json: JsonOption = False) -> None:
     from asperity.shafts.steel import ShaftSteel
 
     print_library((RollingBearing, ShaftSteel), as_json=as_json)
+
+
+@app.command()
+@reported
+def hobs(as_json: JsonOption = False) -> None:
+    """List the hobs that data files hold, which requirements.hobs = "own" takes, with source.
+
+    A file has tables such as [hob."4 x 40"] with axial_module and worm_pitch_diameter.
+    """
+    from asperity.cli.lists import print_library
+    from asperity.gearset.shelf import ShelfHob
+
+    print_library((ShelfHob,), as_json=as_json)
 
 
 @app.command()

@@ -1,21 +1,20 @@
-"""What ``asperity new`` and ``asperity size`` do."""
+"""What ``asperity new`` does."""
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from pathlib import Path
 
 from asperity.casefile.case import Case, apply
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, plain
-from asperity.files.store import output_folder, write_text
+from asperity.files.store import write_text
 from asperity.rating.parameters import Operation
 from asperity.start.bearing import KIND as BEARING
 from asperity.start.bearing import bearing_text
-from asperity.start.gear import MACRO, begun, drop_begun_life, proposals, ratio_of
+from asperity.start.gear import MACRO, drop_begun_life, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
-from asperity.studies.proposals import Proposals
 
 
 def new(
@@ -49,7 +48,9 @@ def new(
     values, told = kind.begun(), tuple[str, ...]()
     if read:
         values, told = _received(name, read, values, ratio)
-    given = _given(values, asked, settings)
+    given = given_to(values, asked, settings)
+    if ratio and "requirements" in kind.values:
+        given |= {apply(values, f"requirements.ratio={ratio_of(ratio):g}", case_tables())}
     wanted = ratio or values.get("requirements", {}).get("ratio") or RATIO
     if not defaults and not read and sys.stdin is not None and sys.stdin.isatty() and not as_json:
         for question in kind.questions:
@@ -57,7 +58,9 @@ def new(
                 if "requirements.ratio" not in given:
                     wanted = ratio or _asked_ratio(question)
             elif question.path not in given:
+                _follow(kind, values, given, question.path)
                 _ask(question, values)
+    _follow(kind, values, given)
     remarks = ["Every key that stands behind a # may be given as well; what it says is assumed."]
     remarks += told
     if kind.case:
@@ -81,6 +84,14 @@ def new(
         operation = case.get(Operation)
         if operation and operation.wear_assumed:
             show.print_text(f"\n{operation.wear_assumed}")
+
+
+def _follow(kind: Kind, values: Values, given: Collection[str], only: str = "") -> None:
+    """Let what is still empty follow from what others are by now."""
+    for path, text in kind.follows.items():
+        table, _, key = path.partition(".")
+        if path in (only or path,) and path not in given and not values[table].get(key):
+            values[table][key] = text.format_map(values)
 
 
 def _received(name: str, file: str, begun: Values, ratio: str) -> tuple[Values, tuple[str, ...]]:
@@ -127,50 +138,8 @@ def _new_bearing(
         show.print_text(f"{file} is written; go on with\n\n  asperity --materials {file} bearings")
 
 
-def size(
-    ratio: str,
-    asked: Mapping[str, str],
-    settings: Sequence[str],
-    rank: str,
-    locks: str,
-    *,
-    cut: bool,
-    as_json: bool,
-    out: Path | None,
-) -> None:
-    """Print gearsets for a ratio and settings, and write each one as a case.
-
-    An empty ratio is that of ``requirements``.
-    What is asked is by key of the operation; ``cut`` leaves out what no hob cuts.
-    """
-    values = begun()
-    _given(values, asked, settings)
-    found = proposals(values, ratio_of(ratio) if ratio else None, rank, cut=cut, locks=locks)
-    if as_json:
-        show.print_json(found.to_json())
-    else:
-        show.print_tables(found.tables())
-    written = None if out is None else _written(found, values, out)
-    if written is not None:
-        show.note(written)
-
-
-_OTHER_FORMS = ("worm_pitch_diameter", "profile_shift")
+OTHER_FORMS = ("worm_pitch_diameter", "profile_shift")
 """Of what a proposal says."""
-
-
-def _written(found: Proposals, values: Values, out: Path) -> str:
-    """Write proposals to a folder, each also as a case; returns what is to be said of it."""
-    folder = output_folder(out)
-    kind, names = kind_of("gear"), found.write(folder, pictures="")
-    for place, proposal in enumerate(found.found, 1):
-        kept = {k: v for k, v in values["gearset"].items() if k not in _OTHER_FORMS}
-        mine = {**values, "gearset": {**kept, **proposal.keys}}
-        tables = (*kind.tables, *(name for name in mine if name not in kind.tables))
-        text = case_text(f"Proposal {place}", mine, case_tables(), tables)
-        names.append(write_text(folder / f"proposal-{place}.toml", text).name)
-    return f"written to {folder}: {', '.join(names)}"
-
 
 _FORMS = {
     "output_torque": ("output_torque", "input_power", "input_torque"),
@@ -179,7 +148,7 @@ _FORMS = {
 """What of the operation has an option, and what would take its place."""
 
 
-def _given(values: Values, asked: Mapping[str, str | None], settings: Sequence[str]) -> Set[str]:
+def given_to(values: Values, asked: Mapping[str, str | None], settings: Sequence[str]) -> Set[str]:
     """Apply what is asked of the operation, and settings; returns their keys."""
     keys = set()
     for setting in settings:
@@ -211,7 +180,7 @@ def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:
     best = found.found[0]
     # Behind the name, before the materials.
     gearset = values["gearset"]
-    kept = {key: value for key, value in gearset.items() if key not in (*MACRO, *_OTHER_FORMS)}
+    kept = {key: value for key, value in gearset.items() if key not in (*MACRO, *OTHER_FORMS)}
     values["gearset"] = {"name": kept.pop("name", ""), **best.keys, **kept}
     judged = (
         "the smallest that holds by every standard"

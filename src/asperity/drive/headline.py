@@ -2,7 +2,7 @@
 
 import math
 
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 
 BALANCED = 5e-3
 """Of the load: what a settled wheel is out of balance by at most."""

@@ -10,7 +10,7 @@ from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.ledger import Ledger
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 from asperity.slider.result import table_inputs
 
 EQUAL = 5e-3  # of a power, as of what makes a state settled
@@ -84,6 +84,11 @@ class DriveResult(Drawn):
 
     A torque ratio means nothing without ``torque_balance`` and ``settled``: while the wheel coasts
     or speeds up, the worm may carry any torque.
+
+    Attributes
+    ----------
+    problem : DriveProblem
+        What was asked.
     """
 
     title: ClassVar[str] = "Worm gearset under vibration"

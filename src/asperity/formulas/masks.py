@@ -23,9 +23,9 @@ class Masked(NamedTuple):
 
     Attributes
     ----------
-    values : ndarray of float
+    values : ndarray of float, shape of the arguments
         The results; NaN where there is none.
-    reason : ndarray of int
+    reason : ndarray of int, the same shape
         0 where there is a result, else the code of the reason.
     legend : mapping of int to str
         The codes as sentences.
@@ -99,6 +99,11 @@ def masking(mask: Mask | tuple[int, ...] = ()) -> Iterator[Mask]:
     ----------
     mask : Mask or tuple of int
         What keeps the reasons, or the shape of a new one.
+
+    Yields
+    ------
+    Mask
+        The reasons so far.
 
     Examples
     --------

@@ -129,7 +129,20 @@ class Symbol:
         return f"it must be {text}{'; ' if self.because else ''}{self.because}"
 
     def within(self, system: str) -> tuple["Symbol", float]:
-        """Return the symbol in a system of units, and what its numbers are to be divided by."""
+        """Return the symbol in a system of units, and what its numbers are to be divided by.
+
+        Parameters
+        ----------
+        system : str
+            ``'si'`` or the system of the symbol's own unit.
+
+        Returns
+        -------
+        symbol : Symbol
+            With bounds and unit of that system.
+        size : float
+            What a number in that system is divided by to be in the unit the bodies are written in.
+        """
         if isinstance(self.unit, str):
             return self, 1.0
         size = self.unit.scale(system)

@@ -5,7 +5,10 @@ operation that made it. What is written of them follows from the calculation its
 is no second copy of a formula.
 """
 
-from collections.abc import Callable, Mapping
+import functools
+import math
+import operator
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -141,6 +144,19 @@ class Traced:
         return _np.equal(self, other)
 
     __hash__ = object.__hash__
+
+
+def number(value: Any) -> Any:
+    """Return a float, or a traced number as it is."""
+    return value if isinstance(value, Traced) else float(value)
+
+
+def total(values: Iterable[Any]) -> Any:
+    """Return the sum of numbers, exact to the last digit unless one of them is traced."""
+    every = list(values)
+    if any(isinstance(one, Traced) for one in every):
+        return functools.reduce(operator.add, every)
+    return math.fsum(every)
 
 
 def _value(one: Any) -> Any:

@@ -101,16 +101,6 @@ OVERSHOOT_BOUND = 0.02
 
 
 @kernel
-def half_step(sx, sy, dx, dy, rate):
-    """Deflection half a step on, for the midpoint rate: direction, and what divides its length.
-
-    To second order ``(s + D/2)/(1 + rate/2)``: the direction needs no exponential, and a huge slip
-    points it the right way.
-    """
-    return sx + 0.5 * dx, sy + 0.5 * dy, 1.0 + 0.5 * rate
-
-
-@kernel
 def rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law):
     """Relaxation over a step, ``a dt/s_max``, of an asperity along the unit vector ``e``."""
     if law == SPLIT:
@@ -125,39 +115,43 @@ def rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
-def step_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
-    """Relaxation over a step of ``split`` and ``unsplit``, taken half-way through it."""
+def half_way(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Size of the deflection before a step; deflection half-way, and what divides its length.
+
+    Half-way is, to second order, ``(s + D/2)/(1 + rate/2)``: the direction needs no exponential,
+    and a huge slip points it the right way.
+    """
+    size = math.sqrt(sx * sx + sy * sy)
     rate = 0.0
-    if exponent != 1.0:
-        # The size half-way matters only where the exponent makes the rate depend on it.
-        size = math.sqrt(sx * sx + sy * sy)
-        if size > TINY:
-            rate = rate_along(
-                sx / size, sy / size, min(size, 1.0), d1x, d1y, d2x, d2y, exponent, law
-            )
-    hx, hy, scale = half_step(sx, sy, d1x + d2x, d1y + d2y, rate)
+    # The size half-way matters only where the exponent makes the rate depend on it.
+    if exponent != 1.0 and size > TINY:
+        rate = rate_along(sx / size, sy / size, min(size, 1.0), d1x, d1y, d2x, d2y, exponent, law)
+    return size, sx + 0.5 * (d1x + d2x), sy + 0.5 * (d1y + d2y), 1.0 + 0.5 * rate
+
+
+@kernel
+def step_rate(size, hx, hy, scale, sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Relaxation over a step of ``split`` and ``unsplit``, taken `half_way` through it."""
     half = math.sqrt(hx * hx + hy * hy)
-    if half <= TINY:
+    if half > TINY:
+        share = min(half / scale, 1.0)
+        return rate_along(hx / half, hy / half, share, d1x, d1y, d2x, d2y, exponent, law)
+    if size > TINY:
         # Half-way the asperity passes through zero, on the line it stands on.
-        size = math.sqrt(sx * sx + sy * sy)
-        if size <= TINY:
-            return 0.0
         return rate_along(sx / size, sy / size, 0.0, d1x, d1y, d2x, d2y, exponent, law)
-    share = min(half / scale, 1.0)
-    return rate_along(hx / half, hy / half, share, d1x, d1y, d2x, d2y, exponent, law)
+    return 0.0
 
 
 @kernel
 def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
     """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
-    dx = d1x + d2x
-    dy = d1y + d2y
-    rate = step_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
-    decay, gain = relaxation(rate)
-    sx1 = sx * decay + dx * gain
-    sy1 = sy * decay + dy * gain
+    step = (sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+    size, hx, hy, scale = half_way(*step)
+    decay, gain = relaxation(step_rate(size, hx, hy, scale, *step))
+    sx1 = sx * decay + (d1x + d2x) * gain
+    sy1 = sy * decay + (d1y + d2y) * gain
     # A coarse step can overshoot the limit by up to 0.6 %; LuGre's limit can fall below s.
-    most = max(1.0, math.sqrt(sx * sx + sy * sy))
+    most = max(1.0, size)
     over = sx1 * sx1 + sy1 * sy1 - most * most
     if over > 0.0:
         if over <= OVERSHOOT_BOUND and most == 1.0:
@@ -170,6 +164,16 @@ def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
+def to_steady(sx, sy, dx, dy, length):
+    """Direction of a slip, the way from a deflection to the steady one there, and its length."""
+    nx = dx / length
+    ny = dy / length
+    wx = nx - sx
+    wy = ny - sy
+    return nx, ny, wx, wy, math.sqrt(wx * wx + wy * wy)
+
+
+@kernel
 def closed_form(sx, sy, dx, dy, exponent):
     """Exact step of ``vector`` for a slip of constant direction, any exponent."""
     length = math.sqrt(dx * dx + dy * dy)
@@ -178,11 +182,7 @@ def closed_form(sx, sy, dx, dy, exponent):
     if exponent == 1.0:
         decay, gain = relaxation(length)
         return sx * decay + dx * gain, sy * decay + dy * gain
-    nx = dx / length
-    ny = dy / length
-    wx = nx - sx
-    wy = ny - sy
-    rho = math.sqrt(wx * wx + wy * wy)
+    nx, ny, wx, wy, rho = to_steady(sx, sy, dx, dy, length)
     if rho <= TINY:
         return nx, ny
     left = remaining_distance(rho, length, exponent) / rho

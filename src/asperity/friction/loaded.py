@@ -17,14 +17,7 @@ force, :math:`F_N/F_{N,ref}` where friction is proportional to the load (its pow
 
 import math
 
-from asperity.friction.dahl import (
-    SERIES_BOUND,
-    TINY,
-    VECTOR,
-    advance,
-    relaxation,
-    relaxation_gain,
-)
+from asperity.friction.dahl import TINY, VECTOR, advance, relaxation
 from asperity.kernels.compiled import kernel
 
 STIFFNESS = 0
@@ -104,7 +97,7 @@ def advance_loaded(sx, sy, d1x, d1y, d2x, d2y, limit_0, limit_1, exponent, law, 
     limit_0, limit_1 : float
         Friction force at full slip before and after the step over that at the reference load, 0 or
         more; a contact that is open at the end (0) has a straight asperity.
-    exponent, law
+    exponent, law : float, int
         As in `asperity.friction.dahl.advance`, which this is at a constant limit, to the last bit
         where that is 1.
     keeps : int
@@ -140,46 +133,6 @@ def advance_loaded(sx, sy, d1x, d1y, d2x, d2y, limit_0, limit_1, exponent, law, 
     return wx, wy, wx, wy
 
 
-@kernel(inline="always")
-def relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1):
-    """Deflection as `advance_loaded` has it: law `VECTOR`, exponent 1, `STIFFNESS`.
-
-    No branch and no call, so that a loop over cases becomes vector instructions.
-    """
-    limit = 0.5 * (limit_0 + limit_1)
-    length = math.sqrt(dx * dx + dy * dy)
-    # One division for the relaxation and its reciprocal.
-    both = 1.0 / (length * limit + 1e-280)
-    decay = length * length * both
-    least = decay if decay < SERIES_BOUND else SERIES_BOUND
-    gain = relaxation_gain(least)
-    left = 1.0 - least * gain
-    # Beyond the series its root of order 64, which at the bound is below rounding's reach of one.
-    part = (decay if decay < 64.0 * SERIES_BOUND else 64.0 * SERIES_BOUND) * (1.0 / 64.0)
-    root = 1.0 - part * relaxation_gain(part)
-    root *= root
-    root *= root
-    root *= root
-    root *= root
-    root *= root
-    root *= root
-    left = left if decay < SERIES_BOUND else root
-    gain = gain if decay < SERIES_BOUND else (1.0 - root) * limit * limit * both
-    wx = sx * left + dx * gain
-    wy = sy * left + dy * gain
-    # As `slip_back`, of a deflection that was not above its limit.
-    size = math.sqrt(wx * wx + wy * wy)
-    over = size - limit_1 if limit_1 < limit_0 else 0.0
-    over = over if over > 0.0 else 0.0
-    turn = 0.5 * over * length * both
-    tx = wx + turn * dx
-    ty = wy + turn * dy
-    back = limit_1 / math.sqrt(tx * tx + ty * ty + 1e-280)
-    back = back if over > 0.0 else 1.0
-    back = back if limit_1 > TINY else 0.0
-    return tx * back, ty * back
-
-
 @kernel
 def friction_loss(sx, sy, wx, wy, dx, dy, limit_0, limit_1, keeps):
     r"""Work of the force at the end of a step over its slip, less what the asperity stores of it.
@@ -190,7 +143,7 @@ def friction_loss(sx, sy, wx, wy, dx, dy, limit_0, limit_1, keeps):
         Deflection before and after, over the limit at the reference load.
     dx, dy : float
         Slip of the step, over the same.
-    limit_0, limit_1, keeps
+    limit_0, limit_1, keeps : float, float, int
         As in `advance_loaded`.
 
     Returns

@@ -92,7 +92,7 @@ def update_loaded(deflection, slip_1, slip_2, limit_0, limit_1, exponent, law, k
     ----------
     deflection, slip_1, slip_2 : tuple of 2 floats
         Committed deflection and the two parts of the slip, over the limit at the reference load.
-    limit_0, limit_1, exponent, law, keeps
+    limit_0, limit_1, exponent, law, keeps : float, float, float, int, int
         As in `asperity.friction.advance_loaded`.
 
     Returns

@@ -36,8 +36,10 @@ def lugre_update(
 
     Parameters
     ----------
-    deflection, slip_1, slip_2, limit, law
-        As in `asperity.friction.update`; ``limit`` is :math:`\mu F_N/k_t`.
+    deflection, slip_1, slip_2 : tuple of 2 floats
+        Committed deflection and the two parts of the slip, m.
+    limit : float
+        :math:`\mu F_N/k_t`, m.
     step : float
         Time step, s.
     static_ratio : float
@@ -46,6 +48,8 @@ def lugre_update(
         :math:`v_s`, m/s; 0 for no Stribeck effect.
     rate_damping, slip_damping : float
         :math:`h_t/\mu F_N` and :math:`h_v/\mu F_N`, s/m.
+    law : int
+        As in `asperity.friction.update`.
 
     Returns
     -------

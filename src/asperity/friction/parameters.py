@@ -159,7 +159,23 @@ class Friction(Table):
         return KEEPS[self.keeps]
 
     def deflection_limit(self, normal_force: float) -> float:
-        r""":math:`s_{max}`, m, under a normal force in N."""
+        r""":math:`s_{max}`, m, under a normal force in N.
+
+        Parameters
+        ----------
+        normal_force : float
+            :math:`F_N`, N.
+
+        Returns
+        -------
+        float
+            :math:`s_{max}`, m: as it is given, or :math:`\mu F_N/k_t`; thesis (18).
+
+        Raises
+        ------
+        InputError
+            The friction is Coulomb's, or so stiff that full friction deflects nothing.
+        """
         if self.max_deflection is not None:
             return self.max_deflection
         if self.tangential_stiffness is None:
@@ -174,5 +190,21 @@ class Friction(Table):
         return limit
 
     def stiffness(self, normal_force: float) -> float:
-        r""":math:`k_t`, N/m, under a normal force in N; thesis (18)."""
+        r""":math:`k_t`, N/m, under a normal force in N; thesis (18).
+
+        Parameters
+        ----------
+        normal_force : float
+            :math:`F_N`, N.
+
+        Returns
+        -------
+        float
+            :math:`k_t = \mu F_N/s_{max}`, N/m.
+
+        Raises
+        ------
+        InputError
+            As of `deflection_limit`.
+        """
         return self.mu * normal_force / self.deflection_limit(normal_force)

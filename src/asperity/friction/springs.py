@@ -39,7 +39,20 @@ _REORDER = {"reassoc"}
 def load_and_slope(
     law: str, indentation: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Normal force over the reference load and its derivative by the indentation."""
+    """Normal force over the reference load and its derivative by the indentation.
+
+    Parameters
+    ----------
+    law : {'linear', 'hertz', 'rough'}
+        Normal law, as of `asperity.normal`.
+    indentation : ndarray, shape (n,)
+        Over N_ref/k.
+
+    Returns
+    -------
+    load, slope : ndarray, shape (n,)
+        Normal force over N_ref, 0 out of contact but for ``rough``, and its derivative.
+    """
     if law == "rough":
         force = np.exp(indentation)
         return force, force
@@ -167,7 +180,24 @@ def advance_springs(sx, sy, dx, dy, indentation_0, indentation_1, heights, weigh
 
 @kernel(fastmath=_REORDER)
 def advance_springs_along(s, slip, indentation_0, indentation_1, heights, weights):
-    """`advance_springs` where neither the springs nor the slip leave a line, four times as fast."""
+    """`advance_springs` where neither the springs nor the slip leave a line, four times as fast.
+
+    Parameters
+    ----------
+    s : ndarray, shape (n,)
+        Deflections along the line, over s_max; written.
+    slip : float
+        Along the line, over s_max.
+    indentation_0, indentation_1 : float
+        Before and after, over N_ref/k; finite.
+    heights, weights : ndarray, shape (n,)
+        As from `spring_profile`.
+
+    Returns
+    -------
+    share, stored : float
+        Friction force over mu N_ref, and elastic energy over mu N_ref s_max.
+    """
     rise = 1.0 / max(indentation_1 - indentation_0, 1e-200)
     share = 0.0
     stored = 0.0
@@ -183,7 +213,20 @@ def advance_springs_along(s, slip, indentation_0, indentation_1, heights, weight
 
 @kernel(fastmath=_REORDER)
 def stored_in_springs(sx, sy, weights):
-    """Elastic energy of the springs, over mu N_ref s_max."""
+    """Elastic energy of the springs, over mu N_ref s_max.
+
+    Parameters
+    ----------
+    sx, sy : ndarray, shape (n,)
+        Deflections, over s_max.
+    weights : ndarray, shape (n,)
+        As from `spring_profile`.
+
+    Returns
+    -------
+    float
+        Half the sum of weight times deflection squared.
+    """
     stored = 0.0
     for j in range(weights.size):
         stored += weights[j] * (sx[j] * sx[j] + sy[j] * sy[j])

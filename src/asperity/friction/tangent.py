@@ -11,11 +11,12 @@ from asperity.friction.dahl import (
     TINY,
     VECTOR,
     closed_form,
-    half_step,
+    half_way,
     midpoint,
-    rate_along,
     relaxation,
     saturation,
+    step_rate,
+    to_steady,
 )
 from asperity.kernels.compiled import kernel
 
@@ -66,56 +67,49 @@ def _direction_slope(x, y, size, ux, uy):
 
 
 @kernel
-def _midpoint_slope(
-    sx, sy, d1x, d1y, d2x, d2y, exponent, law, ux, uy, t1x, t1y, t2x, t2y
-):  # fmt: skip
-    """Derivative of `dahl.midpoint` for the deflection changing by ``u``, the slip by ``t``."""
+def _half_way_rate(step):
+    """What `dahl.midpoint` finds half-way, the relaxation there; all that its slopes share."""
+    size, hx, hy, scale = half_way(*step)
+    return size, hx, hy, scale, step_rate(size, hx, hy, scale, *step)
+
+
+@kernel
+def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
+    """Derivative of `dahl.midpoint` for the deflection changing by ``u``, the slip by ``t``.
+
+    ``step`` is what that takes, ``found`` the `_half_way_rate` of it.
+    """
+    sx, sy, d1x, d1y, d2x, d2y, exponent, law = step
+    size, hx, hy, scale, rate = found
+    slips = (d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law)
     dx = d1x + d2x
     dy = d1y + d2y
     tx = t1x + t2x
     ty = t1y + t2y
-    size = math.sqrt(sx * sx + sy * sy)
-    rate = 0.0
-    rate_t = 0.0
     ex = 0.0
     ey = 0.0
     size_t = 0.0
     ex_t = 0.0
     ey_t = 0.0
+    rate_t = 0.0
     if size > TINY:
         ex, ey, size_t, ex_t, ey_t = _direction_slope(sx, sy, size, ux, uy)
-    if exponent != 1.0 and size > TINY:
-        share = min(size, 1.0)
-        rate = rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law)
-        rate_t = _rate_slope(
-            ex, ey, ex_t, ey_t, share, size_t if size < 1.0 else 0.0,
-            d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
-        )  # fmt: skip
-    hx, hy, scale = half_step(sx, sy, dx, dy, rate)
+        if exponent != 1.0:
+            share_t = size_t if size < 1.0 else 0.0
+            rate_t = _rate_slope(ex, ey, ex_t, ey_t, min(size, 1.0), share_t, *slips)
     scale_t = 0.5 * rate_t
-    hx_t = ux + 0.5 * tx
-    hy_t = uy + 0.5 * ty
-    half = math.sqrt(hx * hx + hy * hy)
-    rate = 0.0
     rate_t = 0.0
+    half = math.sqrt(hx * hx + hy * hy)
     if half > TINY:
-        ex, ey, half_t, ex_t, ey_t = _direction_slope(hx, hy, half, hx_t, hy_t)
+        ex, ey, half_t, ex_t, ey_t = _direction_slope(hx, hy, half, ux + 0.5 * tx, uy + 0.5 * ty)
         share = half / scale
         share_t = (half_t - share * scale_t) / scale
         if share >= 1.0:
             share = 1.0
             share_t = 0.0
-        rate = rate_along(ex, ey, share, d1x, d1y, d2x, d2y, exponent, law)
-        rate_t = _rate_slope(
-            ex, ey, ex_t, ey_t, share, share_t,
-            d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
-        )  # fmt: skip
+        rate_t = _rate_slope(ex, ey, ex_t, ey_t, share, share_t, *slips)
     elif size > TINY:
-        rate = rate_along(ex, ey, 0.0, d1x, d1y, d2x, d2y, exponent, law)
-        rate_t = _rate_slope(
-            ex, ey, ex_t, ey_t, 0.0, 0.0,
-            d1x, d1y, d2x, d2y, t1x, t1y, t2x, t2y, exponent, law,
-        )  # fmt: skip
+        rate_t = _rate_slope(ex, ey, ex_t, ey_t, 0.0, 0.0, *slips)
     decay, gain = relaxation(rate)
     gain_t = relaxation_slope(rate) * rate_t
     sx1 = sx * decay + dx * gain
@@ -162,11 +156,8 @@ def _closed_form_slope(sx, sy, dx, dy, exponent):
         # Without a slip there is no direction: the elastic answer, the mean over directions of the
         # one-sided ones for exponent 1.
         return 1.0, 0.0, 0.0, 1.0
-    nx = dx / length
-    ny = dy / length
-    wx = nx - sx
-    wy = ny - sy
-    speed, turn, bend = _closed_form_factors(math.sqrt(wx * wx + wy * wy), length, exponent)
+    nx, ny, wx, wy, rho = to_steady(sx, sy, dx, dy, length)
+    speed, turn, bend = _closed_form_factors(rho, length, exponent)
     # P = I - n n^T;  T = (1-g)/L P + (phi^i/rho) w n^T - (dg/drho)/(L rho) w (P w)^T
     pxx = 1.0 - nx * nx
     pxy = -nx * ny
@@ -188,21 +179,17 @@ def limit_slope(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
     Deflection and slip in units of a limit that grows shrink together.
     """
     if law != VECTOR:
-        wx, wy = midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
-        tx, ty = _midpoint_slope(
-            sx, sy, d1x, d1y, d2x, d2y, exponent, law, sx, sy, d1x, d1y, d2x, d2y
-        )
+        step = (sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+        wx, wy = midpoint(*step)
+        tx, ty = _midpoint_slope(step, _half_way_rate(step), sx, sy, d1x, d1y, d2x, d2y)
         return wx - tx, wy - ty
     dx = d1x + d2x
     dy = d1y + d2y
     length = math.sqrt(dx * dx + dy * dy)
     if length <= TINY:
         return 0.0, 0.0
-    nx = dx / length
-    ny = dy / length
-    wx = nx - sx
-    wy = ny - sy
-    speed, turn, bend = _closed_form_factors(math.sqrt(wx * wx + wy * wy), length, exponent)
+    nx, ny, wx, wy, rho = to_steady(sx, sy, dx, dy, length)
+    speed, turn, bend = _closed_form_factors(rho, length, exponent)
     back = speed + bend * (wx * sx + wy * sy)
     return length * (turn * nx - back * wx), length * (turn * ny - back * wy)
 
@@ -257,19 +244,13 @@ def update(deflection, slip_1, slip_2, limit, exponent, law):
         tangent_1 = _closed_form_slope(sx, sy, d1x + d2x, d1y + d2y, exponent)
         tangent_2 = tangent_1
     else:
-        share = midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
-        xx, yx = _midpoint_slope(
-            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0
-        )
-        xy, yy = _midpoint_slope(
-            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
-        )
+        step = (sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+        found = _half_way_rate(step)
+        share = midpoint(*step)
+        xx, yx = _midpoint_slope(step, found, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+        xy, yy = _midpoint_slope(step, found, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0)
         tangent_1 = (xx, xy, yx, yy)
-        xx, yx = _midpoint_slope(
-            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0
-        )
-        xy, yy = _midpoint_slope(
-            sx, sy, d1x, d1y, d2x, d2y, exponent, law, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
-        )
+        xx, yx = _midpoint_slope(step, found, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+        xy, yy = _midpoint_slope(step, found, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
         tangent_2 = (xx, xy, yx, yy)
     return (share[0] * limit, share[1] * limit), share, (tangent_1, tangent_2)

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from typing import Protocol
 
 from asperity.gearset.geometry import Geometry
-from asperity.results.quantity import text_of
 from asperity.results.svg import Drawing, Point, Words, scale_for, scale_text
+from asperity.results.words import text_of
 
 
 class Pen(Protocol):

@@ -3,7 +3,7 @@
 A data file is TOML. ``[source.ID]`` says where values come from (``name``, ``confidence``,
 ``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[worm.NAME]``,
 ``[steel.NAME]``, ``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]``, ``[motor.NAME]``,
-``[bearing.NAME]`` or ``[shaft_steel.NAME]``, with the keys of its class. Its
+``[bearing.NAME]``, ``[shaft_steel.NAME]`` or ``[hob.NAME]``, with the keys of its class. Its
 key ``from`` names the source of each value by key, with ``"*"`` for all others::
 
     [source.maker]
@@ -45,6 +45,7 @@ SECTIONS: Mapping[str, str] = {
     "motor": "motor",
     "bearing": "rolling bearing",
     "shaft_steel": "steel of shafts",
+    "hob": "hob",
 }
 """The tables of a data file, and what they hold."""
 
@@ -92,6 +93,18 @@ _Library = Mapping[tuple[str, str], _Entry]
 def find(model: type[T], name: str) -> T:
     """Return a thing by the name it has in a data file.
 
+    Parameters
+    ----------
+    model : type
+        Such as `WheelMaterial`, a table of data files.
+    name : str
+        As the data file has it.
+
+    Returns
+    -------
+    table
+        Of that class.
+
     Raises
     ------
     InputError
@@ -103,7 +116,18 @@ def find(model: type[T], name: str) -> T:
 
 
 def every(model: type[T]) -> tuple[T, ...]:
-    """Return all things of a kind, in the order of the data files; raises InputError as `find`."""
+    """Return all things of a kind, in the order of the data files; raises InputError as `find`.
+
+    Parameters
+    ----------
+    model : type
+        Such as `WheelMaterial`, a table of data files.
+
+    Returns
+    -------
+    tuple of table
+        Of that class.
+    """
     library = _library(_stamps())
     return tuple(find(model, name) for section, name in library if section == model.section)
 

@@ -10,7 +10,7 @@ from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.rating.levers import Judge
 from asperity.rating.parameters import Operation
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 
 _NOTHING = 0.01
 _WORDS = {"operation.lubricant": "oil", "gearset.wheel_material": "wheel"}

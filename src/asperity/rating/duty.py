@@ -1,7 +1,6 @@
 """What each part of a duty cycle has in the wear and the heat, by ISO/TR 14521."""
 
 import math
-from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -9,46 +8,20 @@ from asperity.formulas import masking
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import parts_of
 from asperity.rating.result import Rating
-from asperity.results.quantity import text_of
-from asperity.results.table import Column, Table
+from asperity.results.quantity import Quantities, quantity
+from asperity.results.table import Cell, Table, table_of_rows
 
 
-class DutyPart(NamedTuple):
-    """A part of a duty cycle.
+class DutyPart(Quantities):
+    """A part of a duty cycle; None where the standard has no answer."""
 
-    Attributes
-    ----------
-    hours, torque, speed : float
-        Its running time, h, torque of the wheel, N m, and speed of the worm, rpm.
-    wear : float or None
-        Depth that it wears off the wheel's flanks, um; None where the standard has no answer.
-    share : float or None
-        Of all wear.
-    sump : float or None
-        Temperature of the oil, degC.
-    loss : float
-        All losses, W.
-    """
-
-    hours: float
-    torque: float
-    speed: float
-    wear: float | None
-    share: float | None
-    sump: float | None
-    loss: float
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it by key."""
-        return {
-            "hours_h": self.hours,
-            "output_torque_Nm": self.torque,
-            "worm_speed_rpm": self.speed,
-            "wear_um": self.wear,
-            "wear_share": self.share,
-            "theta_S_degC": self.sump,
-            "loss_W": self.loss,
-        }
+    hours: float = quantity("t", "h", "running time")
+    torque: float = quantity("T_2", "N m", "torque of the wheel", key="output_torque_Nm")
+    speed: float = quantity("n_1", "rpm", "speed of the worm", key="worm_speed_rpm")
+    wear: float | None = quantity("delta_Wn", "um", "depth that it wears off the wheel's flanks")
+    share: float | None = quantity("", "", "share of all wear", key="wear_share")
+    sump: float | None = quantity("theta_S", "degC", "temperature of the oil", key="theta_S_degC")
+    loss: float = quantity("P_V", "W", "all losses")
 
 
 def duty_parts(given: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
@@ -84,19 +57,21 @@ def _each(together: Values, count: int) -> tuple[Values, ...]:
 
 def duty_table(parts: tuple[DutyPart, ...]) -> Table:
     """Return a row for each part."""
-    heads = "", "h", "T (N m)", "n_1 (rpm)", "wear (um)", "of all wear", "theta_S (degC)", "P_V (W)"
-    rows = [
-        (
-            f"part {place}",
-            *(
-                "-" if value is None else text_of(value, key=f"duty_cycle.{place - 1}.{key}")
-                for key, value in part.to_json().items()
-            ),
-        )
-        for place, part in enumerate(parts, 1)
-    ]
-    columns = tuple(Column(head, right=bool(head)) for head in heads)
-    return Table(columns, tuple(rows), "Duty cycle, by ISO/TR 14521")
+    return table_of_rows(
+        parts,
+        {
+            "": lambda part: f"part {parts.index(part) + 1}",
+            "h": "hours",
+            "T (N m)": "torque",
+            "n_1 (rpm)": "speed",
+            "wear (um)": Cell("wear", right=True),
+            "of all wear": Cell("share", right=True),
+            "theta_S (degC)": Cell("sump", right=True),
+            "P_V (W)": "loss",
+        },
+        title="Duty cycle, by ISO/TR 14521",
+        within="duty_cycle",
+    )
 
 
 def _known(value: float) -> float | None:

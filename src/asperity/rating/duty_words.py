@@ -8,7 +8,7 @@ from asperity.rating.endurance import Endurance
 from asperity.rating.inputs import Inputs
 from asperity.rating.result import Rating
 from asperity.rating.starting import Starting, starting_line
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 
 _MOST_PARTS = 3
 

@@ -8,38 +8,25 @@ has none.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from asperity.rating.inputs import Inputs
 from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
-from asperity.results.quantity import Number, Sentence, text_of
-from asperity.results.table import Column, Table
+from asperity.results.quantity import Quantities, quantity
+from asperity.results.table import Table, table_of_rows
+from asperity.results.words import Number, Sentence
 
 _ROOT = 1.06  # of the wear that the root of a tooth loses, as in its thickness
 _PITTING_CAP = 1.6
 
 
-class Endurance(NamedTuple):
-    """How long it runs until one limit.
+class Endurance(Quantities):
+    """How long it runs until one limit; 0 h where it does not hold at once."""
 
-    Attributes
-    ----------
-    standard : {'iso14521', 'bs721'}
-        Whose limit it is.
-    name : str
-        What ends it.
-    hours : float
-        Running time, h; 0 where it does not hold at once.
-    """
-
-    standard: str
-    name: str
-    hours: float
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it by key."""
-        return {"standard": self.standard, "name": self.name, "hours_h": self.hours}
+    standard: str = quantity("", "", "whose limit it is")
+    name: str = quantity("", "", "what ends it")
+    hours: float = quantity("t", "h", "running time")
 
     def sentence(self, asked: float, key: str = "") -> Sentence:
         """Return it in words, beside the running time that is asked for, h."""
@@ -52,13 +39,13 @@ class Endurance(NamedTuple):
 
 def endurance_table(rows: Sequence[Endurance]) -> Table:
     """Return the running time until each limit as a table."""
-    found = tuple(
-        (NAMES[row.standard], row.name, text_of(row.hours, key=f"endurance.{place}.hours_h"))
-        for place, row in enumerate(rows)
+    return table_of_rows(
+        rows,
+        {"standard": lambda row: NAMES[row.standard], "until": "name", "hours": "hours"},
+        title="Running time until each limit",
+        remarks=("with the loads in the same shares all along, until a safety is 1",),
+        within="endurance",
     )
-    columns = Column("standard"), Column("until"), Column("hours", right=True)
-    remark = "with the loads in the same shares all along, until a safety is 1"
-    return Table(columns, found, "Running time until each limit", (remark,))
 
 
 def endurance(given: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ...]:
@@ -73,7 +60,7 @@ def endurance(given: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ..
     """
     hours = float(given.total(part.hours for part in given.loads) if given.duty else given.life)
     rows = [
-        Endurance(standard, name, hours * max(float(factor), 0.0))
+        Endurance(standard=standard, name=name, hours=hours * max(float(factor), 0.0))
         for standard, name, factor in (*_by_iso(given, found), *_by_bs(found))
         if math.isfinite(factor)
     ]

@@ -12,74 +12,77 @@ beyond holding follows from the inertias, which are no part of a rating.
 
 import itertools
 from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
 
 from asperity.rating.agma6034 import mesh
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import efficiency
 from asperity.rating.self_locking import SelfLocking, Verdict, friction_share
 from asperity.rating.standing import NAMES
-from asperity.results.quantity import text_of
-from asperity.results.table import Column, Table
+from asperity.results.quantity import Quantities, labelled, quantity
+from asperity.results.table import Table, table_of_rows
 
 
-class Holding(NamedTuple):
+class Holding(Quantities):
     """How a load is held by the friction of one standard.
 
     Attributes
     ----------
-    standard : str
-        Whose friction it is, as in `asperity.rating.self_locking.Verdict`.
-    factored : bool
-        Whether the factor on the friction acts, as a vibration's would.
     at_rest, moving : float
         Torque at the worm that balances the load, N m, as it stands still and as it runs at the
         rated speed; positive is a brake's, negative what drives the load down.
     """
 
-    standard: str
-    factored: bool
+    standard: str = quantity("", "", "whose friction it is, as in the self-locking's verdicts")
+    factored: bool = quantity(
+        "", "", "whether the factor on the friction acts, as a vibration's would",
+        key="friction_factor_applied",
+    )  # fmt: skip
     at_rest: float
     moving: float
 
     @property
+    @labelled("T_1", "N m", "torque of a brake that holds the load at rest")
+    def brake_at_rest(self) -> float:
+        """Torque of a brake at rest, N m."""
+        return max(self.at_rest, 0.0)
+
+    @property
+    @labelled("T_1", "N m", "torque of a brake that holds the load as it runs")
+    def brake_moving(self) -> float:
+        """Torque of a brake as the load runs, N m."""
+        return max(self.moving, 0.0)
+
+    @property
+    @labelled("T_1", "N m", "torque that drives the load down")
+    def lowering(self) -> float:
+        """Torque that drives the load down, N m."""
+        return max(-self.moving, 0.0)
+
+    @property
+    @labelled("", "", "what the load does without a brake")
     def state(self) -> str:
         """What the load does without a brake."""
         if self.at_rest > 0.0:
             return "runs back"
         return "held until it is moved" if self.moving > 0.0 else "held"
 
-    def to_json(self) -> dict[str, Any]:
-        """Return it by key; the units are part of the keys."""
-        return {
-            "standard": self.standard,
-            "friction_factor_applied": self.factored,
-            "brake_at_rest_Nm": max(self.at_rest, 0.0),
-            "brake_moving_Nm": max(self.moving, 0.0),
-            "lowering_Nm": max(-self.moving, 0.0),
-            "state": self.state,
-        }
 
-
-def held_table(held: Sequence[Holding], place: str = "") -> Table:
-    """Return how the load is held as a table; ``place`` is where it stands in JSON."""
-    rows = []
-    for number, one in enumerate(held):
-        values = one.to_json()
-        torques = (
-            text_of(values[key], key=f"{place}.{number}.{key}") if place else f"{values[key]:.4g}"
-            for key in ("brake_at_rest_Nm", "brake_moving_Nm", "lowering_Nm")
-        )
-        factor = "with" if one.factored else "without"
-        rows.append((NAMES.get(one.standard, one.standard), factor, *torques, one.state))
-    columns = (
-        Column("friction of"), Column("friction factor"), Column("brake at rest", right=True),
-        Column("brake, moving", right=True), Column("to lower it", right=True),
-        Column("without brake"),
-    )  # fmt: skip
-    remark = "T_1 = eta_z2_1 T_2/u; bearings, seals and idling, left out, would help a brake"
-    title = "Torque at the worm that holds the load when the motor stops, N m"
-    return Table(columns, tuple(rows), title, (remark,))
+def held_table(held: Sequence[Holding]) -> Table:
+    """Return how the load is held as a table."""
+    return table_of_rows(
+        held,
+        {
+            "friction of": lambda one: NAMES.get(one.standard, one.standard),
+            "friction factor": lambda one: "with" if one.factored else "without",
+            "brake at rest": "brake_at_rest",
+            "brake, moving": "brake_moving",
+            "to lower it": "lowering",
+            "without brake": "state",
+        },
+        title="Torque at the worm that holds the load when the motor stops, N m",
+        remarks=("T_1 = eta_z2_1 T_2/u; bearings, seals and idling, left out, would help a brake",),
+        within="holding",
+    )
 
 
 def holding(given: Inputs, locking: SelfLocking) -> tuple[Holding, ...]:
@@ -96,10 +99,10 @@ def _held(given: Inputs, locking: SelfLocking) -> Iterator[Holding]:
         for applied in (True, False) if factor not in (0.0, 1.0) else (factor != 1.0,):
             share = 1.0 if applied or factor == 1.0 else 1.0 / factor
             yield Holding(
-                standard,
-                applied,
-                on_worm * _efficiency(given, static, share),
-                on_worm * _efficiency(given, dynamic, share),
+                standard=standard,
+                factored=applied,
+                at_rest=on_worm * _efficiency(given, static, share),
+                moving=on_worm * _efficiency(given, dynamic, share),
             )
 
 

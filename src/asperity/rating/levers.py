@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from asperity.errors import AsperityError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import DEFAULT_LIFE, Operation
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 
 _STEP = 1.01
 # Of ISO 3448. Within a step of a percent the sump's temperature of ISO/TR 14521 says nothing of an

@@ -1,11 +1,12 @@
 """A step of a load: what the gearset carries for a part of its life."""
 
+import functools
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
 from asperity.casefile import Table
 from asperity.errors import InputError, shown
-from asperity.units import Quantity
+from asperity.units import Quantity, quantity_of, split_unit
 
 Torque = Annotated[float, Quantity("N m", what="a torque", example="366 N m", gt=0)]
 Power = Annotated[float, Quantity("W", what="a power", example="0.25 kW", gt=0)]
@@ -72,7 +73,7 @@ class SpectrumStep(LoadStep):
         0 to 1.
     output_torque, input_power, input_torque : float or str
         As in a duty cycle, exactly one of them.
-    worm_speed, rotation, drives, starts_per_hour
+    worm_speed, rotation, drives, starts_per_hour : float or str
         As in a duty cycle.
     """
 
@@ -88,14 +89,68 @@ class SpectrumStep(LoadStep):
 def steps_of(
     value: Any, context: Any, key: str, kind: type[LoadStep] = LoadStep
 ) -> tuple[LoadStep, ...]:
-    """Return the steps of a list of tables; raises InputError for what is none."""
+    """Return the steps of a list of tables or of a text; raises InputError for what is none."""
+    if isinstance(value, str):
+        value = [_written(text, key, kind) for text in value.strip("; \n").split(";")]
     listed = isinstance(value, list | tuple) and len(value) > 0
     if not listed or not all(isinstance(step, Mapping | LoadStep) for step in value):
         raise InputError(
             f"{key} is {shown(value)}; it must be a list of tables with "
-            "'duration', 'output_torque' and perhaps 'worm_speed'"
+            f"'duration', 'output_torque' and perhaps 'worm_speed', or as {_EXAMPLE!r}"
         )
     return tuple(
         step if isinstance(step, LoadStep) else kind.model_validate(step, context=context)
         for step in value
     )
+
+
+_EXAMPLE = "250 N m, 1400 rpm, 500 h; 60 N m, 700 rpm, 3000 h"
+_BY_UNIT = ("duration", "output_torque", "worm_speed", "input_power")
+_WORDS = {
+    "clockwise": ("rotation", "clockwise"),
+    "anticlockwise": ("rotation", "anticlockwise"),
+    "load drives": ("drives", "load"),
+}
+
+
+def _written(text: str, key: str, kind: type[LoadStep]) -> dict[str, str]:
+    """Return the keys of a step that is written as "250 N m, 1400 rpm, 500 h"."""
+    step: dict[str, str] = {}
+    for part in text.split(","):
+        name, equals, value = (each.strip() for each in part.partition("="))
+        if not equals:
+            value = " ".join(name.split())
+            named = _WORDS.get(value)
+            name, value = named or (_named_by_unit(value, kind), value.removesuffix(" turns"))
+        if name in step:
+            raise InputError(f"{key} is {shown(text.strip())}, which says {name} twice")
+        if name not in kind.model_fields:
+            share = " or share" if "share" in kind.model_fields else ""
+            raise InputError(
+                f"{key} is {shown(text.strip())}; {shown(part.strip())} is no torque, time, speed, "
+                f"power, number of turns{share}, nor {', '.join(_WORDS)} or key=value: write it "
+                f"as {_EXAMPLE!r}"
+            )
+        step[name] = value
+    return step
+
+
+def _named_by_unit(text: str, kind: type[LoadStep]) -> str:
+    number, unit = split_unit(text) or ("", "")
+    return _key_of(unit, kind) if number and unit else ""
+
+
+@functools.lru_cache(maxsize=256)
+def _key_of(unit: str, kind: type[LoadStep]) -> str:
+    """Return which key of a step has such a unit, "" where none has."""
+    if unit in ("turns", "%"):
+        return "turns" if unit == "turns" else "share"
+    for key in _BY_UNIT:
+        quantity = quantity_of(kind, key)
+        assert quantity is not None
+        try:
+            quantity.check(f"1 {unit}")
+        except InputError:
+            continue
+        return key
+    return ""

@@ -26,7 +26,7 @@ from asperity.rating.load_steps import (
     steps_of,
 )
 from asperity.rating.spectrum import Spectrum
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 from asperity.units import Quantity
 
 DEFAULT_LIFE = 25000.0 * 3600.0
@@ -83,7 +83,7 @@ class Operation(Table):
         Required life in turns of the wheel. Give this or ``life``; left out: ``life``.
     life : float or str, optional
         Required life, s. Left out: 25000 h.
-    duty_cycle : list of table, optional
+    duty_cycle : list of table or str, optional
         Parts of the required life, each a `LoadStep`, in place of ``life``; none above
         ``output_torque``.
     lubricant : str or table
@@ -224,7 +224,18 @@ class Operation(Table):
     def with_tables(
         self, spectrum: Spectrum | None = None, housing: Housing | None = None
     ) -> "Operation":
-        """Return it with what the tables ``[spectrum]`` and ``[housing]`` say of the same run."""
+        """Return it with what the tables ``[spectrum]`` and ``[housing]`` say of the same run.
+
+        Parameters
+        ----------
+        spectrum, housing : Spectrum, Housing, optional
+            Left out: as it has them.
+
+        Returns
+        -------
+        Operation
+            Another one, or the same where nothing is said.
+        """
         given = {"spectrum": spectrum, "housing": housing}
         update = {key: table for key, table in given.items() if table is not None}
         return self.model_copy(update=update) if update else self

@@ -1,8 +1,8 @@
 """A drawing of where a gearbox's power goes: a band for each part, as wide as it is large."""
 
 from asperity.rating.result import Rating
-from asperity.results.quantity import text_of
 from asperity.results.svg import Drawing
+from asperity.results.words import text_of
 
 _LOSSES = (("teeth", "meshing"), ("idling", "idle"), ("bearings", "bearing"), ("seals", "seal"))
 _BAND, _LENGTH, _LEAST = 26.0, 98.0, 0.3

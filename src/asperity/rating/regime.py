@@ -12,7 +12,7 @@ import math
 from typing import Any, NamedTuple
 
 from asperity.rating.result import Rating
-from asperity.results.quantity import Number, Sentence
+from asperity.results.words import Number, Sentence
 
 _MIXED, _FULL = 1.0, 3.0
 _RMS = math.sqrt(math.pi / 2.0)  # over the arithmetic mean, of heights normally distributed

@@ -14,9 +14,9 @@ from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
 from asperity.rating.verdict import bar, locking_line, power_lines
-from asperity.results.quantity import Number, Sentence, text_of
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
+from asperity.results.words import Number, Sentence, text_of
 from asperity.sources import Source
 
 _NAMED = ("symbol", "value", "unit", "meaning", "equation", "source")
@@ -55,7 +55,7 @@ def sections(rated: Reported) -> Iterator[Section]:
         by = "Forces on shafts and bearings, by ISO/TR 14521"
         yield Section(by, (said, *_of_agma(rated)), tables=(_forces(rated),))
     yield rated.contact or Section("Contact pattern and lines", (_NO_CONTACT,))
-    yield Section("Self-locking", tables=(_self_locking(rated), *_held(rated)))
+    yield Section("Self-locking", tables=(rated.self_locking.table(), *_held(rated)))
     if rated.backlash is not None:
         yield Section("Backlash", tables=(rated.backlash.table(),))
     limits = tuple(
@@ -197,22 +197,8 @@ def _forces(rated: Reported) -> Table:
     return Table(columns, rows)
 
 
-def _self_locking(rated: Reported) -> Table:
-    rows = []
-    for place, one in enumerate(rated.self_locking):
-        key = f"self_locking.verdicts.{place}"
-        numbers = (
-            text_of(getattr(one, name), key=f"{key}.{name}")
-            for name in ("friction", "limit", "efficiency")
-        )
-        named = NAMES.get(one.standard, one.standard)
-        rows.append((named, one.state, *numbers, "yes" if one.locks else "no"))
-    headings = "friction of", "state", "friction", "limit", "efficiency, wheel driving", "locks"
-    return Table.of(headings, rows, left=2)
-
-
 def _held(rated: Reported) -> tuple[Table, ...]:
-    return (held_table(rated.holding, "holding"),) if rated.holding else ()
+    return (held_table(rated.holding),) if rated.holding else ()
 
 
 def _assumed(rated: Reported) -> Table:

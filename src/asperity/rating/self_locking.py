@@ -27,6 +27,9 @@ from asperity.rating.iso14521 import efficiency
 from asperity.rating.iso14521 import friction as iso_friction
 from asperity.rating.iso14521.symbols import alpha_n, gamma_m1
 from asperity.rating.result import Rating
+from asperity.rating.standing import NAMES
+from asperity.results.quantity import Quantities, labelled, quantity
+from asperity.results.table import Table, table_of_rows
 
 State = Literal["static", "dynamic"]
 
@@ -42,36 +45,31 @@ class Numbers(Protocol):
 _FACTORS = ("Y_S", "Y_G", "Y_W", "Y_R")
 
 
-@dataclasses.dataclass(frozen=True)
-class Verdict:
+class Verdict(Quantities):
     """Whether a worm locks itself with one friction value.
 
     Attributes
     ----------
     standard : str
-        Whose friction it is: ``"iso14521"``, ``"bs721"``, ``"agma6034"`` or ``"given"``.
+        ``"iso14521"``, ``"bs721"``, ``"agma6034"`` or ``"given"``.
     state : {'static', 'dynamic'}
         At rest, or at the sliding velocity.
-    friction : float
-        Coefficient of friction with the factor on it.
-    limit : float
-        Coefficient from which on the worm locks itself.
-    efficiency : float
-        With the wheel driving; zero or below where the worm locks itself.
     """
 
-    standard: str
-    state: State
-    friction: float
-    limit: float
-    efficiency: float
+    standard: str = quantity("", "", "whose friction it is")
+    state: State = quantity("", "", "at rest or at the sliding velocity")
+    friction: float = quantity("mu", "", "coefficient of friction with the factor on it")
+    limit: float = quantity("", "", "coefficient from which on the worm locks itself")
+    efficiency: float = quantity("eta_z2-1", "", "efficiency of the teeth, the wheel driving")
 
     @property
+    @labelled("", "", "whether the worm locks itself")
     def locks(self) -> bool:
         """Whether the worm locks itself."""
         return self.efficiency <= 0.0
 
     @property
+    @labelled("", "", "what the friction must be multiplied by to reach the limit")
     def factor_to_limit(self) -> float | None:
         """What the friction must be multiplied by to reach the limit.
 
@@ -107,29 +105,24 @@ class SelfLocking:
         return {
             "lead_angle_deg": math.degrees(self.lead_angle),
             "friction_factor": self.friction_factor,
-            "verdicts": [
-                {
-                    **dataclasses.asdict(verdict),
-                    "locks": verdict.locks,
-                    "factor_to_limit": verdict.factor_to_limit,
-                }
-                for verdict in self
-            ],
+            "verdicts": [verdict.to_json() for verdict in self],
         }
 
-    def to_rows(self) -> list[dict[str, str]]:
-        """Return a row of texts for every verdict."""
-        return [
+    def table(self) -> Table:
+        """Return a row for every verdict."""
+        return table_of_rows(
+            self.verdicts,
             {
-                "friction of": verdict.standard,
-                "state": verdict.state,
-                "friction": f"{verdict.friction:.4g}",
-                "limit": f"{verdict.limit:.4g}",
-                "efficiency, wheel driving": f"{verdict.efficiency:.4g}",
-                "locks itself": "yes" if verdict.locks else "no",
-            }
-            for verdict in self
-        ]
+                "friction of": lambda verdict: NAMES.get(verdict.standard, verdict.standard),
+                "state": "state",
+                "friction": "friction",
+                "limit": "limit",
+                "efficiency, wheel driving": "efficiency",
+                "locks": "locks",
+            },
+            title=f"Self-locking at a lead angle of {math.degrees(self.lead_angle):.4g} deg",
+            within="self_locking.verdicts",
+        )
 
 
 @formula(symbol="mu", equation="tan(gamma_m1)")
@@ -167,11 +160,13 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -
         plain = {"given": next(iter(plain))} if plain else {}
     verdicts = [
         Verdict(
-            name,
-            state,
-            mu,
-            friction_share(given, name) * locking_friction(given.lead_angle),
-            efficiency.wheel_driving_efficiency(given.lead_angle, mu / friction_share(given, name)),
+            standard=name,
+            state=state,
+            friction=mu,
+            limit=friction_share(given, name) * locking_friction(given.lead_angle),
+            efficiency=efficiency.wheel_driving_efficiency(
+                given.lead_angle, mu / friction_share(given, name)
+            ),
         )
         for name, rated_by in plain.items()
         for state, mu in _friction(given, rated_by, ratings[rated_by], tables)
@@ -179,11 +174,13 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -
     if "agma6034" in ratings:
         verdicts += [
             Verdict(
-                "agma6034",
-                state,
-                mu,
-                locking_friction(given.lead_angle, given.pressure_angle),
-                mesh.wheel_driving_efficiency(mu, given.lead_angle, given.pressure_angle),
+                standard="agma6034",
+                state=state,
+                friction=mu,
+                limit=locking_friction(given.lead_angle, given.pressure_angle),
+                efficiency=mesh.wheel_driving_efficiency(
+                    mu, given.lead_angle, given.pressure_angle
+                ),
             )
             for state, mu in _friction(given, "agma6034", ratings["agma6034"], tables)
         ]

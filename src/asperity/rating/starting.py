@@ -9,7 +9,7 @@ rest.
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Annotated, Any, NamedTuple
+from typing import Annotated
 
 import numpy as np
 
@@ -21,8 +21,9 @@ from asperity.rating.iso14521.symbols import alpha_n, gamma_m1
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES
-from asperity.results.quantity import Number, Sentence, text_of
-from asperity.results.table import Column, Table
+from asperity.results.quantity import Quantities, quantity
+from asperity.results.table import Table, table_of_rows
+from asperity.results.words import Number, Sentence
 from asperity.sources import Source
 
 mu_0 = Annotated[Real, Symbol("mu_0", "", not_negative)]
@@ -48,34 +49,25 @@ def starting_efficiency(lead_angle: gamma_m1, friction: mu_0, pressure_angle: al
     return np.where(angle < 0.5 * np.pi, np.tan(lead_angle) / np.tan(angle), np.nan)
 
 
-class Starting(NamedTuple):
+class Starting(Quantities):
     """What starting takes by the friction of one standard.
 
-    Attributes
-    ----------
-    standard : str
-        Whose friction at rest it is, as in `asperity.rating.self_locking.Verdict`.
-    friction, efficiency : float
-        Coefficient of friction at rest, and the efficiency of the teeth with it.
-    motor, brake : float
-        Torque of the motor that starts the rated torque, and of a brake that holds it at rest, N m.
+    The standards are those of `asperity.rating.self_locking.Verdict`.
     """
 
-    standard: str
-    friction: float
-    efficiency: float
-    motor: float
-    brake: float
-
-    def to_json(self) -> dict[str, Any]:
-        """Return it by key; the units are part of the keys."""
-        return {
-            "standard": self.standard,
-            "friction_at_rest": self.friction,
-            "starting_efficiency": self.efficiency,
-            "motor_torque_Nm": self.motor,
-            "brake_at_rest_Nm": self.brake,
-        }
+    standard: str = quantity("", "", "whose friction at rest it is")
+    friction: float = quantity(
+        "mu_0", "", "coefficient of friction at rest", key="friction_at_rest"
+    )
+    efficiency: float = quantity(
+        "eta_0", "", "efficiency of the teeth with it", key="starting_efficiency"
+    )
+    motor: float = quantity(
+        "T_1", "N m", "torque of the motor that starts the rated torque", key="motor_torque_Nm"
+    )
+    brake: float = quantity(
+        "T_1", "N m", "torque of a brake that holds it at rest", key="brake_at_rest_Nm"
+    )
 
 
 def has_starts(given: Inputs) -> bool:
@@ -113,7 +105,10 @@ def _found(
         )
         brake = brakes.get(one.standard, 0.0)
         motor = on_worm / efficiency + lost / speed
-        yield Starting(one.standard, one.friction, efficiency, motor, brake)
+        yield Starting(
+            standard=one.standard, friction=one.friction, efficiency=efficiency, motor=motor,
+            brake=brake,
+        )  # fmt: skip
 
 
 def starting_line(found: Sequence[Starting]) -> Sentence:
@@ -130,19 +125,16 @@ def starting_line(found: Sequence[Starting]) -> Sentence:
 
 def starting_table(found: Sequence[Starting]) -> Table:
     """Return what starting takes as a table."""
-    rows = []
-    for place, one in enumerate(found):
-        values = one.to_json()
-        numbers = (
-            text_of(value, key=f"starting.{place}.{key}")
-            for key, value in values.items()
-            if key != "standard"
-        )
-        rows.append((NAMES.get(one.standard, one.standard), *numbers))
-    columns = (
-        Column("friction of"),
-        *(Column(name, right=True) for name in ("friction at rest", "efficiency", "motor (N m)",
-                                                "brake at rest (N m)")),
-    )  # fmt: skip
-    remark = "the rated torque from rest; bearings, seals and idling as at the rated speed"
-    return Table(columns, tuple(rows), "Starting", (remark,))
+    return table_of_rows(
+        found,
+        {
+            "friction of": lambda one: NAMES.get(one.standard, one.standard),
+            "friction at rest": "friction",
+            "efficiency": "efficiency",
+            "motor (N m)": "motor",
+            "brake at rest (N m)": "brake",
+        },
+        title="Starting",
+        remarks=("the rated torque from rest; bearings, seals and idling as at the rated speed",),
+        within="starting",
+    )

@@ -7,8 +7,7 @@ material's family, the way of lubrication, the flank's type) is chosen as in the
 
 import dataclasses
 import functools
-import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -27,17 +26,10 @@ from asperity.rating.inputs import Inputs, Part, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.result import Rating
 from asperity.rating.variation import derived
-from asperity.results.xlsx import Formula, Input, Sheet, in_shown_units, place, write_workbook
+from asperity.results.live import Cells, Page, write_live
 from asperity.units import unit_of
 
-_INPUTS, _GEOMETRY = "inputs", "geometry"
-_VALUE = 1  # column
-_GIVEN_WIDTHS = (12, 24, 10, 44, 44)
-_FOUND_WIDTHS = (12, 24, 10, 44, 60, 44, 10, 10)
-_SHOWN_WIDTHS = (14, 10)
-# Numbers of a case that are in SI, where the sheet has the standards' units.
-_FROM_SI = {"MPa": 1e-6, "mm2/s": 1e6}
-_HEADING = ("symbol", "value", "unit", "meaning", "equation", "source", "asked", "holds")
+_GEOMETRY = "geometry"
 _REMARKS = (
     "Coloured cells are there to be changed; all other numbers follow.",
     "A number without a formula on another sheet is fixed by a word of the case.",
@@ -64,44 +56,37 @@ def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], pat
     path : path
         The file.
     """
-    cells = _Cells()
+    cells = Cells(_fact)
     traced, own = _traced(given, cells), _tables(tables, cells)
     values = {standard: _rated(standard, traced, own) for standard in found}
     cells.settle(number for rated in values.values() for number in rated.values())
-    geometry = _Page(_GEOMETRY, cells)
+    geometry = Page(_GEOMETRY, cells)
     for name, value in vars(traced).items():
         if isinstance(value, Traced) and value.operation:
             geometry.add(value, *_about_geometry(name))
     pages = [geometry]
     for standard, rating in found.items():
-        parts = _Page(f"{standard} parts", cells)
+        parts = Page(f"{standard} parts", cells)
         for key, value in values[standard].items():
             if key.startswith("part_"):
                 parts.add(value, *_about_part(standard, key))
         if len(parts.rows) > 1:
             pages.append(parts)
-        page = _Page(standard, cells)
+        page = Page(standard, cells)
         asked = {demand.key: demand.asked for demand in DEMANDS if demand.standard == standard}
         for entry in rating.entries:
             if entry.key in values[standard]:
                 about = entry.symbol, entry.unit, entry.meaning, entry.equation, str(entry.source)
                 page.add(values[standard][entry.key], *about, asked=asked.get(entry.key))
         pages.append(page)
-    remarks = [("", "", "", remark) for remark in ("", *_REMARKS)]
-    given_rows = in_shown_units(cells.rows, len(_GIVEN_WIDTHS))
-    sheets = {_INPUTS: Sheet([*given_rows, *remarks], (*_GIVEN_WIDTHS, *_SHOWN_WIDTHS))}
-    sheets |= {
-        page.name: Sheet(in_shown_units(page.rows, len(_HEADING)), (*_FOUND_WIDTHS, *_SHOWN_WIDTHS))
-        for page in pages
-    }
-    return write_workbook(sheets, path)
+    return write_live(cells, pages, _REMARKS, path)
 
 
 def _greater(one: Any, other: Any) -> Any:
     return np.maximum(one, other)
 
 
-def _traced(given: Inputs, cells: "_Cells") -> Inputs:
+def _traced(given: Inputs, cells: Cells) -> Inputs:
     """Return the inputs with cells in place of numbers, the geometry found from five of them."""
     gearset: Any = _Part(given.gearset, "gearset", cells)
     free: dict[str, Any] = {
@@ -160,7 +145,7 @@ def _rated(standard: str, given: Inputs, tables: Tables) -> Values:
     return rated_bs721(given, tables)[0] if standard == "bs721" else rated_agma6034(given)
 
 
-def _tables(tables: Tables, cells: "_Cells") -> Tables:
+def _tables(tables: Tables, cells: Cells) -> Tables:
     """Return BS 721's tables with cells for what is looked up by materials."""
 
     def looked_up(name: str) -> Any:
@@ -169,88 +154,6 @@ def _tables(tables: Tables, cells: "_Cells") -> Tables:
 
     names = "bending_stress_factor", "surface_stress_factor", "worm_surface_stress_factor"
     return dataclasses.replace(tables, **{name: looked_up(name) for name in names})
-
-
-class _Cells:
-    """The inputs that a calculation asks for, and where every number stands."""
-
-    def __init__(self) -> None:
-        self.rows: list[tuple[Any, ...]] = [("symbol", "value", "unit", "meaning", "key")]
-        self.places: dict[int, str] = {}
-        self._known: dict[str, tuple[Traced, Traced]] = {}
-        self._units: dict[str, str] = {}
-
-    def input(self, path: str, value: float, unit: str = "") -> Traced:
-        """Return an input as a number that is calculated with.
-
-        Parameters
-        ----------
-        path : str
-            Where it stands in the inputs.
-        value : float
-            What it is.
-        unit : str
-            Its unit, where the rating has none for it.
-        """
-        if path not in self._known:
-            fact = _fact(path)
-            self._units[path] = unit = fact.unit if fact else unit
-            size = _FROM_SI.get(unit, 1.0) if "." in path else 1.0
-            shown = Traced(math.degrees(value) if unit == "deg" else value * size)
-            number = np.radians(shown) if unit == "deg" else shown if size == 1.0 else shown / size
-            self._known[path] = shown, number
-        return self._known[path][1]
-
-    def settle(self, results: Iterable[Any]) -> None:
-        """Give a row to each input that results rest on."""
-        open_, reached = [one for one in results if isinstance(one, Traced)], set()
-        while open_:
-            one = open_.pop()
-            if id(one) not in reached:
-                reached.add(id(one))
-                open_ += [other for other in one.arguments if isinstance(other, Traced)]
-        for path, (shown, _) in self._known.items():
-            if id(shown) in reached:
-                fact = _fact(path)
-                name = path.rpartition(".")[2].replace("_", " ")
-                symbol, meaning = (fact.symbol, fact.meaning) if fact else ("", name)
-                self.places[id(shown)] = place(_INPUTS, len(self.rows), _VALUE)
-                value = Input(float(shown.value))
-                self.rows.append((symbol, value, self._units[path], meaning, path))
-
-
-class _Page:
-    """A sheet of numbers that were found."""
-
-    def __init__(self, name: str, cells: _Cells) -> None:
-        self.name, self._cells = name, cells
-        self.rows: list[tuple[Any, ...]] = [_HEADING]
-
-    def add(
-        self,
-        value: Any,
-        symbol: str,
-        unit: str,
-        meaning: str,
-        equation: str,
-        source: str = "",
-        asked: float | None = None,
-    ) -> None:
-        """Add a row; a number is known by its cell from here on."""
-        row = len(self.rows)
-        where = place(self.name, row, _VALUE)
-        shown: Any = value
-        if isinstance(value, Traced):
-            known = self._cells.places.get(id(value))
-            text = value.whole_formula(self._cells.places) if known is None else known
-            here = place(self.name, 0, 0).partition("!")[0]
-            shown = Formula(text.replace(f"{here}!", ""), float(value.value))
-            self._cells.places.setdefault(id(value), where)
-        holds: tuple[Any, ...] = ()
-        if asked is not None and isinstance(value, Traced):
-            said = "holds" if value.value >= asked else "FAILS"
-            holds = (asked, Formula(f'IF(B{row + 1}>=G{row + 1},"holds","FAILS")', said))
-        self.rows.append((symbol, shown, unit, meaning, equation, source, *holds))
 
 
 def _fact(path: str) -> Fact | None:
@@ -264,7 +167,7 @@ def _fact(path: str) -> Fact | None:
 class _Part:
     """A table of a case whose numbers are cells."""
 
-    def __init__(self, thing: Any, path: str, cells: _Cells) -> None:
+    def __init__(self, thing: Any, path: str, cells: Cells) -> None:
         self._thing, self._path, self._cells = thing, path, cells
 
     def __getattr__(self, name: str) -> Any:
@@ -287,7 +190,7 @@ class _Part:
 class _TracedInputs(Inputs):
     """Inputs whose numbers are cells; those that are rounded on their way into Python as well."""
 
-    cells: _Cells
+    cells: Cells
     plain: Inputs
 
     def _cell(self, name: str, unit: str = "") -> Any:

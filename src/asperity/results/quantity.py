@@ -6,23 +6,24 @@
         ratio: float = quantity("F_d/(mu F_N)", "", "mean drive force over mu F_N")
         force: float = quantity("F_d", "N", "mean drive force")
         course: FloatArray = quantity("x", "m", "position", dims=("time",))
-
-The class is a frozen dataclass without further ado.
 """
 
 import dataclasses
 import types
 import typing
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any, ClassVar, Literal, Protocol, Self, TypeVar, dataclass_transform
+from collections.abc import Callable, Iterator
+from typing import Any, ClassVar, Literal, Protocol, TypeVar, dataclass_transform
 
 import numpy as np
+
+from asperity.results.words import text_of
 
 F = TypeVar("F", bound=Callable[..., Any])
 
 _LABEL = "label"
-_DIGITS = 5
 _MOST_SHOWN = 8
+CI95 = "_ci95"
+"""What the name of an interval's ends ends in."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -49,6 +50,8 @@ class Label:
         Whether a sweep keeps it, if it is a number.
     optional : bool
         Whether it is left out where it is None, instead of being told as such.
+    is_ends : bool
+        Whether it is both ends of an interval.
     """
 
     symbol: str
@@ -62,6 +65,15 @@ class Label:
     shown: bool = True
     swept: bool = True
     optional: bool = False
+    is_ends: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Measured:
+    """A number with an interval: what is said of it, and of its ends."""
+
+    label: Label
+    ends: Label
 
 
 @dataclasses.dataclass(frozen=True)
@@ -162,7 +174,17 @@ def quantity(
 def labelled(symbol: str, unit: str, meaning: str, **options: Any) -> Callable[[F], F]:
     """Declare what follows from fields as a quantity, between ``@property`` and its function.
 
-    The parameters are those of :class:`Label`.
+    Parameters
+    ----------
+    symbol, unit, meaning : str
+        As of :class:`Label`.
+    **options
+        The other attributes of :class:`Label`.
+
+    Returns
+    -------
+    callable
+        The decorator.
     """
 
     def mark(function: F) -> F:
@@ -172,24 +194,59 @@ def labelled(symbol: str, unit: str, meaning: str, **options: Any) -> Callable[[
     return mark
 
 
+def measured(
+    symbol: str,
+    unit: str,
+    meaning: str,
+    *,
+    key: str | None = None,
+    only: Literal["file"] | None = None,
+    ends_only: Literal["json", "file"] | None = None,
+) -> Any:
+    """Declare a field as an `asperity.results.interval.Interval` or None, which it is by default.
+
+    JSON has it as two keys, ``torque_Nm`` and ``torque_ci95_Nm``, a dataset as two variables.
+    """
+    label = Label(symbol, unit, meaning, key, only=only, swept=False)
+    ends = Label("", unit, f"{meaning}: interval of 95 %", only=ends_only or only, shown=False,
+                 swept=False, is_ends=True)  # fmt: skip
+    return dataclasses.field(default=None, metadata={_LABEL: Measured(label, ends)})
+
+
 def part(of: "type[Quantities]", prefix: str = "", *, default: Any = dataclasses.MISSING) -> Any:
-    """Declare a field as an answer within the answer, or None."""
+    """Declare a field as an answer within the answer, or None.
+
+    Parameters
+    ----------
+    of, prefix : type of Quantities, str
+        The class of the answer, and what stands before the names of its quantities.
+    default : object
+        As of a field; None where the answer may be missing.
+
+    Returns
+    -------
+    dataclasses.Field
+        The field.
+    """
     return dataclasses.field(default=default, metadata={_LABEL: Part(of, prefix)})
 
 
 @dataclass_transform(
-    kw_only_default=True, frozen_default=True, eq_default=False, field_specifiers=(quantity, part)
+    kw_only_default=True,
+    frozen_default=True,
+    eq_default=False,
+    field_specifiers=(quantity, measured, part),
 )
 class Quantities:
     """Fields that are quantities; a class derived from it is a frozen dataclass."""
 
-    _labels: ClassVar[dict[str, Label | Part]] = {}
+    _labels: ClassVar[dict[str, Label | Measured | Part]] = {}
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         # Read before the fields turn into descriptors, so that they keep their order.
         own = {name: found for name in vars(cls) if (found := _label(vars(cls)[name])) is not None}
-        inherited: dict[str, Label | Part] = {}
+        inherited: dict[str, Label | Measured | Part] = {}
         for base in reversed(cls.__mro__[1:]):
             inherited |= vars(base).get("_labels", {})
         cls._labels = inherited | own
@@ -233,12 +290,12 @@ class Quantities:
         return 0.0
 
 
-def _label(member: object) -> Label | Part | None:
+def _label(member: object) -> Label | Measured | Part | None:
     if isinstance(member, dataclasses.Field):
         found = member.metadata.get(_LABEL)
     else:
         found = getattr(getattr(member, "fget", None), _LABEL, None)
-    return found if isinstance(found, Label | Part) else None
+    return found if isinstance(found, Label | Measured | Part) else None
 
 
 def _entries(cls: type[Quantities], holder: object, prefix: str) -> Iterator[Entry]:
@@ -249,17 +306,28 @@ def _entries(cls: type[Quantities], holder: object, prefix: str) -> Iterator[Ent
                 continue
             below = holder.resolution(name) if isinstance(holder, Quantities) else 0.0
             yield Entry(prefix + name, label, value, below)
+        elif isinstance(label, Measured):
+            yield from _measured(prefix + name, label, value)
         elif holder is None:
             yield from _entries(label.of, None, prefix + label.prefix)
         elif value is not None:
             yield from _entries(type(value), value, prefix + label.prefix)
 
 
+def _measured(name: str, both: Measured, found: Any) -> Iterator[Entry]:
+    value, ends = (None, None) if found is None else (found.value, found.ends)
+    yield (number := Entry(name, both.label, value))
+    key = f"{name}{CI95}{number.key.removeprefix(name)}"
+    yield Entry(name + CI95, dataclasses.replace(both.ends, key=key), ends)
+
+
 def _floats(cls: type[Quantities], prefix: str) -> Iterator[Entry]:
     for name, label in cls._labels.items():
         if isinstance(label, Part):
             yield from _floats(label.of, prefix + label.prefix)
-        elif label.only != "file" and not label.dims and _is_number(_annotation(cls, name)):
+        elif isinstance(label, Measured) or label.only == "file" or label.dims:
+            continue
+        elif _is_number(_annotation(cls, name)):
             yield Entry(prefix + name, label)
 
 
@@ -302,77 +370,3 @@ def plain(value: Any) -> Any:
     if isinstance(value, list | tuple):
         return [plain(entry) for entry in value]
     return value
-
-
-class Number(str):
-    """A number as it is shown, which knows all its digits and its key in JSON.
-
-    What is shown may be so many ``times`` as large, as percent are.
-    """
-
-    value: float
-    key: str
-    times: float
-
-    def __new__(cls, text: str, value: float, key: str = "", times: float = 1.0) -> Self:
-        """Return a text that stands for a value."""
-        made = super().__new__(cls, text)
-        made.value, made.key, made.times = value, key, times
-        return made
-
-    @classmethod
-    def of(cls, value: float, form: str, key: str = "", times: float = 1.0) -> Self:
-        """Return a value by a format."""
-        return cls(format(times * value, form), float(value), key, times)
-
-
-class Sentence(str):
-    """A text with numbers in it, which pages mark as such."""
-
-    parts: tuple[str, ...]
-
-    def __new__(cls, *parts: str) -> Self:
-        """Return texts and numbers as one text."""
-        made = super().__new__(cls, "".join(parts))
-        made.parts = tuple(p for part in parts for p in getattr(part, "parts", (part,)))
-        return made
-
-    @classmethod
-    def joined(cls, parts: Iterable[str], between: str = ", ") -> Self:
-        """Return texts with another one between them."""
-        found = [piece for part in parts for piece in (between, part)]
-        return cls(*found[1:])
-
-
-def text_of(value: Any, resolution: float = 0.0, key: str = "") -> str:
-    """Return a value as a table shows it.
-
-    Parameters
-    ----------
-    value : object
-        A number, text, truth, a list of them or None.
-    resolution : float
-        A number that is not larger is rounding: it is shown as zero within that.
-    key : str
-        In JSON, for a number.
-    """
-    if isinstance(value, str):
-        return value
-    if value is None:
-        return "-"
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float):
-        if value != value:
-            return "-"
-        if abs(value) <= resolution and value:
-            return f"0 within {resolution:.0g}"
-        return Number(f"{value + 0.0:.{_DIGITS}g}", float(value), key)
-    if isinstance(value, int):
-        return Number(str(value), value, key)
-    if isinstance(value, list | tuple):
-        return Sentence.joined(
-            text_of(entry, resolution, f"{key}.{place}" if key else "")
-            for place, entry in enumerate(value)
-        )
-    return str(value)

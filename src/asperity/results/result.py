@@ -135,7 +135,23 @@ class Result(Quantities):
         return (table_of(self, remarks=self.notes),)
 
     def figure(self, name: str | None = None) -> "Figure":
-        """Draw one of the pictures; the first if none is named."""
+        """Draw one of the pictures; the first if none is named.
+
+        Parameters
+        ----------
+        name : str, optional
+            A key of `drawings`.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+            Not shown yet.
+
+        Raises
+        ------
+        InputError
+            It has no picture of that name.
+        """
         drawings = self.kind.drawings
         if not drawings:
             from asperity.results.figures import draw
@@ -192,19 +208,35 @@ class Result(Quantities):
             For whom and by whom, and the case.
         folder : path, optional
             As of `sections`.
+
+        Returns
+        -------
+        str
+            The page.
         """
         from asperity.results.report import report
 
         return report(self.kind.title, self.sections(folder), heading)
 
     def save(self, path: str | os.PathLike[str]) -> Path:
-        """Write everything as netCDF, whole or not at all; :func:`read` gives it back."""
+        """Write everything as netCDF, whole or not at all; :func:`read` gives it back.
+
+        Parameters
+        ----------
+        path : path
+            A file; one that is there is replaced.
+
+        Returns
+        -------
+        path
+            The same.
+        """
         from asperity.files.store import write_dataset
 
         return write_dataset(self._with_answer(), path)
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
-        """Write JSON, netCDF and the pictures to a folder that exists; returns their names.
+        """Write JSON, netCDF and the pictures to a folder that exists.
 
         The numbers come first, so that a picture that fails costs the picture.
 
@@ -214,6 +246,11 @@ class Result(Quantities):
             Where to.
         pictures : str
             What pictures are written as, png, svg or pdf; empty for none.
+
+        Returns
+        -------
+        list of str
+            Names of the files.
         """
         from asperity.results.files import write_json, write_picture
 
@@ -229,7 +266,18 @@ class Result(Quantities):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Saved":
-        """Read an answer of this kind back from a file; raises InputError for another kind."""
+        """Read an answer of this kind back from a file; raises InputError for another kind.
+
+        Parameters
+        ----------
+        path : path
+            A netCDF file.
+
+        Returns
+        -------
+        Saved
+            As of :func:`read`.
+        """
         saved = read(path)
         if not issubclass(saved.of, cls):
             raise InputError(f"{path} holds {_path_of(saved.of)}, not {_path_of(cls)}")
@@ -300,6 +348,16 @@ class Saved(Result):
 
 def read(path: str | os.PathLike[str]) -> Saved:
     """Read an answer back from a file that :meth:`Result.save` or ``--out`` wrote.
+
+    Parameters
+    ----------
+    path : path
+        A netCDF file.
+
+    Returns
+    -------
+    Saved
+        What was saved, with tables, pictures and JSON as the answer had them.
 
     Raises
     ------

@@ -7,7 +7,8 @@ leaves it out.
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from asperity.results.quantity import Sentence, quantity, text_of
+from asperity.results.quantity import quantity
+from asperity.results.words import Sentence, text_of
 
 MARK = "*"
 """Behind a number that has not settled, in a table."""

@@ -8,8 +8,8 @@ from collections.abc import Iterable, Sequence
 
 from markupsafe import Markup, escape
 
-from asperity.results.quantity import Number
 from asperity.results.typeset import typeset
+from asperity.results.words import Number
 
 Point = tuple[float, float]
 Words = Sequence[str]

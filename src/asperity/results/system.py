@@ -13,8 +13,8 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal, NamedTuple
 
-from asperity.results.quantity import Number, Sentence
 from asperity.results.table import Column, Table
+from asperity.results.words import Number, Sentence
 
 System = Literal["si", "us"]
 

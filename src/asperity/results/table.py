@@ -1,12 +1,13 @@
 """A table of an answer, whatever shows it: terminal, page, notebook."""
 
 import dataclasses
-from collections.abc import Iterable, Sequence
-from typing import Any, ClassVar, Self
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, ClassVar, NamedTuple, Self
 
-from asperity.results.quantity import Number, Quantities, text_of
+from asperity.results.quantity import Quantities
+from asperity.results.words import Number, text_of
 
-__all__ = ["Bar", "Column", "Number", "Table", "table_of"]
+__all__ = ["Bar", "Cell", "Column", "Number", "Table", "table_of", "table_of_rows"]
 
 
 class Bar(str):
@@ -105,3 +106,77 @@ def table_of(
         Column("unit"),
     )
     return Table(columns, tuple(rows), title, tuple(remarks))
+
+
+class Cell(NamedTuple):
+    """What a column of a table holds of each thing that has a row.
+
+    Attributes
+    ----------
+    of : str or callable
+        The name of a quantity, which knows where it stands in JSON, or what gives it.
+    form : str
+        The format of a number; empty for five digits.
+    times : float
+        What is shown over the value, as 100 for percent.
+    right : bool or None
+        Whether it is aligned to the right; None where its quantity is a number.
+    """
+
+    of: str | Callable[[Any], Any]
+    form: str = ""
+    times: float = 1.0
+    right: bool | None = None
+
+    def text(self, thing: Any, path: str) -> str:
+        """Return what it is of one, which stands in JSON by a path; empty for none."""
+        if not isinstance(self.of, str):
+            return self._shown(self.of(thing), "")
+        if not isinstance(thing, Quantities):
+            return self._shown(getattr(thing, self.of), "")
+        entry = next(one for one in thing.entries() if one.name == self.of)
+        return self._shown(entry.value, path and f"{path}.{entry.key}")
+
+    def _shown(self, value: Any, key: str) -> str:
+        if self.form and isinstance(value, int | float) and value == value:
+            return Number.of(value, self.form, key, self.times)
+        return text_of(value, key=key)
+
+
+def table_of_rows(
+    things: Iterable[Any],
+    columns: Mapping[str, str | Callable[[Any], Any] | Cell],
+    *,
+    title: str = "",
+    remarks: Iterable[str] = (),
+    within: str = "",
+) -> Table:
+    """Return a table with a row for each of some things, such as answers in a list.
+
+    Parameters
+    ----------
+    things : iterable
+        What has a row.
+    columns : mapping of str to str, callable or Cell
+        What the columns hold, by their headings. Those of numbers are aligned to the right.
+    title : str
+        Above the table.
+    remarks : iterable of str
+        Below it.
+    within : str
+        Where the list stands in JSON; empty where it does not.
+    """
+    cells = [one if isinstance(one, Cell) else Cell(one) for one in columns.values()]
+    rows = tuple(
+        tuple(cell.text(thing, within and f"{within}.{place}") for cell in cells)
+        for place, thing in enumerate(things)
+    )
+    heads = tuple(
+        Column(heading, right=_is_right(cell, [row[n] for row in rows]))
+        for n, (heading, cell) in enumerate(zip(columns, cells, strict=True))
+    )
+    return Table(heads, rows, title, tuple(remarks))
+
+
+def _is_right(cell: Cell, texts: Sequence[str]) -> bool:
+    return any(isinstance(text, Number) for text in texts) if cell.right is None else cell.right

@@ -13,6 +13,8 @@ class Interrupted(KeyboardInterrupt):
 
     Attributes
     ----------
+    line : str
+        What is kept, and how to go on.
     kept : int
         How many steps or points the next run finds done.
     """

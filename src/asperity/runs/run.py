@@ -83,7 +83,13 @@ class Run:
         self._signals = SignalFlag()
 
     def watch(self, made: Callable[[], Any]) -> None:
-        """Let what is there of an answer be looked at; a full disk costs the look and no more."""
+        """Let what is there of an answer be looked at; a full disk costs the look and no more.
+
+        Parameters
+        ----------
+        made : callable
+            Makes what is to be looked at; it is called where somebody looks.
+        """
         try:
             self._watch(made)
         except StorageError as error:
@@ -126,7 +132,18 @@ class Run:
             self.notify(f"this will take about {duration(left)}")
 
     def resume(self, key: str) -> Tree | None:
-        """Return the state in which this very work was left, None where it begins anew."""
+        """Return the state in which this very work was left, None where it begins anew.
+
+        Parameters
+        ----------
+        key : str
+            Of all that the work follows from, see `asperity.runs.key`.
+
+        Returns
+        -------
+        tree of ndarray of any shape, or None
+            As `checkpoint` was given it.
+        """
         if self._path is None:
             return None
         self._file = CheckpointFile(self._path, key, self.notify)

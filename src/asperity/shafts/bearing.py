@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import ValidationInfo, model_validator
 
 from asperity.errors import InputError, choices, shown
+from asperity.formulas.traced import number
 from asperity.gearset.library import Sourced
 from asperity.shafts.dimensions import DIMENSIONS
 from asperity.shafts.rolling import equivalent
@@ -145,11 +146,11 @@ class RollingBearing(Sourced):
         return 500.0 * (self.bore + self.outside_diameter)
 
     @property
-    def endless_below(self) -> float:
+    def endless_below(self) -> Any:
         """C_u, N."""
         if self.fatigue_limit is not None:
             return self.fatigue_limit
-        return float(fatigue_load_limit(self.static_rating, self.elements))
+        return number(fatigue_load_limit(self.static_rating, self.elements))
 
     @property
     def carries_axial(self) -> bool:
@@ -157,7 +158,18 @@ class RollingBearing(Sourced):
         return self.kind != "cylindrical"
 
     def ratings(self, *, pair: bool) -> tuple[float, float]:
-        """Return C and C_0 of one bearing or of two side by side, N."""
+        """Return C and C_0 of one bearing or of two side by side, N.
+
+        Parameters
+        ----------
+        pair : bool
+            Whether two stand side by side.
+
+        Returns
+        -------
+        dynamic, static : float
+            C and C_0, N.
+        """
         c, c0 = self.dynamic_rating, self.static_rating
         if not pair:
             return c, c0
@@ -167,6 +179,18 @@ class RollingBearing(Sourced):
         """Return the factors of its equivalent loads under an axial load, N.
 
         A pair that is ``opposed`` stands back to back or face to face.
+
+        Parameters
+        ----------
+        axial : float
+            Axial load, N, on which those of a deep groove ball bearing depend.
+        opposed : bool
+            Whether a pair stands back to back or face to face.
+
+        Returns
+        -------
+        Factors
+            e, X and Y, X_0 and Y_0.
         """
         if self.kind == "deep groove":
             return equivalent.deep_groove(self.f0 or 1.0, axial, self.static_rating)
@@ -178,10 +202,21 @@ class RollingBearing(Sourced):
             return equivalent.taper(self.e or 1.0, self.Y or 1.0, self.Y0 or 1.0)
         return equivalent.CYLINDRICAL
 
-    def induced(self, radial: float) -> float:
-        """Return the axial force that it makes of its radial load, N; adjusted bearings only."""
+    def induced(self, radial: Any) -> Any:
+        """Return the axial force that it makes of its radial load, N; adjusted bearings only.
+
+        Parameters
+        ----------
+        radial : array_like
+            F_r, N.
+
+        Returns
+        -------
+        float or ndarray, shape of ``radial``
+            N.
+        """
         if self.kind == "taper":
-            return float(equivalent.induced_of_taper(radial, self.Y or 1.0))
+            return number(equivalent.induced_of_taper(radial, self.Y or 1.0))
         return equivalent.induced_of_angular(self.angle)(radial)
 
 

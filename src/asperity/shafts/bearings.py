@@ -1,9 +1,13 @@
 """Lives and static safeties of the bearings of a shaft, over its loads."""
 
+import functools
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from asperity.errors import InputError
+from asperity.formulas.traced import number, total
 from asperity.shafts.options import BearingOptions
 from asperity.shafts.parameters import ShaftBearing
 from asperity.shafts.rolling import life
@@ -92,28 +96,27 @@ def life_of(
     equivalents = []
     for each in loads:
         of = rolling.factors(each.axial, opposed=place.opposed)
-        load = max(dynamic_load(of, each.radial, each.axial), _LEAST * c)
-        rest = max(static_load(of, peak * each.radial, peak * each.axial), _LEAST * c0)
+        load = number(np.maximum(dynamic_load(of, each.radial, each.axial), _LEAST * c))
+        rest = static_load(of, peak * each.radial, peak * each.axial)
         equivalents.append(load)
-        statics.append(float(life.static_safety(c0, rest)))
-        lives.append(float(life.rating_life_hours(c, load, p, each.speed)))
+        statics.append(number(life.static_safety(c0, np.maximum(rest, _LEAST * c0))))
+        lives.append(number(life.rating_life_hours(c, load, p, each.speed)))
         if options.e_c is not None:
             reference = life.reference_viscosity(each.speed, rolling.pitch_diameter)
-            kappa = float(life.viscosity_ratio(each.viscosity, reference))
+            kappa = number(life.viscosity_ratio(each.viscosity, reference))
             limit = rolling.endless_below * (2.0 if place.pair else 1.0)
-            factor = float(
+            factor = number(
                 life.life_modification(kappa, options.e_c, limit, load, rolling.elements)
             )
             kappas.append(kappa)
             factors.append(factor)
-            modified.append(float(life.modified_life(options.a_1, factor, lives[-1])))
+            modified.append(number(life.modified_life(options.a_1, factor, lives[-1])))
     hours = [each.hours for each in loads]
     whole = life.spectrum_life(hours, lives)
     reached = options.a_1 * whole if not modified else life.spectrum_life(hours, modified)
     turns = [each.hours * each.speed for each in loads]
-    mean = (sum(t * load**p for t, load in zip(turns, equivalents, strict=True)) / sum(turns)) ** (
-        1.0 / p
-    )
+    borne = total(t * load**p for t, load in zip(turns, equivalents, strict=True))
+    mean = (borne / total(turns)) ** (1.0 / p)
     counted = modified or lives
     used = [h / own for h, own in zip(hours, counted, strict=True)]
     worst = max(range(len(loads)), key=equivalents.__getitem__)
@@ -124,10 +127,14 @@ def life_of(
         equivalents[0] if len(loads) == 1 else mean,
         whole,
         reached if asked else None,
-        min(kappas) if kappas else None,
-        min(factors) if factors else None,
-        min(statics),
+        _least(kappas),
+        _least(factors),
+        _least(statics),
         tuple(each / sum(used) for each in used),
         rolling.kind == "deep groove"
         and any(outside_table(rolling.f0 or 1.0, w.axial, rolling.static_rating) for w in loads),
     )
+
+
+def _least(values: Sequence[Any]) -> Any:
+    return number(functools.reduce(np.minimum, values)) if values else None

@@ -9,12 +9,13 @@ below zero where the worm locks itself and the motor turns it even so. The axes 
 
 import math
 from collections.abc import Sequence
-from typing import Literal, NamedTuple, cast
+from typing import Any, Literal, NamedTuple, cast
 
 import numpy as np
 
 from asperity.errors import InputError
 from asperity.formulas import masking
+from asperity.formulas.traced import number
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import parts_of
 from asperity.rating.iso14521.forces import (
@@ -87,6 +88,8 @@ class Load(NamedTuple):
         Which the worm has under it, whatever the case.
     lets_down : bool
         Whether the load drives under it, whatever the case.
+    friction : float
+        Of the teeth, by which the forces were found.
     """
 
     hours: float
@@ -100,6 +103,7 @@ class Load(NamedTuple):
     viscosity: float
     rotation: Literal["both", "clockwise", "anticlockwise"] = "both"
     lets_down: bool = False
+    friction: float = math.nan
 
     def within(self, case: Condition) -> Condition:
         """Return its condition in a case: what it says of itself, else that of the case."""
@@ -165,21 +169,40 @@ def _each(given: Inputs, found: Sequence[Values], key: str) -> list[float]:
 def _load(
     given: Inputs, hours: float, torque: float, speed: float, friction: float, celsius: float
 ) -> Load:
-    wheel_force = float(wheel_tangential_force(torque, given.wheel_mean_diameter))
-    lead = float(given.lead_angle)
-    tangential = float(worm_tangential_force(wheel_force, lead, friction))
     oil = given.operation.lubricant.kinematic_viscosity(celsius + 273.15)
+    mesh = float(given.wheel_mean_diameter), float(given.lead_angle), float(given.pressure_angle)
     return Load(
         hours,
         torque,
         speed,
         speed / float(given.gear_ratio),
-        tangential,
-        wheel_force,
-        float(separating_force(tangential, given.pressure_angle, lead, friction)),
-        wheel_force * math.tan(lead - math.atan(friction)),
+        *forces(torque, friction, *mesh),
         1e6 * float(oil),
+        friction=friction,
     )
+
+
+def forces(
+    torque: Any, friction: Any, mean_diameter: Any, lead: Any, pressure_angle: Any
+) -> tuple[Any, Any, Any, Any]:
+    """Return F_tm1, F_tm2 and F_rm of a load, worm driving, and F_tm1 where the load drives, N.
+
+    Parameters
+    ----------
+    torque : float
+        Of the wheel, N m.
+    friction : float
+        Mean, of the teeth.
+    mean_diameter : float
+        Of the wheel, mm.
+    lead, pressure_angle : float
+        rad.
+    """
+    wheel_force = number(wheel_tangential_force(torque, mean_diameter))
+    tangential = number(worm_tangential_force(wheel_force, lead, friction))
+    radial = number(separating_force(tangential, pressure_angle, lead, friction))
+    driven = wheel_force * number(np.tan(lead - np.arctan(friction)))
+    return tangential, wheel_force, radial, driven
 
 
 def on_worm_shaft(at: float, force: Vector, pitch_diameter: float) -> PointLoad:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from asperity.errors import InputError
+from asperity.formulas.traced import number
 from asperity.gearset.geometry import Geometry
 from asperity.rating.inputs import scaled
 from asperity.shafts.beam import Stretch
@@ -78,7 +79,7 @@ class Model(NamedTuple):
                 radial = each.radial or 0.0
             else:
                 of = FACTORS[each.element], abs(torque), 1e3 * (each.diameter or 1.0)
-                radial = float(overhung_load(*of))
+                radial = number(overhung_load(*of))
             way = math.cos(each.direction), math.sin(each.direction)
             made.append(PointLoad(scaled(each.at, 1e3), (0.0, radial * way[0], radial * way[1])))
         return tuple(made)

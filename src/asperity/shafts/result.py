@@ -10,8 +10,11 @@ from asperity.shafts.loads import Load
 from asperity.shafts.shaft import ShaftFound
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     import xarray as xr
 
+    from asperity.rating.inputs import Inputs
     from asperity.rating.rows import Row
 
 
@@ -28,6 +31,8 @@ class ShaftStudy(Result):
         Of the life.
     life : float
         That the bearings must reach, h.
+    given : Inputs, optional
+        The gearset that they belong to.
     """
 
     title: ClassVar[str] = "Shafts and bearings"
@@ -68,16 +73,37 @@ class ShaftStudy(Result):
         "S_F", "", "yield safety of the weakest section by DIN 743", optional=True
     )
 
+    given: "Inputs | None" = None
+
     @classmethod
     def of(
         cls,
-        name: str,
+        given: "Inputs",
         found: Mapping[str, ShaftFound],
         loads: tuple[Load, ...],
         life: float,
         iso: tuple[float, float] | None,
     ) -> "ShaftStudy":
-        """Return the answer of shafts that are found; ISO's deflection and limit in mm."""
+        """Return the answer of shafts that are found; ISO's deflection and limit in mm.
+
+        Parameters
+        ----------
+        given : Inputs
+            The gearset and its operation.
+        found : mapping of str to ShaftFound
+            By ``worm_shaft`` and ``wheel_shaft``.
+        loads : tuple of Load
+            That they carry.
+        life : float
+            Required of the bearings, h.
+        iso : tuple of float or None
+            Deflection by ISO/TR 14521 and its limit, mm.
+
+        Returns
+        -------
+        ShaftStudy
+            With the least of each safety and life.
+        """
         lives = [
             each for shaft in found.values() for own in shaft.lives if own for each in own.values()
         ]
@@ -107,7 +133,8 @@ class ShaftStudy(Result):
                         f"{key}.thread_notch_bending and thread_notch_torsion"
                     )
         return cls(
-            name=name,
+            name=given.gearset.name,
+            given=given,
             found=found,
             loads=loads,
             life=life,
@@ -175,6 +202,16 @@ class ShaftStudy(Result):
         from asperity.shafts.told import tables
 
         return tables(self)
+
+    def write(self, folder: "Path", *, pictures: str = "png") -> list[str]:
+        """Write JSON, netCDF, the picture, and for spreadsheets live formulas."""
+        from asperity.shafts.workbook import write_shafts
+
+        names = super().write(folder, pictures=pictures)
+        assert self.given is not None
+        options = next(iter(self.found.values())).options
+        file = write_shafts(self.found, self.loads, self.given, options, folder / "shafts.xlsx")
+        return names if file is None else [*names, file.name]
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the scalars, and the course of what is in each shaft in its worst case."""

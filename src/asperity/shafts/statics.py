@@ -7,11 +7,12 @@ that x = -s. Forces on bearings are those of the shaft on them.
 
 import math
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.formulas.traced import total
 
 Vector = tuple[float, float, float]
 
@@ -55,11 +56,42 @@ class Reactions(NamedTuple):
     @property
     def radial(self) -> tuple[float, float]:
         """Resultant of each, N."""
-        return math.hypot(*self.first), math.hypot(*self.second)
+        return resultant(*self.first), resultant(*self.second)
+
+
+def resultant(y: Any, z: Any) -> Any:
+    """Return the length of a vector across the shaft.
+
+    Parameters
+    ----------
+    y, z : float or ndarray, same shape
+        Its parts.
+
+    Returns
+    -------
+    float or ndarray, same shape
+        In their unit.
+    """
+    return math.hypot(y, z) if isinstance(y, float) else np.sqrt(y**2 + z**2)
 
 
 def mesh_load(at: float, force: Vector, radius: float) -> PointLoad:
-    """Return the load of teeth that touch at y = ``radius`` from the shaft's axis, mm."""
+    """Return the load of teeth that touch at y = ``radius`` from the shaft's axis, mm.
+
+    Parameters
+    ----------
+    at : float
+        Position, mm.
+    force : tuple of float
+        On the shaft, by x, y and z, N.
+    radius : float
+        Where the teeth touch, mm.
+
+    Returns
+    -------
+    PointLoad
+        The force at the axis, and the couple of its arm.
+    """
     fx, _, fz = force
     return PointLoad(at, force, (radius * fz, 0.0, -radius * fx))
 
@@ -73,6 +105,11 @@ def reactions(loads: Sequence[PointLoad], first: float, second: float) -> Reacti
         On the shaft.
     first, second : float
         Positions of the bearings, mm; different.
+
+    Returns
+    -------
+    Reactions
+        By equilibrium of forces and couples.
     """
     span = second - first
     fy, fz, moment_y, moment_z = [0.0], [0.0], [0.0], [0.0]
@@ -82,12 +119,12 @@ def reactions(loads: Sequence[PointLoad], first: float, second: float) -> Reacti
         fz.append(load.force[2])
         moment_z.append(arm * load.force[1] + load.couple[2])
         moment_y.append(arm * load.force[2] - load.couple[1])
-    a_y, a_z = math.fsum(moment_z) / span, math.fsum(moment_y) / span
+    a_y, a_z = total(moment_z) / span, total(moment_y) / span
     return Reactions(
         (a_y, a_z),
-        (math.fsum((*fy, -a_y)), math.fsum((*fz, -a_z))),
-        math.fsum(load.force[0] for load in loads),
-        -math.fsum(load.couple[0] for load in loads),
+        (total((*fy, -a_y)), total((*fz, -a_z))),
+        total(load.force[0] for load in loads),
+        -total(load.couple[0] for load in loads),
     )
 
 
@@ -112,6 +149,49 @@ class Moments(NamedTuple):
     axial: FloatArray
 
 
+def section(
+    at: Any,
+    loads: Sequence[PointLoad],
+    carried: Reactions,
+    bearings: tuple[Any, Any],
+    fixed: tuple[Any, Any],
+    *,
+    behind: bool,
+) -> tuple[Any, Any, Any]:
+    """Return bending moment and torque in N mm and axial force in N of one section.
+
+    As `moments` has them of many; all numbers may be traced.
+
+    Parameters
+    ----------
+    at : float
+        Position, mm.
+    loads, carried : sequence of PointLoad, Reactions
+        As in `moments`.
+    bearings, fixed : tuple of float
+        As in `moments`.
+    behind : bool
+        Whether the side away from the end is meant, else that before the section.
+
+    Returns
+    -------
+    bending, torque, axial : float
+        N mm, N mm and N.
+    """
+    every = list(loads)
+    for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
+        every.append(PointLoad(place, (-fx, -fy, -fz)))
+    every.append(PointLoad(0.0, (0.0, 0.0, 0.0), (carried.torque, 0.0, 0.0)))
+    before = [load for load in every if (load.at <= at if behind else load.at < at)]
+    bending_y = total([(at - load.at) * load.force[1] + load.couple[2] for load in before] or [0.0])
+    bending_z = total([(at - load.at) * load.force[2] - load.couple[1] for load in before] or [0.0])
+    return (
+        resultant(bending_y, bending_z),
+        total([load.couple[0] for load in before] or [0.0]),
+        total([load.force[0] for load in before] or [0.0]),
+    )
+
+
 def moments(
     places: FloatArray,
     loads: Sequence[PointLoad],
@@ -123,7 +203,7 @@ def moments(
 
     Parameters
     ----------
-    places : ndarray
+    places : ndarray, shape (places,)
         Positions, mm.
     loads : sequence of PointLoad
         On the shaft.
@@ -133,6 +213,11 @@ def moments(
         Where they are, mm.
     fixed : tuple of float
         Axial force of each of them, along x, N.
+
+    Returns
+    -------
+    Moments
+        On either side of each place.
     """
     every = list(loads)
     for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):

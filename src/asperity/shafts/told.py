@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity.results.quantity import Number, Sentence, text_of
 from asperity.results.table import Column, Table
+from asperity.results.words import Number, Sentence, text_of
 from asperity.shafts.bearings import Life
 from asperity.shafts.rows import NAMES
 from asperity.shafts.shaft import ShaftFound

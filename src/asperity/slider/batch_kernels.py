@@ -10,7 +10,8 @@ branch that depends on one, the exponential and the return to the limit are poly
 import math
 from typing import Any
 
-from asperity.friction.dahl import SPLIT, UNSPLIT, VECTOR, inverse_root, relaxation_gain
+from asperity.friction.dahl import SPLIT, UNSPLIT, VECTOR
+from asperity.friction.lanes import relaxed
 from asperity.kernels.compiled import kernel
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_rows import WIDTH
@@ -19,7 +20,6 @@ from asperity.vibration.waveform import Wave, fill_increments
 BLOCK = 64  # steps whose increments are made at a time: 16 kB, they stay in the first cache
 
 FAST = {"contract", "nsz", "arcp"}
-_TINY = 1e-300
 
 
 # Before the window; in it with bodies that have not broken away; in it without.
@@ -89,27 +89,7 @@ def _make_block(law: int, window: bool, wait: bool) -> Any:
                 stretch = b[row.STRETCH * WIDTH + j] + b[row.DRIVE * WIDTH + j] - wx
                 dx = wx - ux
                 dy = own * wy - uy
-                if law == VECTOR:
-                    rate = math.sqrt(dx * dx + dy * dy)
-                else:
-                    slip_body = own_1 * wy
-                    slip_base = own_2 * wy - uy
-                    hx = sx + 0.5 * dx
-                    hy = sy + 0.5 * dy
-                    if law == SPLIT:
-                        rate = abs(hx * dx + hy * slip_body) + abs(hy * slip_base)
-                    else:
-                        rate = abs(hx * dx + hy * dy)
-                    rate = rate / math.sqrt(hx * hx + hy * hy + _TINY)
-                gain = relaxation_gain(rate)
-                decay = 1.0 - rate * gain
-                sx1 = sx * decay + dx * gain
-                sy1 = sy * decay + dy * gain
-                if law != VECTOR:
-                    over = sx1 * sx1 + sy1 * sy1 - 1.0
-                    back = inverse_root(over if over > 0.0 else 0.0)
-                    sx1 *= back
-                    sy1 *= back
+                sx1, sy1 = relaxed(sx, sy, dx, dy, own_1 * wy, own_2 * wy - uy, law)
                 free = b[row.STIFFNESS * WIDTH + j] * stretch
                 b[row.WX * WIDTH + j] = wx + b[row.MOBILITY_X * WIDTH + j] * (free - sx1)
                 b[row.WY * WIDTH + j] = wy - b[row.MOBILITY_Y * WIDTH + j] * sy1

@@ -8,7 +8,7 @@ bodies would wait for the long chain of roots and divisions of the first.
 import math
 from typing import Any
 
-from asperity.friction.loaded import relaxed_to_limit
+from asperity.friction.lanes import relaxed_to_limit
 from asperity.kernels.compiled import kernel
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, FAST, STAGES, fill_batch

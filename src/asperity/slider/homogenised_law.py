@@ -201,6 +201,16 @@ def homogenise(model: Model) -> HomogenisedLaw:
     Without vibration it is the friction of steady sliding. Single mean velocities without a
     periodic state are interpolated over.
 
+    Parameters
+    ----------
+    model : Model
+        The body, with its vibration.
+
+    Returns
+    -------
+    HomogenisedLaw
+        Mean friction force by mean velocity, both ways.
+
     Raises
     ------
     InputError

@@ -40,6 +40,11 @@ def solve(
     run : Run, optional
         Where a march is kept and gone on from, and who is told how far it is.
 
+    Returns
+    -------
+    SlideResult
+        Drive force and friction with their bounds, powers and, if kept, the history.
+
     Raises
     ------
     InputError

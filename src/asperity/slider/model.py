@@ -47,10 +47,12 @@ class Model:
 
     Attributes
     ----------
-    slider, friction, solve : Slider, Friction, Solve
+    slider, friction : Slider, Friction
         The tables of the case.
     vibration : Vibration or None
         None: the base is at rest.
+    solve : Solve
+        How it is solved.
     shape : Shape or None
         The vibration's waveform.
     normal : Normal or None
@@ -87,7 +89,23 @@ class Model:
 
     @classmethod
     def from_case(cls, case: Case) -> Self:
-        """Gather the tables of a case; [vibration] and [solve] may be missing."""
+        """Gather the tables of a case; [vibration] and [solve] may be missing.
+
+        Parameters
+        ----------
+        case : Case
+            With ``[slider]`` and ``[friction]``.
+
+        Returns
+        -------
+        Model
+            The body of the case.
+
+        Raises
+        ------
+        InputError
+            A table is missing, or two of them do not go together.
+        """
         given = case.get(Vibration)
         vibration = given.of_body() if given else None
         shape = vibration.shape(case.folder) if vibration is not None else None

@@ -8,6 +8,9 @@ from asperity.casefile.check import Mistake, check_case, missing
 from asperity.commands import COMMANDS, Command, case_tables
 from asperity.errors import AsperityError, InputError
 
+DUTY = "requirements"
+"""The table of a case that says what a gearset has to do, where it has none yet."""
+
 
 class Checked(NamedTuple):
     """What is known of a case file.
@@ -80,6 +83,8 @@ def check(name: str, settings: Sequence[str]) -> Checked:
     if asked and asked[0].name in refusals:
         text = refusals[asked[0].name].removeprefix(f"{case.source}: ")
         mistakes, takers = (Mistake(None, "", text),), []
+    elif not mistakes and not able and DUTY in case:
+        takers = ["size"]
     elif not mistakes and not able:
         mistakes = tuple(_lacking(case))
     besides = [

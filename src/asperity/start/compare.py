@@ -10,9 +10,9 @@ from asperity.drive.studies.gains import VELOCITY_RATIO, Gain, gain
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.results import Result
-from asperity.results.quantity import text_of
 from asperity.results.settled import MARK, told, unsettled
 from asperity.results.table import Table
+from asperity.results.words import text_of
 from asperity.units import quantity_of
 
 COMPARED = ("rate", "block", "slide")

@@ -8,12 +8,16 @@ from typing import Any
 from asperity.casefile import Table
 from asperity.commands import Command, Option
 from asperity.errors import ConvergenceError, InputError
+from asperity.gearset.masses import masses
 from asperity.gearset.parameters import Gearset
+from asperity.gearset.tolerancing.backlash import backlash
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.spectrum import Spectrum
 from asperity.start.kinds import KINDS, Values
-from asperity.studies.proposals import Proposals, propose
+from asperity.studies.proposals import propose
+from asperity.studies.proposed import Proposals
 from asperity.studies.requirements import Requirements
 from asperity.units import quantity_of, to_si
 
@@ -99,6 +103,7 @@ def proposals(
         rank=rank,
         exact=exact,
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
+        details=functools.partial(_details, kept, values.get(Tolerances.table)),
         held=held,
         locks=locks,
         requirements=asked,
@@ -157,6 +162,20 @@ def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:
     except (InputError, ConvergenceError):
         return False
     return True
+
+
+def _details(
+    values: Mapping[str, Any], tolerances: Mapping[str, Any] | None, keys: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return what a gearset weighs and, with tolerances, its backlash."""
+    gearset = _table(Gearset, {**values, **keys})
+    whole, rim = masses(gearset)
+    told: dict[str, Any] = {"mass_kg": whole, "rim_kg": rim}
+    if tolerances is not None:
+        play = backlash(gearset, _table(Tolerances, dict(tolerances)))
+        at_wheel = play.states["new"].times(play.measures[2].factor)
+        told["backlash_arcmin"] = (at_wheel.least, at_wheel.greatest)
+    return told
 
 
 def drop_begun_life(values: Values, given: Collection[str]) -> None:

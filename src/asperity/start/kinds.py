@@ -46,6 +46,8 @@ class Kind(NamedTuple):
         Commands to go on with.
     case : str
         One that ships and whose values it begins with, in place of `values`.
+    follows : mapping
+        What a ``table.key`` begins with once others are given: a text with their places in it.
     """
 
     title: str
@@ -54,6 +56,7 @@ class Kind(NamedTuple):
     tables: tuple[str, ...]
     then: tuple[str, ...]
     case: str = ""
+    follows: Mapping[str, str] = MappingProxyType({})
 
     def begun(self) -> Values:
         """Return a copy of what it begins with."""
@@ -119,6 +122,31 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             _ASKED_OF_GEARS,
             ("gearset", "operation", "rating"),
             ("rate", "sensitivity", "optimise", "flank"),
+        ),
+        "duty": Kind(
+            "What a worm gearset has to do",
+            {
+                "requirements": {"ratio": 40, "self_locking": "any"},
+                "operation": {
+                    key: value for key, value in _GEARS["operation"].items() if key != "life"
+                },
+                "spectrum": {"step": "", "duty": "S1"},
+            },
+            (
+                Question("requirements.ratio", "ratio of the speeds"),
+                Question("requirements.self_locking", "self-locking: any, wanted or avoided"),
+                *_ASKED_OF_GEARS[1:3],
+                Question("spectrum.step", "loads of its life; more of them behind a semicolon"),
+                Question("spectrum.duty", "S1, S2 15 min or S3 15 %"),
+                _ASKED_OF_GEARS[-1],
+            ),
+            ("requirements", "operation", "spectrum", "housing", "project", "gearset"),
+            ("size",),
+            follows=MappingProxyType(
+                {
+                    "spectrum.step": "{operation[output_torque]}, {operation[worm_speed]}, 25000 h",
+                }
+            ),
         ),
         "slide": Kind(
             "A body pulled over a vibrating base",

@@ -17,6 +17,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.formulas import masking
 from asperity.gearset.parameters import Gearset
+from asperity.gearset.shelf import hob_of, shelf
 from asperity.gearset.threads import CLOSED_FORMS, thread_room
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
@@ -40,6 +41,7 @@ ASSUMED = Source(
 
 _SAMPLE = 2**11
 _REQUIRED = "requirements."
+_OF_A_HOB = ("pressure_angle", "diameter_factor", "axial_module")
 _ABOVE = 1e-9
 
 _NUMBERS = {
@@ -178,6 +180,7 @@ class Space:
         )
         self.lower = np.minimum([spans[name][0] for name in VARIABLES], now)
         self.upper = np.maximum([spans[name][1] for name in VARIABLES], now)
+        self._keep_hob()
         shift = geometry.profile_shift
         self.profile_shift = (
             min(bounds.profile_shift[0], shift),
@@ -187,6 +190,29 @@ class Space:
         self.least_threads = min(LEAST_THREADS, float(own)) if knows else None
         self._free = np.flatnonzero(self.upper > self.lower)
         self.start = ((now - self.lower)[self._free]) / (self.upper - self.lower)[self._free]
+
+    def _keep_hob(self) -> None:
+        """Refuse to change what a hob of the shelf settles, and a gearset that none cuts."""
+        which, geometry = self.requirements.hobs, self.gearset.geometry
+        if which == "any":
+            return
+        free = [
+            name
+            for name, low, high in zip(VARIABLES, self.lower, self.upper, strict=True)
+            if name in _OF_A_HOB and high > low
+        ]
+        if free:
+            raise InputError(
+                f"requirements.hobs is {which!r}, and another {free[0]} needs another hob: leave "
+                "it out, or take --free worm_roughness; asperity size goes through the hobs"
+            )
+        hobs = shelf(which, self.gearset) or ()
+        if not hob_of(hobs, geometry.starts, geometry.axial_module, geometry.diameter_factor):
+            raise InputError(
+                f"requirements.hobs is {which!r}, and none of them cuts a gearset with "
+                f"m_x1 {geometry.axial_module:g} mm, q_1 {geometry.diameter_factor:g} and "
+                f"{geometry.starts} starts"
+            )
 
     @property
     def dimensions(self) -> int:

@@ -7,7 +7,7 @@ and margin together; where none holds, the nearest ones are told as such.
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, ClassVar, NamedTuple
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, suggestion
 from asperity.formulas import masking
 from asperity.gearset.parameters import Gearset
+from asperity.gearset.shelf import hob_of, shelf
 from asperity.gearset.threads import thread_room
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
@@ -23,116 +24,14 @@ from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
-from asperity.results import Result, quantity
-from asperity.results.table import Table
+from asperity.studies.proposed import MOST, Proposal, Proposals
 from asperity.studies.requirements import Requirements
 from asperity.studies.series import grid
+from asperity.units.standards import FROM_SI
 
 RANKS = {"size": "centre_distance", "efficiency": "efficiency", "margin": "margin"}
 LOCKS = ("", "rest", "motion")
 """When the worm must lock itself; empty: never."""
-
-MOST = 20
-"""Proposals that are shown."""
-
-_FROM_SI = 1e3
-
-
-class Proposal(NamedTuple):
-    """A gearset that is proposed.
-
-    Attributes
-    ----------
-    starts, wheel_teeth : int
-        Threads and teeth.
-    centre_distance_mm, axial_module_mm, diameter_factor, profile_shift : float
-        Its macro-geometry.
-    efficiency : float
-        Of the whole gearbox by ISO/TR 14521, worm driving.
-    margin : float
-        The least of all safeties over what is asked; 1 and more holds.
-    limited_by : str
-        The safety that has it, as ``standard.key``.
-    holds : bool
-        Whether every safety is enough.
-    locks_at_rest, locks_in_motion : tuple of str
-        The standards by whose friction the worm locks itself, of those that have an answer.
-    locks : str
-        In a word or two, by all of them: ``in motion``, ``at rest``, ``by some`` or ``no``.
-    """
-
-    starts: int
-    wheel_teeth: int
-    centre_distance_mm: float
-    axial_module_mm: float
-    diameter_factor: float
-    profile_shift: float
-    efficiency: float
-    margin: float
-    limited_by: str
-    holds: bool
-    locks_at_rest: tuple[str, ...] = ()
-    locks_in_motion: tuple[str, ...] = ()
-    locks: str = ""
-
-    @property
-    def keys(self) -> dict[str, Any]:
-        """What a ``[gearset]`` table has of it."""
-        return {
-            "starts": self.starts,
-            "wheel_teeth": self.wheel_teeth,
-            "centre_distance": f"{self.centre_distance_mm:.12g} mm",
-            "axial_module": f"{self.axial_module_mm:.12g} mm",
-            "diameter_factor": self.diameter_factor,
-        }
-
-    @property
-    def settings(self) -> tuple[str, ...]:
-        """What makes a case it, for ``--set``."""
-        return tuple(f"gearset.{key}={value}" for key, value in self.keys.items())
-
-
-class Proposals(Result):
-    """Gearsets that are proposed for a ratio, a torque and a speed."""
-
-    title: ClassVar[str] = "Worm gearsets for what is asked"
-    stem: ClassVar[str] = "size"
-
-    rated: int = quantity("", "", "gearsets rated")
-    holding: int = quantity("", "", "of them hold by every standard")
-    ranked_by: str = quantity("", "", "ranked by")
-    found: tuple[Proposal, ...]
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the proposals, each with the settings that make it."""
-        found = [p._asdict() | {"settings": list(p.settings)} for p in self.found]
-        return super().to_json() | {"proposals": found}
-
-    def tables(self) -> tuple[Table, ...]:
-        """Return a row for each proposal."""
-        headings = ("", "a (mm)", "z_1", "z_2", "u", "m_x1 (mm)", "q_1", "x_2", "eta (%)", "margin",
-                    "least safety", "locks")  # fmt: skip
-        rows = [
-            (str(place), f"{p.centre_distance_mm:g}", str(p.starts), str(p.wheel_teeth),
-             f"{p.wheel_teeth / p.starts:.4g}",
-             f"{p.axial_module_mm:g}", f"{p.diameter_factor:g}", f"{round(p.profile_shift, 3):g}",
-             f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", p.limited_by, p.locks)
-            for place, p in enumerate(self.found[:MOST], 1)
-        ]  # fmt: skip
-        best = self.found[0]
-        first = " ".join(f'--set "{setting}"' for setting in best.settings)
-        remarks = [
-            f"{self.rated} gearset{'s' * (self.rated != 1)} rated, {self.holding} "
-            f"hold{'s' * (self.holding == 1)} by every standard; shown are those "
-            f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
-            # One that breaks is nobody's first one.
-            *([f"the first one: {first}"] if best.holds else []),
-            *(self.notes if self.holding else self.notes[:-1]),
-        ]
-        if len(self.found) > MOST:
-            remarks.insert(1, f"{len(self.found) - MOST} more with --json")
-        title = "" if self.holding else self.notes[-1].capitalize()
-        return (Table.of(headings, rows, title=title, remarks=remarks),)
 
 
 def propose(
@@ -147,6 +46,7 @@ def propose(
     held: Mapping[str, float] | None = None,
     locks: str = "",
     requirements: Requirements | None = None,
+    details: Callable[[Mapping[str, Any]], Mapping[str, Any]] | None = None,
 ) -> Proposals:
     """Propose gearsets for a ratio, by the torque and the speed of an operation.
 
@@ -174,6 +74,13 @@ def propose(
         Whether the worm must lock itself, at rest or in motion, by every standard that rates it.
     requirements : Requirements, optional
         What is kept beside the safeties.
+    details : callable, optional
+        What else a `Proposal` tells of a gearset with its keys; those that are shown are asked for.
+
+    Returns
+    -------
+    Proposals
+        The best first.
 
     Raises
     ------
@@ -191,7 +98,8 @@ def propose(
             f"--locks {locks}: it must be one of {choices(LOCKS[1:])}{suggestion(locks, LOCKS[1:])}"
         )
     keeps = requirements or Requirements()
-    designs = grid(gear_ratio, held or {}, exact=exact, off=keeps.ratio_tolerance)
+    hobs = shelf(keeps.hobs, gearset)
+    designs = grid(gear_ratio, held or {}, exact=exact, off=keeps.ratio_tolerance, hobs=hobs)
     tried = np.array(designs).T
     room = thread_room(
         gearset.flank, gearset.tooth_proportions, tried[0], tried[4], gearset.pressure_angle
@@ -209,8 +117,8 @@ def propose(
         STANDARDS,
         starts=starts,
         wheel_teeth=teeth,
-        centre_distance=distance / _FROM_SI,
-        axial_module=module / _FROM_SI,
+        centre_distance=distance / FROM_SI["mm"],
+        axial_module=module / FROM_SI["mm"],
         diameter_factor=factor,
     )
     margins, least, rated_by_all = _margins(rated)
@@ -257,6 +165,7 @@ def propose(
             DEMANDS[least[n]].path,
             bool(holding[n]),
             *_locks(locking, n),
+            hob=hob_of(hobs or (), int(starts[n]), float(module[n]), float(factor[n])),
         )
 
     def best(of: Any) -> Any:
@@ -289,11 +198,12 @@ def propose(
              "margin": (distance, -margins)}[rank]  # fmt: skip
     if holding.any():
         shown = shown[np.lexsort(tuple(keys[shown] for keys in order))]
+    told = tuple(map(proposal, shown))
     return Proposals(
         rated=starts.size,
         holding=int((holding & rated_by_all).sum()),
         ranked_by=rank,
-        found=tuple(map(proposal, shown)),
+        found=tuple(p._replace(**(details(p.keys) if details else {})) for p in told),
         notes=tuple(notes),
     )
 

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 RATIO_OFF = 0.03
 """By how much the teeth may miss a ratio."""
 
+HOBS = {"standard": "hobs of DIN 3976's pairs (from memory)", "own": "hobs of the shelf"}
+
 _SAME = 1e-12
 
 Length = Annotated[float, Quantity("m", what="a length", example="125 mm", gt=0)]
@@ -47,6 +49,9 @@ class Requirements(Table):
         At most, m.
     wheel_diameter : float or str, optional
         Tip diameter of the wheel, d_a2 with an addendum of one module, at most, m.
+    hobs : {'any', 'standard', 'own'}
+        What the wheel is cut with: any hob, one for a pair of module and diameter of DIN 3976, or
+        one that a data file has (``asperity hobs``).
     safety : float
         Times what each standard asks for, at least. 1 if left out.
     """
@@ -63,6 +68,7 @@ class Requirements(Table):
     )
     centre_distance: Length | None = None
     wheel_diameter: Length | None = None
+    hobs: Literal["any", "standard", "own"] = "any"
     safety: Annotated[float, Quantity("", what="a factor", example="1.2", ge=1, le=100)] = 1.0
 
     def room(self, given: "Inputs", at_rest: Mapping[str, Real]) -> dict[str, Any]:
@@ -119,6 +125,8 @@ class Requirements(Table):
             parts.append(f"centre distance at most {1e3 * self.centre_distance:g} mm")
         if self.wheel_diameter is not None:
             parts.append(f"wheel at most {1e3 * self.wheel_diameter:g} mm")
+        if self.hobs != "any":
+            parts.append(HOBS[self.hobs])
         if self.safety != 1.0:
             parts.append(f"safeties {self.safety:g} times what is asked")
         if self.ratio is not None or not math.isclose(self.ratio_tolerance, RATIO_OFF):

@@ -1,11 +1,12 @@
 """All gearsets of the standard series for a ratio, with what is held of them as it is given."""
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from asperity.errors import InputError
+from asperity.gearset.shelf import Blank
 from asperity.gearset.sizing import possible_starts
 from asperity.studies.requirements import RATIO_OFF
 
@@ -29,7 +30,12 @@ Row = tuple[float, ...]
 
 
 def grid(
-    gear_ratio: float, held: Mapping[str, float], *, exact: bool, off: float = RATIO_OFF
+    gear_ratio: float,
+    held: Mapping[str, float],
+    *,
+    exact: bool,
+    off: float = RATIO_OFF,
+    hobs: Sequence[Blank] | None = None,
 ) -> list[Row]:
     """Return all gearsets of the series.
 
@@ -46,32 +52,63 @@ def grid(
         Whether the teeth must give the ratio as nearly as they can.
     off : float
         By how much they may miss it.
+    hobs : sequence of Blank, optional
+        What the wheel may be cut with; left out: a hob of any series' module and diameter factor.
 
     Raises
     ------
     InputError
         Nothing has the ratio with what is held.
     """
-    rows = (row for row in _all(gear_ratio, held, exact, off) if _keeps(row, held))
+    rows = (row for row in _all(gear_ratio, held, exact, off, hobs) if _keeps(row, held))
     # A centre distance or module that follows comes from many of the series.
     found = list(dict.fromkeys(rows))
     if not found:
         given = ", ".join(f"gearset.{key} {value:.6g}" for key, value in held.items())
         held_too = f", with {given} (lengths in mm), which --set holds" if held else ""
+        cut = "" if hobs is None else ", cut with the hobs that requirements.hobs names"
         raise InputError(
             f"ratio is {gear_ratio:g}, which no gearset of the series has within "
-            f"{100 * off:g} %{held_too}; choose another"
+            f"{100 * off:g} %{held_too}{cut}; choose another"
             f"{', or hold less' if held else ''}"
         )
     return found
 
 
-def _all(gear_ratio: float, held: Mapping[str, float], exact: bool, off: float) -> Iterator[Row]:
+def _all(
+    gear_ratio: float, held: Mapping[str, float], exact: bool, off: float,
+    hobs: Sequence[Blank] | None,
+) -> Iterator[Row]:  # fmt: skip
     for distance in _of(held, "centre_distance", DISTANCES):
         for starts, teeth in _teeth(distance, gear_ratio, held, exact, off):
-            for module in _of(held, "axial_module", MODULES):
-                for factor in _factors(distance, teeth, module, held):
-                    yield from _with_shift(starts, teeth, distance, module, factor, held)
+            for module, factor in _threads(distance, starts, teeth, held, hobs):
+                yield from _with_shift(starts, teeth, distance, module, factor, held)
+
+
+def _threads(
+    distance: float, starts: int, teeth: int, held: Mapping[str, float],
+    hobs: Sequence[Blank] | None,
+) -> Iterator[tuple[float, float]]:  # fmt: skip
+    """Yield the modules and diameter factors that are tried."""
+    if hobs is not None:
+        yield from (
+            (hob.module, hob.factor)
+            for hob in hobs
+            if hob.starts in (None, starts) and _keeps_thread(hob, held)
+        )
+        return
+    for module in _of(held, "axial_module", MODULES):
+        for factor in _factors(distance, teeth, module, held):
+            yield module, factor
+
+
+def _keeps_thread(hob: Blank, held: Mapping[str, float]) -> bool:
+    own = {
+        "axial_module": hob.module,
+        "diameter_factor": hob.factor,
+        "worm_pitch_diameter": hob.module * hob.factor,
+    }
+    return all(math.isclose(held.get(key, value), value) for key, value in own.items())
 
 
 def _of(held: Mapping[str, float], key: str, series: Iterable[float]) -> Iterable[float]:
@@ -90,7 +127,9 @@ def _teeth(
         possible = possible_starts(distance, gear_ratio)
     for starts in dict.fromkeys(possible):
         near = round(starts * gear_ratio)
-        whole = (near,) if exact else (near - 1, near, near + 1)
+        # Where little else is free, each that the ratio leaves is tried.
+        most = math.floor(off * starts * gear_ratio) + 1 if off > RATIO_OFF else 1
+        whole = (near,) if exact else range(near - most, near + most + 1)
         for teeth in _of(held, "wheel_teeth", whole):
             if abs(teeth / starts / gear_ratio - 1.0) <= off:
                 yield starts, int(teeth)

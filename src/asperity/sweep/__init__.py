@@ -8,7 +8,8 @@
     `acceptance/test_cli_sweep`.
 """
 
-from asperity.sweep.axes import Axis, parse_axes, read_grid
+from asperity.sweep.axes import parse_axes, read_grid
+from asperity.sweep.axis import Axis
 from asperity.sweep.result import SweepResult
 from asperity.sweep.run import run
 

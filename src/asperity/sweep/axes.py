@@ -15,78 +15,15 @@ from asperity.casefile.columns import HEADING, KEY, read_rows
 from asperity.errors import InputError, choices, nearest, shown
 from asperity.files import store
 from asperity.files.shipped import case_file, points_file
+from asperity.sweep.axis import POINT, Axis, Value, spanned
 from asperity.sweep.first import Reader, read_elsewhere
 from asperity.sweep.subject import Subject, subject_of
 from asperity.units import Quantity, quantity_of, split_unit, to_si
 
 MOST_POINTS = 1_000_000  # some 300 MB, and a quarter of an hour where each takes a millisecond
 _PATH = re.compile(KEY)
-POINT = "point"  # the dimension of values that change together
 _FORMS = "1,2,3 or start:stop:step"
 _GRAIN = Decimal("1e-9")
-
-Value = float | str
-
-
-@dataclasses.dataclass(frozen=True)
-class Axis:
-    """The values one key of a case takes.
-
-    Attributes
-    ----------
-    path : str
-        ``table.key``.
-    values : tuple of float or str
-        In SI, or words.
-    shown : tuple of float or str
-        The same as the user wrote them, in `unit`.
-    unit : str
-        Unit of `shown`; empty for a ratio or for words.
-    along : str
-        The dimension that it shares with others, which change together with it; empty: its own.
-    """
-
-    path: str
-    values: tuple[Value, ...]
-    shown: tuple[Value, ...]
-    unit: str = ""
-    along: str = ""
-
-    @property
-    def table(self) -> str:
-        """Name of the table."""
-        return self.path.partition(".")[0]
-
-    @property
-    def key(self) -> str:
-        """Name of the key in its table."""
-        return self.path.partition(".")[2]
-
-    @property
-    def numeric(self) -> bool:
-        """Whether the values are numbers."""
-        return not any(isinstance(value, str) for value in self.values)
-
-    def text(self, index: int) -> str:
-        """Return one value with its key and unit, as on the command line."""
-        value = self.shown[index]
-        number = value if isinstance(value, str) else f"{value:.12g}"
-        return f"{self.path}={number} {self.unit}".rstrip()
-
-
-def spanned(axes: Sequence[Axis]) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """Return the shape of a grid, and of each axis which of its dimensions it runs along."""
-    shape: list[int] = []
-    runs: list[int] = []
-    shared: dict[str, int] = {}
-    for axis in axes:
-        place = shared.get(axis.along, len(shape))
-        if place == len(shape):
-            shape.append(len(axis.values))
-        if axis.along:
-            shared[axis.along] = place
-        runs.append(place)
-    return tuple(shape), tuple(runs)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -139,13 +76,24 @@ def read_grid(
 
     Parameters
     ----------
-    name_or_path, tables, settings
+    name_or_path : str
+        As for :func:`asperity.casefile.read_case`.
+    tables : mapping of str to type of Table
+        As for :func:`asperity.casefile.read_case`.
+    settings : sequence of str
         As for :func:`asperity.casefile.read_case`.
     over : sequence of str
         ``table.key=1,2,3`` or ``table.key=start:stop:step``, the stop included where it falls on
         the grid; a unit with each number, or after the last one for all.
     points : str
         A file of values that change together, see `_columns`.
+
+    Returns
+    -------
+    case : Case
+        The first point of the grid that can be one.
+    axes : list of Axis
+        As of `parse_axes`.
 
     Raises
     ------
@@ -199,10 +147,23 @@ def parse_axes(over: Sequence[str], case: Case, points: str = "") -> list[Axis]:
 
     Parameters
     ----------
-    over, points
+    over : sequence of str
         As for `read_grid`.
     case : Case
         Gives the tables.
+    points : str
+        As for `read_grid`.
+
+    Returns
+    -------
+    list of Axis
+        Those of a file of points first, then the others as given.
+
+    Raises
+    ------
+    InputError
+        An axis that cannot be read, stands twice or is out of the bounds of its key, or too many
+        points.
     """
     written = _written(over, points, case.known, subject_of(case))
     return _within_bounds([_axis(axis) for axis in written])

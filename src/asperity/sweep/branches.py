@@ -22,7 +22,8 @@ from asperity.slider.model import Model
 from asperity.slider.periodic import cycle_steps
 from asperity.slider.result import SlideResult, inputs
 from asperity.slider.step_error import NOTED, WANTED, allowed_of
-from asperity.sweep.axes import Axis, parse_axes
+from asperity.sweep.axes import parse_axes
+from asperity.sweep.axis import Axis
 from asperity.sweep.bodies import Bodies
 from asperity.sweep.grid import Grid
 

@@ -11,7 +11,7 @@ import numpy as np
 from asperity.casefile import Case, Table
 from asperity.errors import AsperityError, InputError
 from asperity.runs.key import code_key, key
-from asperity.sweep.axes import Axis, spanned
+from asperity.sweep.axis import Axis, spanned
 from asperity.sweep.subject import subject_of
 
 # Enough for the inner axis of a large grid; more would let memory grow with the grid.

@@ -14,7 +14,8 @@ from asperity.errors import InputError
 from asperity.runs import Interrupted, Run
 from asperity.runs.rows import Row, Rows
 from asperity.runs.workers import cores
-from asperity.sweep.axes import Axis, parse_axes
+from asperity.sweep.axes import parse_axes
+from asperity.sweep.axis import Axis
 from asperity.sweep.grid import Grid, Point
 from asperity.sweep.pools import Pool, pool
 from asperity.sweep.result import Answers, SweepResult

@@ -1,7 +1,8 @@
 """What the thesis shows or says: a figure, a table or a claim, and the function that makes it here.
 
-A function that makes an exhibit says so, and what the page says beside it, by a decorator; it may
-be said several times, with what the function takes for each of them. An `Exhibit` knows its module
+A function that makes an exhibit says so by a decorator; it may be said several times, with what the
+function takes for each of them. What the page says beside it stands in ``said.toml`` and
+``exhibits.toml``, see `asperity.thesis.said`. An `Exhibit` knows its module
 alone, which is imported when it is made, so that a list of all costs nothing and one of them no
 more than its own room.
 """
@@ -13,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from asperity.runs.workers import Task
 from asperity.thesis.products import Drawn, Finding, Grid, How
-from asperity.thesis.said import said_of
+from asperity.thesis.said import words_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,17 +30,22 @@ FIGURE, TABLE, CLAIM = "figure", "table", "claim"
 
 @dataclasses.dataclass(frozen=True)
 class Maker:
-    """How an exhibit is made, and what the page says beside it."""
+    """How an exhibit is made."""
 
-    words: Mapping[str, Any]
+    name: str  # kind and number
     make: Callable[..., Drawn | Grid | Finding]
+
+    @property
+    def words(self) -> Mapping[str, Any]:
+        """What the page says beside it."""
+        return words_of(self.name)
 
 
 _MAKERS: dict[str, Maker] = {}
 
 
 def figure(
-    number: str, title: str, caption: str, draw: "Callable[[xr.Dataset], Figure]", *arguments: Any
+    number: str, draw: "Callable[[xr.Dataset], Figure]", *arguments: Any
 ) -> Callable[[Function], Function]:
     """Mark what computes a figure: its dataset, and the commands and functions that give it.
 
@@ -51,37 +57,34 @@ def figure(
         def make(**grade: bool) -> Drawn:
             return Drawn.by(draw, *compute(*arguments, **grade))
 
-        _MAKERS[f"{FIGURE} {number}"] = Maker({"title": title, "caption": caption}, make)
+        _mark(f"{FIGURE} {number}", make)
         return compute
 
     return marked
 
 
-def table(number: str, title: str, caption: str, *arguments: Any) -> Callable[[Function], Function]:
+def table(number: str, *arguments: Any) -> Callable[[Function], Function]:
     """Mark what calculates a table: a `Grid`; as `figure`."""
 
     def marked(compute: Function) -> Function:
-        words = {"title": title, "caption": caption}
-        _MAKERS[f"{TABLE} {number}"] = Maker(words, lambda: compute(*arguments))
+        _mark(f"{TABLE} {number}", lambda: compute(*arguments))
         return compute
 
     return marked
 
 
-def claim(number: str, section: str, text: str, thesis: str) -> Callable[[Function], Function]:
-    """Mark what tests a claim, by a `Finding`: where the thesis makes it, and what it says there.
-
-    Its number never changes; its words end with the thesis's own number or word. What the thesis
-    says, line by line, stands in `asperity.thesis.said`.
-    """
+def claim(number: str) -> Callable[[Function], Function]:
+    """Mark what tests a claim, by a `Finding`; its number never changes."""
 
     def marked(compute: Function) -> Function:
-        words = {"id": number, "section": section, "claim": text, "thesis": thesis}
-        words |= dataclasses.asdict(said_of(number))
-        _MAKERS[f"{CLAIM} {number}"] = Maker(words, compute)
+        _mark(f"{CLAIM} {number}", compute)
         return compute
 
     return marked
+
+
+def _mark(name: str, make: Callable[..., Any]) -> None:
+    _MAKERS[name] = Maker(name, make)
 
 
 class Part(Protocol):

@@ -1,4 +1,4 @@
-"""What the thesis says, in its own words with their lines, and what several claims rest on.
+"""What the page says: the thesis's claims in its words with their lines, titles and captions.
 
 The words are those of a text that a machine read from the printed thesis; it lost figures, most
 tables and some signs. Where our mending of a word matters, it is listed as a slip.
@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-_SAID = Path(__file__).with_name("said.toml")
+_SAID, _EXHIBITS = (Path(__file__).with_name(f"{name}.toml") for name in ("said", "exhibits"))
 
 READ_BY_A_MACHINE = (
     "The text of the thesis that stands behind this page was read by a machine from the printed "
@@ -82,7 +82,22 @@ class Disputed:
 
 @functools.cache
 def _read() -> Mapping[str, Any]:
-    return tomllib.loads(_SAID.read_text("utf-8"))
+    said, exhibits = (tomllib.loads(path.read_text("utf-8")) for path in (_SAID, _EXHIBITS))
+    return said | exhibits
+
+
+def words_of(name: str) -> Mapping[str, Any]:
+    """Return what the page says beside an exhibit, by its kind and number: ``figure 4.17``.
+
+    Of a figure or table title and caption; of a claim where the thesis makes it, the claim, the
+    thesis's own number or word, and what `said_of` has.
+    """
+    kind, _, number = name.partition(" ")
+    listed = _read()[kind].get(number, {})
+    if kind != "claim":
+        return {"title": listed.get("title", ""), "caption": listed.get("caption", "")}
+    claimed = {key: listed.get(key, "") for key in ("section", "claim", "thesis")}
+    return {"id": number, **claimed, **dataclasses.asdict(said_of(number))}
 
 
 def said_of(number: str) -> Said:

@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.results.interval import Interval
 
 Kind = Literal["A", "B"]
 """By statistics of observations, or by anything else that is known (GUM 3.3.5)."""
@@ -167,3 +168,23 @@ class Budget:
             self, value=factor * self.value,
             contributions=tuple(one.times(factor) for one in self.contributions),
         )  # fmt: skip
+
+
+@dataclasses.dataclass(frozen=True)
+class Budgeted(Interval):
+    """An interval that a budget leaves."""
+
+    low: float
+    high: float
+    deviation: float
+    budget: Budget = dataclasses.field(kw_only=True)
+
+    @classmethod
+    def of(cls, budget: Budget) -> "Budgeted":
+        """Return the interval of a budget."""
+        middle, half = budget.value, budget.expanded
+        return cls(middle, middle - half, middle + half, budget.uncertainty, budget=budget)
+
+    def times(self, factor: float) -> "Budgeted":
+        """Return it in another unit."""
+        return Budgeted.of(self.budget.times(factor))

@@ -217,6 +217,17 @@ class Vibration(Table):
             Where a samples file is looked for.
         turns : float, optional
             Of the worm in a second, which `per_turn` counts.
+
+        Returns
+        -------
+        Shape
+            Frequency in Hz, steepness and what a waveform has besides.
+
+        Raises
+        ------
+        InputError
+            The frequency is per turn of a worm and there is none, or the samples are missing or of
+            another frequency.
         """
         if self.per_turn is not None:
             if turns is None:
@@ -259,13 +270,39 @@ class Vibration(Table):
         return dataclasses.replace(shape, ramp=self.ramp * shape.frequency)
 
     def displacement(self, shape: "Shape", drive_velocity: float) -> float:
-        """Displacement amplitude u_a, m."""
+        """Displacement amplitude u_a, m.
+
+        Parameters
+        ----------
+        shape : Shape
+            The waveform, as of `shape`.
+        drive_velocity : float
+            That a velocity ratio refers to, m/s.
+
+        Returns
+        -------
+        float
+            :math:`u_a`, m.
+        """
         if self.displacement_amplitude is not None:
             return self.displacement_amplitude
         return self.velocity(shape, drive_velocity) / (shape.steepness * shape.frequency)
 
     def velocity(self, shape: "Shape", drive_velocity: float) -> float:
-        """Peak velocity v_a, m/s."""
+        """Peak velocity v_a, m/s.
+
+        Parameters
+        ----------
+        shape : Shape
+            The waveform, as of `shape`.
+        drive_velocity : float
+            That a velocity ratio refers to, m/s.
+
+        Returns
+        -------
+        float
+            :math:`v_a`, m/s: of the displacement times steepness and frequency, or :math:`k v_d`.
+        """
         if self.displacement_amplitude is not None:
             return self.displacement_amplitude * shape.steepness * shape.frequency
         if self.velocity_amplitude is not None:

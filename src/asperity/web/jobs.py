@@ -71,8 +71,8 @@ class Jobs:
                     self._held[job.id] = job
 
     def listed(self) -> list[dict[str, Any]]:
-        """Return all of them, the newest first."""
-        return [job.to_json() for job in reversed(self._held.values())]
+        """Return all of them, the newest first, each with what was asked for."""
+        return [job.to_json() | {"asked": job.asked} for job in reversed(self._held.values())]
 
     def found(self, identity: str) -> Job:
         """Return a job by its name."""

@@ -10,7 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from asperity.files.store import write_text
+from asperity.errors import AsperityError
+from asperity.files.store import read_text, write_text
 from asperity.web.folder import ANSWER, REQUEST, SO_FAR, STATE
 
 ENDED = ("stopped", "done", "failed")
@@ -74,12 +75,22 @@ class Job:
         return path.is_file() and not path.is_symlink()
 
     @property
+    def asked(self) -> Any:
+        """What was asked for, as the page asked it; None where that cannot be read."""
+        path = self.home / REQUEST
+        with contextlib.suppress(OSError, ValueError, AsperityError):
+            # What is no number there would be none in the list of all.
+            return None if path.is_symlink() else json.loads(read_text(path), parse_constant=str)
+        return None
+
+    @property
     def brief(self) -> dict[str, str]:
         """What is told to whoever begins or ends it."""
         return {"id": self.id, "state": self.state}
 
     def to_json(self) -> dict[str, Any]:
         """Return all that is known of it."""
+        self._look()
         return dataclasses.asdict(self) | {"answered": self.answered, "files": list(self.files())}
 
     def files(self) -> Iterator[str]:
@@ -91,10 +102,14 @@ class Job:
 
     def told(self) -> None:
         """Let everybody who waits see what is new."""
-        if self.process is not None:
-            self.seconds = round(time.monotonic() - self.since, 3)
+        self._look()
         self.news.set()
         self.news = asyncio.Event()
+
+    def _look(self) -> None:
+        """Look at the clock."""
+        if self.process is not None:
+            self.seconds = round(time.monotonic() - self.since, 3)
 
     def set(self, state: str) -> None:
         """Enter a state and keep it."""

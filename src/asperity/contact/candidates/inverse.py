@@ -11,6 +11,10 @@ from asperity.kernels.compiled import kernel
 
 _LEAST = 1e-14  # pivot of a matrix that counts as singular, of its largest entry
 
+# Rows that are taken off the others together: eight rows of the panel are read for each that is
+# written, and sums are the same to the last bit as one row at a time.
+_PANEL = 8
+
 
 @kernel
 def invert(a, n, order):
@@ -81,25 +85,53 @@ def decompose(a, n, order):
     for i in range(n * n):
         if not abs(a[i]) < math.inf:
             return False
-    for i in range(n):
-        pivot = i
-        for r in range(i + 1, n):
-            if abs(a[r * n + i]) > abs(a[pivot * n + i]):
-                pivot = r
-        order[i] = pivot
-        if not abs(a[pivot * n + i]) > 0.0:
-            return False
-        row = a[i * n : (i + 1) * n]
-        if pivot != i:
-            _exchange(row, a[pivot * n : (pivot + 1) * n])
-        for r in range(i + 1, n):
-            to = a[r * n : (r + 1) * n]
-            factor = to[i] / row[i]
-            to[i] = factor
-            if factor != 0.0:
-                for c in range(i + 1, n):
-                    to[c] -= factor * row[c]
+    for first in range(0, n, _PANEL):
+        last = min(first + _PANEL, n)
+        for i in range(first, last):
+            pivot = i
+            for r in range(i + 1, n):
+                if abs(a[r * n + i]) > abs(a[pivot * n + i]):
+                    pivot = r
+            order[i] = pivot
+            if not abs(a[pivot * n + i]) > 0.0:
+                return False
+            row = a[i * n : (i + 1) * n]
+            if pivot != i:
+                _exchange(row, a[pivot * n : (pivot + 1) * n])
+            for r in range(i + 1, n):
+                to = a[r * n : r * n + last]
+                factor = to[i] / row[i]
+                to[i] = factor
+                _subtract(to[i + 1 :], factor, row[i + 1 :])
+        for i in range(first + 1, last):
+            to = a[i * n : (i + 1) * n]
+            for k in range(first, i):
+                _subtract(to[last:], to[k], a[k * n + last : (k + 1) * n])
+        for r in range(last, n):
+            _subtract_panel(a, n, first, r)
     return True
+
+
+@kernel
+def _subtract(to, factor, row):
+    for c in range(to.shape[0]):
+        to[c] -= factor * row[c]
+
+
+@kernel
+def _subtract_panel(a, n, first, r):
+    """Take the rows of a panel off a row below it, right of the panel, in the order of the rows."""
+    f = a[r * n + first : r * n + first + _PANEL]
+    f0, f1, f2, f3, f4, f5, f6, f7 = f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7]
+    m = n - first - _PANEL
+    to = a[(r + 1) * n - m : (r + 1) * n]
+    i = first * n + first + _PANEL
+    r0, r1, r2, r3 = a[i : i + m], a[i + n :], a[i + 2 * n :], a[i + 3 * n :]
+    i += 4 * n
+    r4, r5, r6, r7 = a[i : i + m], a[i + n :], a[i + 2 * n :], a[i + 3 * n :]
+    for c in range(m):
+        left = to[c] - f0 * r0[c] - f1 * r1[c] - f2 * r2[c] - f3 * r3[c]
+        to[c] = left - f4 * r4[c] - f5 * r5[c] - f6 * r6[c] - f7 * r7[c]
 
 
 @kernel

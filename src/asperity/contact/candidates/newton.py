@@ -1,4 +1,4 @@
-r"""Semi-smooth Newton steps for the contact of one body, on its candidate faces.
+r"""Semi-smooth Newton steps for the contact of one body: the one way that all contacts are solved.
 
 Unknown are the forces :math:`f_q` at the points. Nodes answer to them as
 :math:`u = u^* + A \sum_q N_q^T f_q`, and the laws make of that the tractions :math:`t_q(u)`:
@@ -8,6 +8,16 @@ Unknown are the forces :math:`f_q` at the points. Nodes answer to them as
 Points out of contact have no force, so that a step is about those in contact alone
 (`asperity.contact.candidates.tangent`). Which they are is found anew in each step; the search along
 it watches the norm of what is missing.
+
+Friction and normal contact can be a thousand times stiffer than the body: then displacements that
+are off by little ask for tractions that are off by much, and such steps flip from sliding one way
+to sliding the other. There the laws are asked not at the slips and overclosures :math:`D` that the
+forces lead to but near them, as in Alart and Curnier's method: forces and displacements are a
+solution when :math:`t(\hat D) = f_q / w_q` at
+:math:`\hat D + t(\hat D)/r = D(u) + f_q / (w_q r)`, with a stiffness :math:`r` like the body's own
+(`asperity.contact.interface.tractions.augmented_tractions`). For any :math:`r` that is the same,
+but both sides of it now change at comparable rates. The search watches the integral of
+:math:`|t(\hat D) - f_q / w_q|^2`, and looks back over a few steps (`augmented`).
 """
 
 import math
@@ -30,7 +40,8 @@ from asperity.kernels.compiled import kernel
 FULL = -1.0
 """Residual of a solve for which there was no room."""
 
-_LEAST_STEP = 1.0 / 32.0
+# A search ends at this share of a step.
+_LEAST_STEP = 1.0 / 64.0
 # Of what is missing: an old matrix that leaves more of it is made anew.
 _QUICK = 0.2
 # Plain steps after which the augmented ones begin.
@@ -38,7 +49,10 @@ _PLAIN = 12
 # Augmentations that are tried, in parts of the body's own stiffness.
 _AUGMENTATIONS = (1.0, 0.2, 5.0)
 # Assumed this well, of the whole, forces are worth a look at the laws themselves.
-_NEAR = 1e-3
+_NEAR = 1e-4
+# Steps without progress, a tenth of what they are off by, after which an augmentation is given up.
+_STALLED = 12
+_PROGRESS = 0.9 * 0.9
 
 
 @kernel
@@ -73,21 +87,19 @@ def respond(body, candidates, force, free, nodal, u):
     count = candidates.counts[1]
     for i in range(count):
         j = 3 * candidates.nodes[i]
-        u[j] = free[j]
-        u[j + 1] = free[j + 1]
-        u[j + 2] = free[j + 2]
-    for m in range(count):
-        k = 3 * candidates.nodes[m]
-        fx = nodal[k]
-        fy = nodal[k + 1]
-        fz = nodal[k + 2]
-        if fx == 0.0 and fy == 0.0 and fz == 0.0:
-            continue
-        for i in range(count):
-            j = 3 * candidates.nodes[i]
-            u[j] += a[k, j] * fx + a[k + 1, j] * fy + a[k + 2, j] * fz
-            u[j + 1] += a[k, j + 1] * fx + a[k + 1, j + 1] * fy + a[k + 2, j + 1] * fz
-            u[j + 2] += a[k, j + 2] * fx + a[k + 1, j + 2] * fy + a[k + 2, j + 2] * fz
+        row_x, row_y, row_z = a[j], a[j + 1], a[j + 2]
+        x, y, z = free[j], free[j + 1], free[j + 2]
+        for m in range(count):
+            k = 3 * candidates.nodes[m]
+            fx = nodal[k]
+            fy = nodal[k + 1]
+            fz = nodal[k + 2]
+            if fx == 0.0 and fy == 0.0 and fz == 0.0:
+                continue
+            x += row_x[k] * fx + row_x[k + 1] * fy + row_x[k + 2] * fz
+            y += row_y[k] * fx + row_y[k + 1] * fy + row_y[k + 2] * fz
+            z += row_z[k] * fx + row_z[k + 1] * fy + row_z[k + 2] * fz
+        u[j], u[j + 1], u[j + 2] = x, y, z
 
 
 @kernel
@@ -184,7 +196,7 @@ def _plain(body, candidates, laws, motion, history, answer, kept, work):
         count, nodes = gather(body, candidates, answer, work)
         if 3 * count > work.change.shape[0]:
             return FULL, iterations
-        if not anew and fits(candidates, count, kept, work):
+        if not anew and fits(body.shapes.shape[0], candidates, count, kept, work):
             _missing(candidates, count, answer, work)
             change_by(body, candidates, count, nodes, kept, work)
             _move(count, 1.0, answer, work)
@@ -223,11 +235,44 @@ def _plain(body, candidates, laws, motion, history, answer, kept, work):
 
 
 @kernel
-def _augmented(body, candidates, laws, motion, history, answer, work, augmentation):
-    """Newton's steps on augmented laws, with a line search that looks back; see `solve`."""
+def augmented(body, candidates, laws, motion, history, answer, work):
+    """Solve by augmented laws, one augmentation after the other, from the forces of the answer.
+
+    Arguments and what is returned are those of `solve`.
+    """
+    points = body.shapes.shape[0] * candidates.counts[0]
+    for q in range(points):
+        for c in range(3):
+            work.start[q, c] = answer.force[q, c]
+    return _augmentations(body, candidates, laws, motion, history, answer, work)
+
+
+@kernel
+def _augmentations(body, candidates, laws, motion, history, answer, work):
+    """Try augmentations from the forces at the start; see `augmented`."""
+    points = body.shapes.shape[0] * candidates.counts[0]
+    iterations = 0
+    for factor in _AUGMENTATIONS:
+        for q in range(points):
+            for c in range(3):
+                answer.force[q, c] = work.start[q, c]
+        residual, more = _descend(
+            body, candidates, laws, motion, history, answer, work, factor * body.stiffness
+        )
+        iterations += more
+        if residual <= laws.tolerance:
+            return residual, iterations
+    missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
+    return math.sqrt(missing / whole) if whole > 0.0 else 0.0, iterations + 1
+
+
+@kernel
+def _descend(body, candidates, laws, motion, history, answer, work, augmentation):
+    """Newton's steps with one augmentation and a line search that looks back; see `augmented`."""
     floor = laws.floor * laws.floor
     iterations = 1
     off = look(body, candidates, laws, motion, history, answer, work, True, augmentation)
+    least, stalled = off, 0
     bounds = work.bounds
     for i in range(bounds.shape[0]):
         bounds[i] = off
@@ -242,10 +287,18 @@ def _augmented(body, candidates, laws, motion, history, answer, work, augmentati
             iterations += 2
             if whole <= floor:
                 return 0.0, iterations
+            last = residual
             residual = math.sqrt(missing / whole)
             if residual <= laws.tolerance:
                 return residual, iterations
+            # Nothing more is to be had where the arithmetic itself is no better.
+            if residual > 0.5 * last and missing <= floor:
+                return laws.tolerance, iterations
+            if residual < last:
+                stalled = 0
             look(body, candidates, laws, motion, history, answer, work, True, augmentation)
+        if stalled >= _STALLED:
+            break
         count, nodes = gather(body, candidates, answer, work)
         if 3 * count > work.change.shape[0]:
             return FULL, iterations
@@ -273,6 +326,8 @@ def _augmented(body, candidates, laws, motion, history, answer, work, augmentati
                 break
             share *= 0.5
         bounds[step % bounds.shape[0]] = off
+        stalled = 0 if off < _PROGRESS * least else stalled + 1
+        least = min(least, off)
     return residual, iterations
 
 
@@ -283,7 +338,7 @@ def solve(body, candidates, laws, motion, history, answer, kept, work):
     While the same points touch, the inverse of an earlier step serves; where it does not lead on
     quickly, Newton's matrix is made anew. Laws much stiffer than the body can lead such steps to a
     kink between two branches of friction, where each points to the other. From there the
-    augmented laws lead on, as in `asperity.contact.increment.newton`.
+    augmented laws lead on.
 
     Parameters
     ----------
@@ -293,7 +348,7 @@ def solve(body, candidates, laws, motion, history, answer, kept, work):
     laws : Laws
     motion : MotionNumbers
         Where the surface stands, and the slip it makes.
-    history : History
+    history : Committed
     answer : Answer
         Has the displacement ``free``, and ``force`` to begin with; written.
     kept : Kept
@@ -303,25 +358,15 @@ def solve(body, candidates, laws, motion, history, answer, kept, work):
     Returns
     -------
     residual, iterations : float, int
-        What is missing of the forces, over them; 0 where the surfaces only touch. `FULL`: more
-        points touch than there is room for.
+        What is missing of the forces, over them; 0 where the surfaces only touch, the tolerance
+        where the arithmetic gives no more. `FULL`: more points touch than there is room for.
     """
     points = body.shapes.shape[0] * candidates.counts[0]
     for q in range(points):
         for c in range(3):
             work.start[q, c] = answer.force[q, c]
     residual, iterations = _plain(body, candidates, laws, motion, history, answer, kept, work)
-    for factor in _AUGMENTATIONS:
-        if residual <= laws.tolerance:
-            break
-        for q in range(points):
-            for c in range(3):
-                answer.force[q, c] = work.start[q, c]
-        residual, more = _augmented(
-            body, candidates, laws, motion, history, answer, work, factor * body.stiffness
-        )
-        iterations += more
-    if residual > laws.tolerance:
-        missing, whole = evaluate(body, candidates, laws, motion, history, answer, work, False)
-        residual = math.sqrt(missing / whole) if whole > 0.0 else 0.0
-    return residual, iterations
+    if residual <= laws.tolerance:
+        return residual, iterations
+    residual, more = _augmentations(body, candidates, laws, motion, history, answer, work)
+    return residual, iterations + more

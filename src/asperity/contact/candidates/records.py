@@ -13,13 +13,14 @@ from asperity.kernels.compiled import kernel
 
 
 class Body(NamedTuple):
-    """A condensed body and the faces that may touch: k faces with 4 points each, n nodes."""
+    """A condensed body and its faces that may touch: k with r points each, q = k r, n nodes."""
 
-    faces: IntArray  #: (k, 4): Nodes of each face
-    shapes: FloatArray  #: (4, 4): Shape values at the points of a face
-    weights: FloatArray  #: (4k,): Area of each point, m^2
-    places: FloatArray  #: (4k, 3): Undeformed points, m
-    flexibility: FloatArray  #: (3n, 3n): Symmetric, m/N
+    faces: IntArray  #: (k, m): Nodes of each face
+    shapes: FloatArray  #: (r, m): Shape values at the points of a face
+    weights: FloatArray  #: (q,): Area of each point, m^2
+    places: FloatArray  #: (q, 3): Undeformed points, m
+    #: (3n, 3n): Displacement of the nodes by unit forces on them, m/N
+    flexibility: FloatArray
     stiffness: float  #: Against a traction about one node, the mean over all, Pa/m
 
     @classmethod
@@ -45,7 +46,7 @@ class Body(NamedTuple):
 class Candidates(NamedTuple):
     """The faces of a body that are near the counter-surface, with room for all k of them.
 
-    The first ``counts[0]`` entries of lists of faces count, the fourfold of lists of points, and
+    The first ``counts[0]`` entries of lists of faces count, r times as many of lists of points, and
     the first ``counts[1]`` of lists of nodes. With several bodies each array has one more axis
     before (`of_slot`).
     """
@@ -53,51 +54,45 @@ class Candidates(NamedTuple):
     counts: IntArray  #: (2,): Faces and nodes there are
     face: IntArray  #: (k,): Number of each face in the body
     place: IntArray  #: (k,): By the body's face, its place among them; -1: it is none
-    faces: IntArray  #: (k, 4): Their nodes
-    weights: FloatArray  #: (4k,): As in `Body`
-    places: FloatArray  #: (4k, 3): As in `Body`
+    faces: IntArray  #: (k, m): Their nodes
+    weights: FloatArray  #: (q,): As in `Body`
+    places: FloatArray  #: (q, 3): As in `Body`
     nodes: IntArray  #: (n,): Nodes of these faces
     seen: IntArray  #: (n,): 1 for them
 
     @classmethod
     def workspace(cls, body: Body, slots: int) -> Candidates:
         """Return room for the candidates of so many bodies; there are none yet."""
-        k, n = len(body.faces), body.nodes
+        (k, width), q, n = body.faces.shape, len(body.weights), body.nodes
         return cls(
             np.zeros((slots, 2), dtype=np.int64),
             np.zeros((slots, k), dtype=np.int64),
             np.full((slots, k), -1, dtype=np.int64),
-            np.zeros((slots, k, 4), dtype=np.int64),
-            np.zeros((slots, 4 * k)),
-            np.zeros((slots, 4 * k, 3)),
+            np.zeros((slots, k, width), dtype=np.int64),
+            np.zeros((slots, q)),
+            np.zeros((slots, q, 3)),
             np.zeros((slots, n), dtype=np.int64),
             np.zeros((slots, n), dtype=np.int64),
         )
+
+    @classmethod
+    def whole(cls, body: Body) -> Candidates:
+        """Return all faces of one body."""
+        k, n = len(body.faces), body.nodes
+        return cls(
+            np.array([k, n]), np.arange(k), np.arange(k), body.faces, body.weights, body.places,
+            np.arange(n), np.ones(n, dtype=np.int64),
+        )  # fmt: skip
 
     def of(self, k: int) -> Candidates:
         """Return the candidates of one body of several."""
         return Candidates(*(values[k] for values in self))
 
 
-class History(NamedTuple):
-    """What a solve starts from at the candidates' points."""
-
-    displacement: FloatArray  #: (3n,): Committed displacement of the nodes, m
-    deflection: FloatArray  #: (4k, 3): Committed deflection of the asperities, m
-    size: FloatArray  #: (4k,): As in `asperity.contact.interface.records.Committed`
-    multiplier: FloatArray  #: (n,): Zeros: nothing here is hard
-
-    @classmethod
-    def none(cls, body: Body) -> History:
-        """Return the history of a body that has not been touched."""
-        q, n = len(body.weights), body.nodes
-        return cls(np.zeros(3 * n), np.zeros((q, 3)), np.zeros(q), np.zeros(n))
-
-
 class Answer(NamedTuple):
     """What a solve starts its search with and writes; with several bodies as `Candidates`."""
 
-    force: FloatArray  #: (4k, 3): Forces on the body at the candidates' points, N
+    force: FloatArray  #: (q, 3): Forces on the body at the candidates' points, N
     u: FloatArray  #: (3n,): Displacement of the candidates' nodes, m; of others not meant
     free: FloatArray  #: (3n,): Displacement of the nodes without contact here, m
     pressure: FloatArray  #: The others as in `ContactPoints`
@@ -108,7 +103,7 @@ class Answer(NamedTuple):
     slip_2: FloatArray
     deflection: FloatArray
     size: FloatArray
-    stiffness: FloatArray  #: (4k, 3, 3): Derivative of the tractions by the displacement, Pa/m
+    stiffness: FloatArray  #: (q, 3, 3): Derivative of the tractions by the displacement, Pa/m
 
     @classmethod
     def workspace(cls, body: Body, slots: int) -> Answer:
@@ -131,23 +126,23 @@ class Work(NamedTuple):
     """What solves work with, one after the other."""
 
     nodal: FloatArray  #: (3n,): Nodal forces
-    start: FloatArray  #: (4k, 3): Forces at the start of a solve
-    trial: FloatArray  #: (4k, 3): Forces at the start of a search
-    assumed: FloatArray  #: (4k, 3): Tractions, Pa
+    start: FloatArray  #: (q, 3): Forces at the start of a solve
+    trial: FloatArray  #: (q, 3): Forces at the start of a search
+    assumed: FloatArray  #: (q, 3): Tractions, Pa
     change: FloatArray  #: (3m,): Newton's change of the active ones
-    active: IntArray  #: (4k,): Points in contact, or with a force still
+    active: IntArray  #: (q,): Points in contact, or with a force still
     local: IntArray  #: (n,): Place of a node among those of the active points
     nodes: IntArray  #: (n,): These nodes
     order: IntArray  #: (3n,): Of the rows of an inverse
-    stiffness: FloatArray  #: (4k, 3, 3): Of the active points, Pa/m
-    block: FloatArray  #: (12, 12): Stiffness of a face
-    part: FloatArray  #: (12,): Of a row of the flexibility, m/N
+    stiffness: FloatArray  #: (q, 3, 3): Of the active points, Pa/m
+    block: FloatArray  #: (3w, 3w): Stiffness of a face with w nodes
+    total: FloatArray  #: (3w,): Of a row of its product with the flexibility
     load: FloatArray  #: (3n,): Forces on these nodes
     carried: FloatArray  #: (3n,): Their motion under forces, m
     move: FloatArray  #: (3n,): Newton's change of their displacement, m
     matrix: FloatArray  #: (9nn,): Newton's equations
     right: FloatArray  #: (18m,): Forces at the active points
-    turn: FloatArray  #: (4k, 3): Forces before a turn of several bodies
+    turn: FloatArray  #: (q, 3): Forces before a turn of several bodies
     bounds: FloatArray  #: (3,): Merits that a search looks back at
     none: FloatArray  #: (3,): Zeros
     nothing: FloatArray  #: (3, 3): Zeros
@@ -155,15 +150,15 @@ class Work(NamedTuple):
     @classmethod
     def workspace(cls, body: Body, most: int) -> Work:
         """Return room for contacts in which so many points touch at most."""
-        q, n = len(body.weights), body.nodes
+        q, n, width = len(body.weights), body.nodes, 3 * body.shapes.shape[1]
         most = min(most, q)
         return cls(
             np.zeros(3 * n), np.zeros((q, 3)), np.zeros((q, 3)), np.zeros((q, 3)),
             np.zeros(3 * most), np.zeros(q, np.int64), np.zeros(n, np.int64),
             np.zeros(n, np.int64), np.zeros(3 * n, np.int64), np.zeros((q, 3, 3)),
-            np.zeros((12, 12)), np.zeros(12), np.zeros(3 * n), np.zeros(3 * n), np.zeros(3 * n),
-            np.zeros(9 * n * n), np.zeros(18 * most), np.zeros((q, 3)), np.zeros(3), np.zeros(3),
-            np.zeros((3, 3)),
+            np.zeros((width, width)), np.zeros(width), np.zeros(3 * n),
+            np.zeros(3 * n), np.zeros(3 * n), np.zeros(9 * n * n), np.zeros(18 * most),
+            np.zeros((q, 3)), np.zeros(3), np.zeros(3), np.zeros((3, 3)),
         )  # fmt: skip
 
 

@@ -100,7 +100,7 @@ def solve_all(
         of the counter-surface as each body sees it.
     kept : Kept
         Of all, as the candidates.
-    laws, history, work : Laws, History, Work
+    laws, history, work : Laws, Committed, Work
         Shared by all.
     tolerance : float
         Relative change of the forces from turn to turn that is small enough.

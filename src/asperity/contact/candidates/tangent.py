@@ -58,7 +58,7 @@ def assemble(body, candidates, count, nodes, work):
         matrix[i] = 0.0
     for i in range(m):
         matrix[i * m + i] = 1.0
-    block, part = work.block, work.part
+    block, total = work.block, work.total
     i = 0
     while i < count:
         face = work.active[i] // rule
@@ -72,23 +72,22 @@ def assemble(body, candidates, count, nodes, work):
                     share = weight * shapes[q - face * rule, b] * shapes[q - face * rule, e]
                     for c in range(3):
                         for d in range(3):
-                            # The sum below runs along its rows.
-                            block[3 * e + d, 3 * b + c] += share * k[c, d]
+                            block[3 * b + c, 3 * e + d] += share * k[c, d]
             i += 1
         for n in range(m):
             row = a[3 * work.nodes[n // 3] + n % 3]
+            for d in range(total.shape[0]):
+                total[d] = 0.0
             for b in range(width):
                 j = 3 * candidates.faces[face, b]
-                part[3 * b] = row[j]
-                part[3 * b + 1] = row[j + 1]
-                part[3 * b + 2] = row[j + 2]
-            for e in range(width):
-                to = 3 * work.local[candidates.faces[face, e]]
+                x, y, z = row[j], row[j + 1], row[j + 2]
+                kx, ky, kz = block[3 * b], block[3 * b + 1], block[3 * b + 2]
+                for d in range(total.shape[0]):
+                    total[d] += x * kx[d] + y * ky[d] + z * kz[d]
+            for b in range(width):
+                to = n * m + 3 * work.local[candidates.faces[face, b]]
                 for d in range(3):
-                    total = 0.0
-                    for b in range(3 * width):
-                        total += part[b] * block[3 * e + d, b]
-                    matrix[n * m + to + d] -= total
+                    matrix[to + d] -= total[3 * b + d]
 
 
 @kernel
@@ -138,13 +137,13 @@ def expand(body, candidates, count, right, stiffness, move, work, change):
 
 
 @kernel
-def fits(candidates, count, kept, work):
-    """Whether the inverse that was kept is of the points that are active now."""
+def fits(rule, candidates, count, kept, work):
+    """Whether the inverse that was kept is of the points that are active now, so many a face."""
     if kept.size[0] != count:
         return False
     for i in range(count):
         q = work.active[i]
-        if kept.points[i] != 4 * candidates.face[q // 4] + q % 4:
+        if kept.points[i] != rule * candidates.face[q // rule] + q % rule:
             return False
     return True
 
@@ -161,7 +160,7 @@ def change_by(body, candidates, count, nodes, kept, work):
 @kernel
 def change(body, candidates, count, nodes, answer, kept, work):
     """Write Newton's change of the forces and keep its inverse; False where there is none."""
-    m = 3 * nodes
+    m, rule = 3 * nodes, body.shapes.shape[0]
     stiffness_of(count, answer, work)
     assemble(body, candidates, count, nodes, work)
     kept.size[0] = 0
@@ -173,7 +172,7 @@ def change(body, candidates, count, nodes, answer, kept, work):
     kept.size[0] = count
     for i in range(count):
         q = work.active[i]
-        kept.points[i] = 4 * candidates.face[q // 4] + q % 4
+        kept.points[i] = rule * candidates.face[q // rule] + q % rule
         copy(work.stiffness[i], kept.stiffness[i])
     change_by(body, candidates, count, nodes, kept, work)
     return True

@@ -85,29 +85,35 @@ def bear(
     residual = np.inf
     for iteration in range(1, _MOST + 1):
         free = (force > 0.0) & (force < limit)
+        # Taking by number costs a third of taking by mask.
+        on = np.flatnonzero(free)
+        levers = arm[on]
         left = gap + deflection(force)
-        theta = _level(left, arm, free)
+        theta = _level(left[on], levers)
         left -= arm * theta
-        square = _dot(left[free], left[free])
-        size = max(float(np.abs(gap + arm * -theta).max(where=free, initial=0.0)), 1e-15)
-        residual = np.sqrt(square / max(1, int(free.sum()))) / size
-        wrong = _wrong(force, left, limit, tolerance * size)
-        if residual <= tolerance and not wrong.any():
+        own = left[on]
+        square = _dot(own, own)
+        size = max(float(np.abs(gap[on] - levers * theta).max(initial=0.0)), 1e-15)
+        residual = np.sqrt(square / max(1, on.size)) / size
+        if residual <= tolerance and not _wrong(force, left, limit, tolerance * size).any():
             return Bearing(force, theta, left, iteration, residual)
         # Polak and Ribiere's: where patches come and go it begins anew by itself.
-        beta = max(0.0, (square - _dot(left[free], last[free])) / before)
-        way = np.where(free, left + beta * way, 0.0)
+        beta = max(0.0, (square - _dot(own, last[on])) / before)
+        along = own + beta * way[on]
+        way = np.zeros(gap.shape)
+        way[on] = along
         before, last = square or 1e-300, left
         sunk = deflection(way)
-        sunk -= arm * _level(sunk, arm, free)
-        curvature = _dot(sunk[free], way[free])
-        step = _dot(left[free], way[free]) / curvature if curvature > 0.0 else 0.0
-        trial = force - step * way
-        clipped = np.clip(trial, 0.0, limit)
+        level = _level(sunk[on], levers)
+        curvature = _dot(sunk[on] - levers * level, along)
+        step = _dot(own, along) / curvature if curvature > 0.0 else 0.0
+        clipped = np.clip(force - step * way, 0.0, limit)
         # Patches that overlap bear again, patches at the cap that part bear less: from anew.
         back = _wrong(clipped, left, limit, 0.0) & ~free
-        size_step = abs(step) if step else 1.0 / max(float(np.abs(sunk).max()), 1e-300)
-        clipped[back] = np.clip(clipped[back] - size_step * left[back], 0.0, limit[back])
+        if back.any():
+            largest = float(np.abs(sunk - arm * level).max())
+            size_step = abs(step) if step else 1.0 / max(largest, 1e-300)
+            clipped[back] = np.clip(clipped[back] - size_step * left[back], 0.0, limit[back])
         force = _loaded(clipped, arm, moment, limit)
     raise ConvergenceError(
         "the pressures of the contact were not found", reached={"residual": residual}
@@ -126,9 +132,8 @@ def _wrong(force: FloatArray, gap: FloatArray, limit: FloatArray, slack: float) 
     return np.asarray((more | less) & (limit > 0.0))
 
 
-def _level(values: FloatArray, arm: FloatArray, free: BoolArray) -> float:
-    chosen = arm[free]
-    return _dot(values[free], chosen) / max(_dot(chosen, chosen), 1e-300)
+def _level(values: FloatArray, arm: FloatArray) -> float:
+    return _dot(values, arm) / max(_dot(arm, arm), 1e-300)
 
 
 def _loaded(force: FloatArray, arm: FloatArray, moment: float, limit: FloatArray) -> FloatArray:

@@ -11,6 +11,9 @@ grid the sum over all rectangles is a convolution: one transform there and back,
 that nothing comes round its edges.
 """
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 
 from asperity.arrays import FloatArray
@@ -77,7 +80,8 @@ class HalfSpace:
             )
         self.shape = shape
         a, b = spacing
-        self._padded = tuple(fft.next_fast_len(2 * n, real=True) for n in shape)
+        rows, columns = (fft.next_fast_len(2 * n, real=True) for n in shape)
+        self._padded = rows, columns
         x, y = (
             step * np.minimum(np.arange(m), m - np.arange(m))
             for step, m in zip(spacing, self._padded, strict=True)
@@ -85,15 +89,52 @@ class HalfSpace:
         # Of a unit force: the pressure is that over the rectangle's area.
         kernel = rectangle_deflection(x[:, None], y[None, :], a, b) / (np.pi * modulus * a * b)
         self.own = float(kernel[0, 0])  #: Deflection of a rectangle under its own unit force, m/N
-        self._transform = fft.rfft2(kernel)
-        self._fft = fft
+        # An even function's transform is real.
+        self._transform = fft.rfft2(kernel).real
 
     def deflection(self, force: FloatArray) -> FloatArray:
         """Return the deflection in the middle of all rectangles under forces on them, N, m."""
-        rows, columns = self.shape
-        there = self._fft.rfft2(force.reshape(self.shape), s=self._padded)
-        there *= self._transform
-        # Only the rows that count are brought back.
-        half = self._fft.ifft(there, axis=0, overwrite_x=True)[:rows]
-        back = self._fft.irfft(half, n=self._padded[1], axis=1)[:, :columns]
-        return np.asarray(back).reshape(force.shape)
+        forces = force.reshape(1, *self.shape)
+        return _convolved(forces, self._transform, self._padded).reshape(force.shape)
+
+
+class HalfSpaces:
+    """Half-spaces that do not touch each other; those of one shape are transformed together.
+
+    Parameters
+    ----------
+    spaces : sequence of HalfSpace
+        In the order of their forces.
+    """
+
+    def __init__(self, spaces: Sequence[HalfSpace]) -> None:
+        ends = np.cumsum([0] + [math.prod(space.shape) for space in spaces])
+        self._alike = []
+        for shape in dict.fromkeys(space.shape for space in spaces):
+            chosen = [k for k, space in enumerate(spaces) if space.shape == shape]
+            places = np.concatenate([np.arange(ends[k], ends[k + 1]) for k in chosen])
+            stack = np.stack([spaces[k]._transform for k in chosen])
+            self._alike.append((places, (len(chosen), *shape), stack, spaces[chosen[0]]._padded))
+
+    def deflection(self, force: FloatArray) -> FloatArray:
+        """Return the deflections under the forces on all of them, one after the other, N, m."""
+        if len(self._alike) == 1:
+            ((_, shape, transform, padded),) = self._alike
+            return _convolved(force.reshape(shape), transform, padded).reshape(force.shape)
+        out = np.empty_like(force)
+        for places, shape, transform, padded in self._alike:
+            out[places] = _convolved(force[places].reshape(shape), transform, padded).ravel()
+        return out
+
+
+def _convolved(force: FloatArray, transform: FloatArray, padded: tuple[int, int]) -> FloatArray:
+    """Convolve grids of forces, (k, rows, columns), each with its kernel."""
+    from scipy import fft
+
+    _, rows, columns = force.shape
+    # Only the rows that hold forces are transformed, and only those asked for brought back.
+    there = fft.rfft(force, n=padded[1], axis=2)
+    there = fft.fft(there, n=padded[0], axis=1)
+    there *= transform
+    half = fft.ifft(there, axis=1, overwrite_x=True)[:, :rows]
+    return np.asarray(fft.irfft(half, n=padded[1], axis=2)[:, :, :columns])

@@ -19,7 +19,7 @@ from asperity.contact.increment.iterations import reach_of
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.interface.counter_motion import MotionNumbers
 from asperity.contact.interface.records import Committed, ContactPoints
-from asperity.contact.interface.tractions import augmented_tractions, tractions
+from asperity.contact.interface.tractions import tractions
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,21 +59,6 @@ class Trial:
 
 
 @dataclass(frozen=True, eq=False)
-class AugmentedTrial:
-    """Tractions assumed at the points, what the body makes of them, and what the laws say to it."""
-
-    assumed: FloatArray  #: (q, 3): Pa
-    #: response, force, points, stiffness: As in `Trial`
-    response: FloatArray
-    force: FloatArray
-    points: ContactPoints
-    stiffness: FloatArray
-    #: Root of the integral of the squared difference between the laws' tractions and those assumed,
-    #: N/m
-    off: float
-
-
-@dataclass(frozen=True, eq=False)
 class Increment:
     """What is given of one increment."""
 
@@ -95,19 +80,6 @@ class Increment:
         )  # fmt: skip
         return trial
 
-    def augmented(
-        self, assumed: FloatArray, response: FloatArray, augmentation: float
-    ) -> AugmentedTrial:
-        """Evaluate the augmented contact where tractions at the points lead to."""
-        count = self.problem.points
-        points, stiffness = ContactPoints.empty(count), np.empty((count, 3, 3))
-        force = np.empty_like(self.free)
-        _, off = augmented_tractions(
-            self.free + response, self.committed, self.problem.interface, self.motion, force,
-            points, stiffness, True, assumed, augmentation,
-        )  # fmt: skip
-        return AugmentedTrial(assumed, response, force, points, stiffness, float(np.sqrt(off)))
-
     def response(self, force: FloatArray) -> FloatArray:
         """Return what the body answers to nodal forces, ``A f``, m."""
         flexibility, there = self.problem.flexibility, np.flatnonzero(force)
@@ -126,13 +98,5 @@ class Increment:
     @cached_property
     def floor(self) -> float:
         """Forces that the last digits of the positions make, N."""
-        return self._last_digits(self.free)
-
-    def rounding(self, trial: Trial) -> float:
-        """Relative residual that the arithmetic itself makes."""
-        scale = float(np.linalg.norm(trial.force))
-        return self._last_digits(trial.u) / scale if scale > 0.0 else 0.0
-
-    def _last_digits(self, u: FloatArray) -> float:
-        reach: float = reach_of(self.problem.reach, u, self.motion.translation)
+        reach: float = reach_of(self.problem.reach, self.free, self.motion.translation)
         return reach * self.problem.by_digits

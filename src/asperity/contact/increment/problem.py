@@ -19,6 +19,7 @@ import numpy.typing as npt
 from scipy import sparse
 
 from asperity.arrays import FloatArray
+from asperity.contact.candidates.records import Body
 from asperity.contact.increment.predictor import Predictor
 from asperity.contact.interface.friction import PointFriction
 from asperity.contact.interface.normal import NormalLaw
@@ -92,11 +93,9 @@ class IncrementProblem:
         return _ROUNDING * self.normal.stiffness * self.area_norm
 
     @cached_property
-    def body_stiffness(self) -> float:
-        """Of the body against a traction about one node, Pa/m: the mean over all."""
-        area = self.surface.nodal_area
-        own = np.diagonal(self.flexibility).reshape(-1, 3).mean(axis=1)
-        return float(area.sum() / (area**2 * own).sum())
+    def body(self) -> Body:
+        """The body with all of its faces, as kernels take it."""
+        return Body.of(self.surface, self.flexibility)
 
     @cached_property
     def corners(self) -> npt.NDArray[np.int64]:

@@ -22,7 +22,7 @@ from asperity.friction.loaded import STIFFNESS, advance_loaded
 from asperity.friction.loaded_tangent import update_loaded
 from asperity.friction.lugre import lugre_loaded
 from asperity.friction.return_mapping import return_mapping
-from asperity.friction.two_phase_tangent import phases_and_tangent
+from asperity.friction.two_phase import phases_and_tangent
 from asperity.kernels.compiled import kernel
 
 COULOMB = 0

@@ -32,6 +32,11 @@ class Committed(NamedTuple):
     size: FloatArray  #: (q,): Its signed size over the limit (two-phase scheme)
     multiplier: FloatArray  #: (n,): Of the hard law, Pa
 
+    @classmethod
+    def none(cls, nodes: int, points: int) -> Committed:
+        """Return the history of a contact that has never touched."""
+        return cls(np.zeros(3 * nodes), np.zeros((points, 3)), np.zeros(points), np.zeros(nodes))
+
 
 class ContactPoints(NamedTuple):
     """The contact at its quadrature points."""

@@ -9,8 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.contact.candidates.records import Answer, Candidates, History, Kept, Laws, Work
+from asperity.contact.candidates.records import Answer, Candidates, Kept, Laws, Work
 from asperity.contact.interface.friction import DAHL, PointFriction
+from asperity.contact.interface.records import Committed
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.drive.elastic.friction import Sliding
 from asperity.drive.elastic.march import march
@@ -21,7 +22,7 @@ from asperity.drive.elastic.rim import rim_of
 from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
-from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.solve import condensed
@@ -55,11 +56,8 @@ _STEPS = 40
 
 
 @dataclasses.dataclass(frozen=True)
-class TeethModel(ReducedModel):
-    """Elastic teeth in place of the reduced mesh.
-
-    What the protocols ask of the mesh beside its march (stiffness for the step, approach under the
-    load) is that of the teeth reduced.
+class TeethModel(MeshModel):
+    """The mesh as elastic teeth.
 
     Attributes
     ----------
@@ -160,7 +158,7 @@ class TeethModel(ReducedModel):
             candidates=Candidates.workspace(body, places),
             answer=Answer.workspace(body, places),
             kept=Kept.workspace(body, places, KEPT),
-            history=History.none(body),
+            history=Committed.none(body.nodes, len(body.weights)),
             earlier=np.zeros((len(body.weights), 3)),
             work=Work.workspace(body, len(body.weights)),
             gathered=gathered,

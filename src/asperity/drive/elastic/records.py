@@ -6,7 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.contact.candidates.records import Answer, Body, Candidates, History, Kept, Laws, Work
+from asperity.contact.candidates.records import Answer, Body, Candidates, Kept, Laws, Work
+from asperity.contact.interface.records import Committed
 from asperity.drive.elastic.friction import Sliding
 from asperity.drive.elastic.rim import Rim
 from asperity.drive.interface import POSES
@@ -47,7 +48,7 @@ class Mesh(NamedTuple):
     candidates: Candidates
     answer: Answer
     kept: Kept
-    history: History
+    history: Committed
     earlier: FloatArray  #: (4k, 3): Committed forces, N
     work: Work
     gathered: npt.NDArray[np.void]  #: (2K,) of `GATHERED`

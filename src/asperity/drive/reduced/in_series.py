@@ -9,7 +9,8 @@ one limit), else by Newton's method; friction keeps its stiffness while the load
 import math
 
 from asperity.friction.dahl import TINY, VECTOR
-from asperity.friction.loaded import STIFFNESS, relaxed_to_limit
+from asperity.friction.lanes import relaxed_to_limit
+from asperity.friction.loaded import STIFFNESS
 from asperity.friction.loaded_tangent import update_loaded
 from asperity.kernels.compiled import kernel
 from asperity.kernels.uncounted import uncounted

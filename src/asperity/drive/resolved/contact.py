@@ -14,13 +14,13 @@ change by less than `CLOSE`, or stand at the pressure at which the softer body f
 from __future__ import annotations
 
 import dataclasses
-import itertools
 
 import numpy as np
+from scipy import sparse
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.halfspace.conjugate_gradients import Bearing, bear
-from asperity.contact.halfspace.influence import HalfSpace
+from asperity.contact.halfspace.influence import HalfSpace, HalfSpaces
 from asperity.drive.resolved.flank import ExactFlank
 from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Approach, Frame, Strip
 from asperity.drive.teeth.contact import TeethContact
@@ -307,23 +307,19 @@ class _Teeth:
         some = [(k, strip) for k, strip in enumerate(strips) if strip is not None]
         if not some:
             raise ConvergenceError("no tooth is near the worm")
-        spaces = [HalfSpace(s.frame.shape, s.frame.spacing, owner.modulus) for _, s in some]
-        ends = np.cumsum([0] + [len(s.area) for _, s in some])
-        parts = [slice(a, b) for a, b in itertools.pairwise(ends)]
+        spaces = HalfSpaces(
+            [HalfSpace(s.frame.shape, s.frame.spacing, owner.modulus) for _, s in some]
+        )
         smooth = self._smooth([k for k, _ in some])
-        nodes = smooth.shape[0] // len(some)
+        # All teeth at once: on the first strips calls would cost more than what they compute.
+        to_patches = sparse.block_diag([strip.nodes for _, strip in some], format="csr")
+        to_nodes = to_patches.T.tocsr()
 
         def deflection(force: FloatArray) -> FloatArray:
-            nodal = np.concatenate(
-                [strip.nodes.T @ force[part] for (_, strip), part in zip(some, parts, strict=True)]
-            )
             # Threads of BLAS cost more than they save here.
-            moved = np.einsum("ij,j->i", smooth, nodal)
-            out = np.empty_like(force)
-            for i, ((_, strip), part, space) in enumerate(zip(some, parts, spaces, strict=True)):
-                out[part] = space.deflection(force[part])
-                out[part] += strip.nodes @ moved[i * nodes : (i + 1) * nodes]
-            return out
+            moved = np.einsum("ij,j->i", smooth, to_nodes @ force)
+            moved_to: FloatArray = spaces.deflection(force) + to_patches @ moved
+            return moved_to
 
         gap = np.concatenate([s.gap + s.nodes @ self.rubbed[k] for k, s in some])
         arm = np.concatenate([s.arm for _, s in some])

@@ -14,7 +14,6 @@ from asperity.contact.candidates.newton import spread
 from asperity.contact.candidates.records import (
     Answer,
     Candidates,
-    History,
     Kept,
     Laws,
     Work,
@@ -25,7 +24,7 @@ from asperity.contact.candidates.several import solve_all
 from asperity.contact.candidates.wrench import wrench, wrench_slope
 from asperity.contact.interface.friction import COULOMB, PointFriction
 from asperity.contact.interface.normal import NormalLaw
-from asperity.contact.interface.records import Interface
+from asperity.contact.interface.records import Committed, Interface
 from asperity.contact.interface.rigid import RigidSurface
 from asperity.drive.teeth.placing import Stand, place_worm, sliding, to_space, tooth_numbers
 from asperity.drive.teeth.sector import Sector
@@ -147,7 +146,7 @@ class TeethContact:
             else np.empty((0, size, size))
         )
         self._friction = friction
-        self._history = History.none(body)
+        self._history = Committed.none(body.nodes, len(body.weights))
         self._collected: FloatArray | None = None
 
     @cached_property

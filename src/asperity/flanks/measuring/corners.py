@@ -33,8 +33,8 @@ from asperity.gearset.tolerancing.backlash import (
     thickness_parts,
 )
 from asperity.gearset.tolerancing.table import Tolerances
-from asperity.results.quantity import text_of
 from asperity.results.table import Column, Table
+from asperity.results.words import text_of
 
 _MILLIMETRES = _MICROMETRES = 1e3
 _NAMES = "centre distance", "axial offset", "shaft angle"

@@ -13,8 +13,9 @@ from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.grades import Allowed
-from asperity.results.quantity import plain, text_of
+from asperity.results.quantity import plain
 from asperity.results.system import converted
+from asperity.results.words import text_of
 
 _MICROMETRES = 1e3
 _Line = tuple[str, str, object, str]

@@ -23,8 +23,8 @@ from asperity.gearset.tolerancing import thickness
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.thickness import thickness_tolerance
 from asperity.results import Quantities, quantity
-from asperity.results.quantity import Number
 from asperity.results.table import Column, Table
+from asperity.results.words import Number
 from asperity.sources import Source
 
 _MILLIMETRES = 1e3

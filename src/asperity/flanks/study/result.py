@@ -23,8 +23,9 @@ from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.dataset import to_dataset
-from asperity.results.quantity import Entry, Number, text_of
+from asperity.results.quantity import Entry
 from asperity.results.table import Column, Table, table_of
+from asperity.results.words import Number, text_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -56,6 +57,10 @@ class FlankStudy(Drawn):
 
     Attributes
     ----------
+    name : str
+        Of the gearset.
+    mesh : ToothMesh
+        A tooth of the wheel.
     wheel : Wheel
         The wheel as it is cut, with the pair it belongs to; the worm's threads are as thick as the
         backlash asks for.

@@ -1,12 +1,13 @@
 """ISO 281: rating life, its modification by oil and dirt; ISO 76: static safety."""
 
 from collections.abc import Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import Symbol, formula, positive
+from asperity.formulas.traced import total
 from asperity.shafts import symbols as s
 
 Kind = Literal["ball", "roller"]
@@ -53,10 +54,23 @@ def rating_life_hours(rating: s.C, load: s.P, exponent: s.p, speed: s.n) -> Real
     return 1e6 / (60.0 * speed) * (rating / load) ** exponent
 
 
-def spectrum_life(hours: Sequence[float], lives: Sequence[float]) -> float:
-    """Return the life under several loads, h, by their hours and the life under each alone."""
-    shares = np.asarray(hours) / np.sum(hours)
-    return float(1.0 / np.sum(shares / np.asarray(lives)))
+def spectrum_life(hours: Sequence[Any], lives: Sequence[Any]) -> Any:
+    """Return the life under several loads, h, by their hours and the life under each alone.
+
+    Parameters
+    ----------
+    hours : sequence of float, shape (n,)
+        How long each load acts, h.
+    lives : sequence of float, shape (n,)
+        Life under each of them alone, h; arrays where many gearsets are looked at together.
+
+    Returns
+    -------
+    float or ndarray, shape of each life
+        h, by linear damage (Palmgren and Miner).
+    """
+    whole = total(hours)
+    return 1.0 / total(each / whole / own for each, own in zip(hours, lives, strict=True))
 
 
 @formula(
@@ -111,7 +125,7 @@ def life_modification(
     >>> round(life_modification(0.6, 1.0, 100.0, 1000.0, "roller"), 5)
     0.23643
     """
-    k = np.clip(viscosity_ratio, 0.1, 4.0)
+    k = np.minimum(np.maximum(viscosity_ratio, 0.1), 4.0)
     x = cleanliness * limit / load
     ball = kind == "ball"
     whole, thin, middle, thick = (

@@ -62,7 +62,9 @@ def geometric_size_factor(
     """
     if load == "tension":
         return np.ones_like(diameter)
-    return 1.0 - 0.2 * np.log10(np.clip(diameter, 7.5, 150.0) / 7.5) / math.log10(20.0)
+    return 1.0 - 0.2 * np.log10(np.minimum(np.maximum(diameter, 7.5), 150.0) / 7.5) / math.log10(
+        20.0
+    )
 
 
 @formula(

@@ -1,8 +1,11 @@
 """A section of a shaft that is judged: notch factors, and safeties by DIN 743 and others."""
 
 import math
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
+import numpy as np
+
+from asperity.formulas.traced import number
 from asperity.shafts.steel import ShaftSteel
 from asperity.shafts.strength import din743, notches
 from asperity.shafts.strength.distortion_energy import (
@@ -121,8 +124,8 @@ def strength(detail: Detail, steel: ShaftSteel, hardening: float = 1.0) -> Stren
     k_1 = (1.0, 1.0)
     if steel.size == "16 mm":
         k_1 = (
-            float(din743.technological_size_factor(detail.largest)),
-            float(din743.technological_size_factor(detail.largest, "yield")),
+            number(din743.technological_size_factor(detail.largest)),
+            number(din743.technological_size_factor(detail.largest, "yield")),
         )
     beta, gamma_f = _notch(detail, k_1[0] * tensile, k_1[1] * yielding)
     totals, parts, psis = [], [], []
@@ -131,15 +134,15 @@ def strength(detail: Detail, steel: ShaftSteel, hardening: float = 1.0) -> Stren
         ("torsion", beta[1], steel.tau_tw),
     )
     for load, factor, smooth in loads:
-        size = float(din743.geometric_size_factor(detail.diameter, load))
-        rough = float(din743.surface_factor(detail.roughness, k_1[0] * tensile, load))
+        size = number(din743.geometric_size_factor(detail.diameter, load))
+        rough = number(din743.surface_factor(detail.roughness, k_1[0] * tensile, load))
         if detail.kind in ("keyway", "press fit"):
             rough = 1.0  # which is within the factors measured
-        total = float(din743.total_factor(factor, size, rough, hardening))
-        part = float(din743.part_fatigue_strength(smooth, k_1[0], total))
+        total = number(din743.total_factor(factor, size, rough, hardening))
+        part = number(din743.part_fatigue_strength(smooth, k_1[0], total))
         totals.append(total)
         parts.append(part)
-        psis.append(float(din743.mean_stress_sensitivity(part, k_1[0], tensile)))
+        psis.append(number(din743.mean_stress_sensitivity(part, k_1[0], tensile)))
     size = din743.geometric_size_factor(detail.diameter)
     rough = din743.surface_factor(detail.roughness, k_1[0] * tensile)
     smooth = din743.total_factor(1.0, size, rough, hardening)
@@ -150,7 +153,7 @@ def strength(detail: Detail, steel: ShaftSteel, hardening: float = 1.0) -> Stren
         (parts[0], parts[1]),
         (psis[0], psis[1]),
         gamma_f,
-        float(din743.part_fatigue_strength(steel.sigma_bw, k_1[0], smooth)),
+        number(din743.part_fatigue_strength(steel.sigma_bw, k_1[0], smooth)),
     )
 
 
@@ -161,17 +164,17 @@ def _notch(detail: Detail, tensile: float, yielding: float) -> tuple[tuple[float
         found, shapes = [], []
         for load in ("bending", "torsion"):
             of = (detail.diameter, detail.outer, detail.radius)
-            shape = float(notches.shape_factor(*of, load, kind))
-            steep = float(notches.stress_gradient(*of, load, kind))
-            support = float(notches.support_factor(steep, yielding))
-            found.append(max(float(notches.notch_factor(shape, support)), 1.0))
+            shape = number(notches.shape_factor(*of, load, kind))
+            steep = number(notches.stress_gradient(*of, load, kind))
+            support = number(notches.support_factor(steep, yielding))
+            found.append(number(np.maximum(notches.notch_factor(shape, support), 1.0)))
             shapes.append(shape)
         return (found[0], found[1]), _gamma(shapes[0])
     if detail.kind in ("keyway", "press fit"):
         seat: Literal["keyway", "press fit"] = "keyway" if detail.kind == "keyway" else "press fit"
         return (
-            float(notches.seat_factor(detail.diameter, tensile, "bending", seat)),
-            float(notches.seat_factor(detail.diameter, tensile, "torsion", seat)),
+            number(notches.seat_factor(detail.diameter, tensile, "bending", seat)),
+            number(notches.seat_factor(detail.diameter, tensile, "torsion", seat)),
         ), 1.0
     return detail.beta, 1.0
 
@@ -205,13 +208,13 @@ def judged(
     share = {"constant": 0.0, "pulsating": 0.5, "reversing": 1.0}[torque]
     twist_a = share * twist
     twist_m = twist - twist_a
-    mises = math.hypot(bend + abs(pull), _SHEAR * twist)
+    mises = number(np.sqrt((bend + abs(pull)) ** 2 + (_SHEAR * twist) ** 2))
     if not mises > 0.0:
         return Judged(math.inf, math.inf, math.inf, math.inf, math.inf, 0.0, 0.0, 0.0, 0.0)
     yields = _yield_safety(steel, borne, (bend, abs(pull), twist), peak)
     if not (bend > 0.0 or twist_a > 0.0):
         return Judged(math.inf, math.inf, yields, math.inf, math.inf, bend, pull, twist, mises)
-    mean = float(din743.equivalent_mean_stress(abs(pull), 0.0, twist_m))
+    mean = number(din743.equivalent_mean_stress(abs(pull), 0.0, twist_m))
     safeties = []
     for case in (1, 2):
         normal = _borne_amplitude(borne.part[0], borne.sensitivity[0], mean, bend, case)
@@ -219,38 +222,36 @@ def judged(
         # Where the mean stress alone is too much, nothing may alternate.
         holds = normal > 0.0 and shear > 0.0
         safeties.append(
-            float(din743.fatigue_safety(bend, normal, twist_a, shear)) if holds else 0.0
+            number(din743.fatigue_safety(bend, normal, twist_a, shear)) if holds else 0.0
         )
     tensile = 1e-6 * steel.tensile_strength * borne.k_1[0]
     twisted = abs(actions.torque)
     a = combined_moment(actions.bending, share * twisted, borne.beta[0], borne.beta[1])
     b = combined_moment(0.0, (1.0 - share) * twisted, borne.beta[0], borne.beta[1])
-    of = (d, float(a), float(b), borne.endurance, tensile)
+    of = (d, a, b, borne.endurance, tensile)
     return Judged(
         safeties[0], safeties[1], yields,
-        float(goodman_safety(*of)), float(gerber_safety(*of)),
+        number(goodman_safety(*of)), number(gerber_safety(*of)),
         bend, pull, twist, mises,
     )  # fmt: skip
 
 
-def _borne_amplitude(
-    part: float, sensitivity: float, mean: float, amplitude: float, case: int
-) -> float:
+def _borne_amplitude(part: Any, sensitivity: Any, mean: Any, amplitude: Any, case: int) -> Any:
     if case == 1:
         return part - sensitivity * mean
     if not amplitude > 0.0:
         return part
-    return float(din743.amplitude_at_constant_ratio(part, sensitivity, mean, amplitude))
+    return number(din743.amplitude_at_constant_ratio(part, sensitivity, mean, amplitude))
 
 
 def _yield_safety(
     steel: ShaftSteel, borne: Strength, stresses: tuple[float, float, float], peak: float
-) -> float:
+) -> Any:
     bend, pull, twist = (peak * each for each in stresses)
     strength_at_size = 1e-6 * steel.yield_strength
     k, gamma = borne.k_1[1], borne.gamma_f
     of_bending = din743.part_yield_strength(k, 1.2, gamma, strength_at_size)
     of_tension = din743.part_yield_strength(k, 1.0, gamma, strength_at_size)
     of_torsion = din743.part_yield_strength(k, 1.2, 1.0, strength_at_size) / _SHEAR
-    used = float(bend / of_bending + pull / of_tension)
-    return float(din743.yield_safety(used, 1.0, twist, of_torsion))
+    used = number(bend / of_bending + pull / of_tension)
+    return number(din743.yield_safety(used, 1.0, twist, of_torsion))

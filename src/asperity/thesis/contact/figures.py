@@ -27,36 +27,12 @@ from asperity.thesis.sliding.figures import CLOSED_FORMS, side_by_side, two_cycl
 _DENSE = "0.1:20:0.1"
 _EDGE = 5e-3  # m, of an element of the shipped block
 _NAMES = ("sliding body", "elastic block")
-_BESIDE = (
-    "Lines: the sliding body of chapter 4; markers: the elastic block, its friction read after it "
-    "has settled from the sliding body's periodic state, over sixteen cycles or more until four "
-    "parts of them agree within 0.1 %. Below: how far it is from the sliding body, from one that "
-    "has the block's compliance as a spring between itself and its asperities, and from one that "
-    "rocks on it as the block does."
-)
-_REST = "From rest over 0.3 s, with the same increments for the sliding body and the block."
 
 
-@figure(
-    "5.5", "Longitudinal vibration: the elastic block",
-    f"Table 4.3. {_BESIDE}",
-    drawings.over_ratio, LONGITUDINAL,
-)  # fmt: skip
-@figure(
-    "5.8", "Transverse vibration: the elastic block",
-    f"Table 4.4. {_BESIDE}",
-    drawings.over_ratio, TRANSVERSE,
-)  # fmt: skip
-@figure(
-    "7.8", "Transverse vibration of the base or of the block",
-    f"Table 4.4. {_BESIDE}",
-    drawings.over_ratio, TRANSVERSE, True,
-)  # fmt: skip
-@figure(
-    "7.9", "Longitudinal vibration of the base or of the block",
-    f"Table 4.3. {_BESIDE}",
-    drawings.over_ratio, LONGITUDINAL, True,
-)  # fmt: skip
+@figure("5.5", drawings.over_ratio, LONGITUDINAL)
+@figure("5.8", drawings.over_ratio, TRANSVERSE)
+@figure("7.8", drawings.over_ratio, TRANSVERSE, True)
+@figure("7.9", drawings.over_ratio, LONGITUDINAL, True)
 def _over_ratio(case: str, on_body: bool = False, *, full: bool = False) -> Computed:
     """The sliding body as a line, blocks as markers, and how far they are apart."""
     over = elastic.RATIOS[case]
@@ -107,12 +83,7 @@ def _objects(names: Sequence[str]) -> Any:
     return np.array(names, dtype=object)
 
 
-@figure(
-    "5.11", "The elastic block in every direction of vibration",
-    "Table 4.4. Lines: the sliding body of chapter 4; markers: the elastic block. Below: how far "
-    "it is from the sliding body.",
-    drawings.over_direction,
-)  # fmt: skip
+@figure("5.11", drawings.over_direction)
 def _over_direction(*, full: bool = False) -> Computed:
     directions = elastic.DIRECTIONS[full]
     blocks = elastic.over_direction(full)
@@ -130,14 +101,7 @@ def _over_direction(*, full: bool = False) -> Computed:
     return dataset, [settled, *blocks]
 
 
-@figure(
-    "5.3", "Linear and two-stage pressure over overclosure",
-    "The thesis takes the linear law. The other is given a tenth of its stiffness up to an "
-    "overclosure of 1 % of an element, 5 mm on the base of the shipped block, and all of it from "
-    "3 %; dotted: these two. The pressure under the elastic block, 46 kPa, stays within the first "
-    "0.001 um.",
-    drawings.normal_laws,
-)  # fmt: skip
+@figure("5.3", drawings.normal_laws)
 def _normal_laws() -> Computed:
     stiffness = problem_of(LONGITUDINAL).normal.stiffness
     laws = {
@@ -160,32 +124,16 @@ def _normal_laws() -> Computed:
     ]
 
 
-@figure(
-    "5.6", "Drive force of the elastic block, longitudinal, k = 6",
-    f"Table 4.3. {_REST}",
-    drawings_sliding.drive_over_time, LONGITUDINAL,
-)  # fmt: skip
-@figure(
-    "5.9", "Drive force of the elastic block, transverse, k = 20",
-    f"Table 4.4. {_REST}",
-    drawings_sliding.drive_over_time, TRANSVERSE,
-)  # fmt: skip
+@figure("5.6", drawings_sliding.drive_over_time, LONGITUDINAL)
+@figure("5.9", drawings_sliding.drive_over_time, TRANSVERSE)
 def _drive(case: str, *, full: bool = False) -> Computed:
     block, body = marched_and_slid(case, full)
     histories = [one.to_dataset()[["drive_force"]] for one in (body.result, block.marched())]
     return side_by_side(_NAMES, histories, body.result.static_drive_force), [body, block]
 
 
-@figure(
-    "5.7", "Friction of the elastic block, longitudinal, k = 6",
-    f"Table 4.3, two cycles at the end. {_REST}",
-    drawings_sliding.friction_over_cycles, LONGITUDINAL, ["x"],
-)  # fmt: skip
-@figure(
-    "5.10", "Friction of the elastic block, transverse, k = 20",
-    f"Table 4.4, two cycles at the end. {_REST}",
-    drawings_sliding.friction_over_cycles, TRANSVERSE, ["x", "y"],
-)  # fmt: skip
+@figure("5.7", drawings_sliding.friction_over_cycles, LONGITUDINAL, ["x"])
+@figure("5.10", drawings_sliding.friction_over_cycles, TRANSVERSE, ["x", "y"])
 def _friction(case: str, axes: list[str], *, full: bool = False) -> Computed:
     block, body = marched_and_slid(case, full)
     cycles = [
@@ -196,16 +144,7 @@ def _friction(case: str, axes: list[str], *, full: bool = False) -> Computed:
     return dataset.sel(axis=axes), [body, block]
 
 
-@figure(
-    "5.2", "Contact at nodes and integrated over the surface",
-    "A rigid cylinder on a block of 8-node elements nearly as wide as the contact's half-width, "
-    "with the same law of pressure and the same load. Above: it stands between two lines of "
-    "nodes; so coarse, neither is Hertz's pressure point by point, at nodes too low, integrated "
-    "as much too high in the middle. Below, what tells them apart: how far it goes while it moves "
-    "over an element; held at nodes alone it sinks between them, integrated less than half as "
-    "much.",
-    drawings.pressure,
-)  # fmt: skip
+@figure("5.2", drawings.pressure)
 def _pressure() -> Computed:
     kinds: tuple[pressed.Kind, ...] = ("nodes", "surface")
     shifts = np.linspace(0.0, 1.0, 9)

@@ -72,7 +72,7 @@ _BALANCE = (
 )
 
 
-@claim("7.4", "7.4.5", "Vibration raises the mechanical advantage.", "10.8 -> 49.5")
+@claim("7.4")
 def _advantage() -> Finding:
     low, none, high = band()
     still, most = LOAD / high, LOAD / low
@@ -100,10 +100,7 @@ def _advantage() -> Finding:
     )
 
 
-@claim(
-    "7.11", "Abstract, 7.4.5", "Axial vibration lowers the torque, and raises the advantage.",
-    "-80 %, five-fold",
-)  # fmt: skip
+@claim("7.11")
 def _savings() -> Finding:
     low, _, high = band()
     saved, gain = 1.0 - SHAKEN / UNSHAKEN, UNSHAKEN / SHAKEN
@@ -131,10 +128,7 @@ def _savings() -> Finding:
     )
 
 
-@claim(
-    "7.12", "7.4.6", "Ten times the amplitude takes a hundred times the sonotrode's energy, by "
-    "(146), (u_a f)^2.", "factor 100",
-)  # fmt: skip
+@claim("7.12")
 def _energy() -> Finding:
     ratios = np.array([0.5, 1.0, 2.0, 5.0])
     frequency = ratios * SPEED / (2.0 * math.pi * AMPLITUDE)
@@ -178,10 +172,7 @@ def motor_of_the_saving(ratio: float) -> tuple[float, list[tuple[float, float, f
     return mass, shapes
 
 
-@claim(
-    "7.13", "7.5, 8.1", "The motor gets thinner, shorter, lighter and cheaper.",
-    "-50 mm, -30 mm, -6 kg, GBP 23",
-)  # fmt: skip
+@claim("7.13")
 def _motor() -> Finding:
     ratio = SHAKEN / UNSHAKEN
     mass, shapes = motor_of_the_saving(ratio)
@@ -231,7 +222,7 @@ def _motor() -> Finding:
     )
 
 
-@claim("7.16", "7.2.4", "The clearance of the mesh allows the amplitude.", "0.16 mm")
+@claim("7.16")
 def _clearance() -> Finding:
     from asperity.flanks.meshing.analysis import analyse
     from asperity.flanks.wheel.enveloped import Wheel
@@ -288,7 +279,7 @@ def worm_swing(torque: float, frequency: float) -> float:
     return float(abs(np.linalg.solve(system, [torque, 0.0])[1]))
 
 
-@claim("7.18", "2.7.4", "A patent shakes the worm by its own motor, feasibly.", "2500 Hz")
+@claim("7.18")
 def _patent() -> Finding:
     resonance = math.sqrt(_SHAFT / _WORM_INERTIA) / (2.0 * math.pi)
     motor = lightest(Service(((UNSHAKEN, 1.0),)))

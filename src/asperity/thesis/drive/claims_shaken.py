@@ -58,7 +58,7 @@ def _state(one: Shaken) -> str:
     return "settled" if one.settled else "not settled"
 
 
-@claim("7.2", "7.4.1", "Torque and efficiency without vibration.", "33.8 N m, 72 %")
+@claim("7.2")
 def _static() -> Finding:
     teeth = meshes()[0]
     found = teeth.loaded()
@@ -102,7 +102,7 @@ def _static() -> Finding:
     )
 
 
-@claim("7.5", "7.4.2", "Intermediate and fine mesh agree, the coarse one does not.", "order")
+@claim("7.5")
 def _densities() -> Finding:
     teeth = meshes()
     found = [one.loaded() for one in teeth]
@@ -144,7 +144,7 @@ def _densities() -> Finding:
     )
 
 
-@claim("7.3", "7.4.2", "Torque and its ratio at k_w = 20.", "7.4 N m, 0.22")
+@claim("7.3")
 def _ratio() -> Finding:
     last = of_set(3)[-1]
     found = last.shaken()
@@ -193,7 +193,7 @@ def _ratio() -> Finding:
     )
 
 
-@claim("7.7", "7.4.6", "System efficiency with the sonotrode's power, up to k_w = 5.", "9-13 %")
+@claim("7.7")
 def _efficiency() -> Finding:
     runs = [run for run, k in zip(of_set(3, *ACTUATOR), RATIOS, strict=True) if k <= 5.0]
     found = [run.shaken() for run in runs]
@@ -225,7 +225,7 @@ def _efficiency() -> Finding:
     )
 
 
-@claim("7.10", "7.4.3", "Sets 1 and 2 give the same curve.", "same")
+@claim("7.10")
 def _slow() -> Finding:
     runs = {number: of_set(number) for number in (1, 2)}
     first, second = ([run.shaken() for run in runs[number]] for number in (1, 2))
@@ -254,9 +254,7 @@ def _slow() -> Finding:
     )
 
 
-@claim(
-    "7.15", "7.4.5", "The gear follows the transverse disc tests, up to k_w = 3 only.", "k_w <= 3"
-)
+@claim("7.15")
 def _discs() -> Finding:
     runs = of_set(3)
     found = [run.shaken() for run in runs]
@@ -299,7 +297,7 @@ LOCKING = (
 _CREEPING = 5.0  # um
 
 
-@claim("7.17", "8.1", "Self-locking is kept where vibration is on only on demand.", "yes")
+@claim("7.17")
 def _locking() -> Finding:
     from asperity.thesis.drive.marches import holding
 

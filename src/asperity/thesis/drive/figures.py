@@ -22,17 +22,6 @@ from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.products import labelled
 
 _CYCLES, _ROWS = 10, 120
-_READINGS = (
-    "Full: the mean once the march has come to a periodic state, the wheel in balance with its "
-    "load; crossed where it has not. Hollow: the mean of the first three cycles, the wheel out of "
-    "balance, as the thesis reads it. Dotted: friction reversed all the time, the least that one "
-    "flank in contact can give."
-)
-_REDUCED = (
-    "One point for the mesh, with the deflection that a sector of five elastic teeth has under "
-    "load; load inertia 3.2e-3 kg m2, contact damping 0.01 s/m, backlash 0.28 mm: the thesis "
-    "states none of them. "
-)
 
 
 def over_ratio(groups: dict[str, Sequence[Simulation]]) -> dict[str, Any]:
@@ -76,39 +65,19 @@ def _read(groups: dict[str, Sequence[Simulation]]) -> Computed:
     return dataset, [one for group in groups.values() for one in group]
 
 
-@figure(
-    "7.12", "Input torque over k_w, set 3: teeth on their rim or one cut out, for mesh densities",
-    f"{_REDUCED}The thesis compares three meshes, whose sizes are lost; on exact flanks they are "
-    f"one "
-    "(claim 7.5). Torque without vibration is the same for every mesh to 0.1 %; how soft the teeth "
-    "are decides under vibration: those of a sector, and a tooth cut out of the wheel, "
-    f"much softer. {_READINGS} Star: the thesis's one surviving point, 0.22 at 20.",
-    drawings.ratios,
-)  # fmt: skip
+@figure("7.12", drawings.ratios)
 def _meshes() -> Computed:
     dataset, how = _read({"sector of five": of_set(3), "tooth cut out": of_set(3, CUT_OUT)})
     point = labelled(thesis=((), SHAKEN / UNSHAKEN, "1", "ratio of the thesis at k_w = 20"))
     return dataset.merge(point), how
 
 
-@figure(
-    "7.13", "Input torque over k_w, sets 1 and 2",
-    f"{_REDUCED}750 Hz, 23 N m; 12.5 and 18.5 um. {_READINGS}",
-    drawings.ratios,
-)  # fmt: skip
+@figure("7.13", drawings.ratios)
 def _slow() -> Computed:
     return _read({"set 1, 59 mm/s": of_set(1), "set 2, 87 mm/s": of_set(2)})
 
 
-@figure(
-    "7.14", "Input torque over k_w, set 3: asperity and Coulomb friction; Appendix E beside them",
-    f"{_REDUCED}Dahl's law with its stiffness kept, 70 nm, and Coulomb friction on the teeth's own "
-    "compliance. Where flanks hammer the motion is irregular, and states that differ by nothing "
-    f"else come to different ratios. {_READINGS} The thesis ran the subroutine of its Appendix E, "
-    "which is no law to march with: at the bottom, the mean friction along the sliding that it and "
-    "the two sound laws give while the worm hammers on a wheel that coasts (claim 7.6).",
-    drawings.laws,
-)  # fmt: skip
+@figure("7.14", drawings.laws)
 def _laws() -> Computed:
     from asperity.thesis.drive.laws import HOW, at_ratios
 
@@ -126,16 +95,7 @@ def _laws() -> Computed:
     return dataset.merge(means), [*how, HOW]
 
 
-@figure(
-    "7.10", "Input torque over time, simulation 33, from the start of the vibration",
-    f"{_REDUCED}k_w = 20, 30 kHz, from the start of the vibration. Grey: no contact. Below: means "
-    "from the start on, of the worm's torque over that without vibration and of what the mesh "
-    "gives the wheel over its load. The thesis's 0.22 is passed on the way, as any other value is; "
-    "the ratio means something once the wheel's is 1. Dots: means of single cycles, which the "
-    "thesis "
-    "takes by (143).",
-    drawings.torque_over_time,
-)  # fmt: skip
+@figure("7.10", drawings.torque_over_time)
 def _over_time() -> Computed:
     from asperity.thesis.drive.marches import from_start
 
@@ -175,15 +135,7 @@ def system_efficiencies(found: Sequence[Shaken]) -> FloatArray:
     return np.array([one.load / (one.drive + (one.electrical or 0.0)) for one in found])
 
 
-@figure(
-    "7.15", "Torque, mechanical advantage and system efficiency, and rigid friction beside it",
-    f"{_REDUCED}(a) Set 3 in balance; full where the state is periodic. The actuator is tuned to "
-    "each frequency: coupling 0.3, quality 500, amplifier 0.9, a worm of 0.3 kg; stars: what "
-    "survives of the thesis's, 0.22 and 49.5 at k_w = 20. (b) What the disc "
-    "tests measured is lost but for the torque's fall by 85.7 % across and 78 % along the sliding; "
-    "the lines are rigid Coulomb friction under vibration across and along it.",
-    drawings.advantage,
-)  # fmt: skip
+@figure("7.15", drawings.advantage)
 def _advantage() -> Computed:
     runs = of_set(3, *ACTUATOR)
     found = [one.shaken() for one in runs]

@@ -28,10 +28,7 @@ def at_ratios(increments: int = INCREMENTS) -> list[Hammered]:
     return [hammered(LAW, k, SHARES, AMPLITUDE, increments) for k in RATIOS]
 
 
-@claim(
-    "7.6", "7.4.4", "Coulomb friction gives a higher ratio than the asperity law for k_w > 1.",
-    "order",
-)  # fmt: skip
+@claim("7.6")
 def _coulomb() -> Finding:
     found = at_ratios()
     above = [one for one, k in zip(found, RATIOS, strict=True) if k > 1.0]

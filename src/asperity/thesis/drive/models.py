@@ -38,13 +38,7 @@ def _ring() -> HexMesh:
     return tooth(wheel, _ELEMENT, teeth=wheel.pair.geometry.wheel_teeth)
 
 
-@figure(
-    "7.5", "The wheel's bore on its centre point",
-    "Green: the faces inside the ring of sixty teeth, every node of which moves as the wheel's "
-    "centre point does; a few of the links are drawn. Here as in the thesis the rim ends there: "
-    "nothing of the hub gives.",
-    drawings.bore,
-)  # fmt: skip
+@figure("7.5", drawings.bore)
 def _bore() -> Computed:
     ring = _ring()
     parts = [Shape.of_mesh(ring, sets, part) for part, sets in enumerate((_OTHERS, _INNER))]
@@ -79,13 +73,7 @@ def _spring(start: FloatArray, end: FloatArray, across: FloatArray) -> FloatArra
     )
 
 
-@figure(
-    "7.6", "Worm and wheel with the shaft's torsional stiffness",
-    "The mesh of sixty teeth of the wheel and the worm's surface. A spring of 4394 N m/rad about "
-    "the worm's axis stands for the shaft from A, on the worm, to B, whose speed is given and "
-    "where the torque is read. X is the worm's axis, along which it is shaken.",
-    drawings.model,
-)  # fmt: skip
+@figure("7.6", drawings.model)
 def _model() -> Computed:
     pair = _wheel().pair
     worm = mounted_worm(pair)
@@ -138,13 +126,7 @@ def increment(at: Before, x: float, y: float) -> Increment:
     )
 
 
-@figure(
-    "7.7", "An increment of the asperity in two phases",
-    "The body goes from N' by dx to N'' and by dy to N'_1; the root follows from M along the "
-    "asperity to M'1, with the share eta* of dy to M'2, and along the asperity to M_1. Lengths are "
-    "over s_max; the increment is of a size that can be seen, with eta_y = 0.71 and exponent 1.",
-    drawings.increment,
-)  # fmt: skip
+@figure("7.7", drawings.increment)
 def _increment() -> Computed:
     at = Before(0.0, 0.0, 0.3, 0.65, 1.0 - 0.71, 1.0)
     found = increment(at, 1.0, 0.85)

@@ -25,10 +25,7 @@ _STEPS = (
 )  # fmt: skip
 
 
-@table(
-    "7.1", "Steps and boundary conditions",
-    "The table is lost; these are what the text says of it, and what stands for each here.",
-)  # fmt: skip
+@table("7.1")
 def _steps() -> Grid:
     return Grid.of(
         _STEPS,
@@ -41,13 +38,7 @@ def _steps() -> Grid:
     )
 
 
-@table(
-    "7.2", "Conditions of the 33 simulations",
-    "The table is lost. Peak velocity, frequency and load of sets 1 and 2, amplitude, speed and "
-    "load of set 3, the ends of the range of k_w and the number of rows survive in the text; the "
-    "ratios between the ends are chosen here. The worm's speed is 1440 rpm in proportion to the "
-    "sliding speed.",
-)  # fmt: skip
+@table("7.2")
 def _conditions() -> Grid:
     rows = [condition for number in (1, 2, 3) for condition in conditions(number)]
     return Grid.of(
@@ -76,11 +67,7 @@ _VARIABLES = (
 )
 
 
-@table(
-    "7.3", "State of the thesis's friction, and of what stands for it",
-    "The thesis's table survives. Here the deflection alone is kept, as a vector: the root is "
-    "where the body is less that, and where the body was is not needed.",
-)  # fmt: skip
+@table("7.3")
 def _state() -> Grid:
     return Grid.of(
         _VARIABLES,
@@ -98,11 +85,7 @@ def _state() -> Grid:
     )
 
 
-@table(
-    "7.4", "Element sizes of the three meshes",
-    "The sizes are lost but for their ratios, 100, 75 and 50 % (7.4.2). Here the coarse one is a "
-    "fifth of the axial module; the worm needs no mesh.",
-)  # fmt: skip
+@table("7.4")
 def _sizes() -> Grid:
     wheel = Wheel.cut(pair_of(GEAR))
     coarse = element_size(wheel, "coarse")

@@ -62,23 +62,8 @@ LOADS = {
 """What figure 2.12 compares."""
 
 
-@figure(
-    "2.9", "Contact pressure of a worm gearset before and after lead correction and tip relief",
-    "Hertzian pressure along the contact lines at 24 angles of the worm, rated torque, by one "
-    "stiffness per length of line: no finite elements as in Mao's figure, and a worm gearset with "
-    "an identical hob instead of his helical gears. (a) The worm's axis stands 0.1 deg askew; "
-    "0.07 deg of lead correction brings the load back from the edge. (b) A tip relief of 80 um "
-    "from the pitch line, and one of 10 um over the outer half of the addendum.",
-    drawings.pressures, DESIGNS,
-)  # fmt: skip
-@figure(
-    "2.12", "Lines of contact of a metal gearset at low and at high torque, for points on polymer",
-    "The steering gear's worm of steel and wheel of polymer are not at hand; this is gearset 3 "
-    "with a centre distance of 2.9 in and the worm of figure 2.13, relieved by 30 um towards its "
-    "tip. Lines of contact at 24 angles of the worm that carry, with one stiffness per length of "
-    "line.",
-    drawings.pressures, LOADS,
-)  # fmt: skip
+@figure("2.9", drawings.pressures, DESIGNS)
+@figure("2.12", drawings.pressures, LOADS)
 def _lines(gears: Mapping[str, Gear]) -> Computed:
     """Contact lines of some gearsets under their torque."""
     variables: dict[str, Any] = {}
@@ -119,17 +104,7 @@ def _outline(found: Meshing) -> Any:
     return np.concatenate([place[0], place[1:, -1], place[-1, -2::-1], place[-2::-1, 0]])
 
 
-@figure(
-    "2.10", "Formation of contact on worm and wheel",
-    "Mao's and Litvin's gears are not at hand; this is gearset 3 with a centre distance of 2.9 "
-    "in. Where one tooth is within 6 um of the worm, at five instants while it is at all, from "
-    "dark to light as the worm turns: above "
-    "on the worm's thread, below on the wheel's flank; lines: nearest places. (a) Identical hob: "
-    "contact lines. (b) The same with the worm's axis 0.1 deg askew and 0.05 mm too far away: "
-    "contact at the edge. (c) A hob of 1.12 times the diameter, tilted by 2 deg: ellipses about "
-    "the middle. Unloaded.",
-    drawings.formation,
-)  # fmt: skip
+@figure("2.10", drawings.formation)
 def _formation() -> Computed:
     fields: dict[str, list[Any]] = {key: [] for key in ("face", "height", "phase", "instant")}
     moving: dict[str, list[Any]] = {key: [] for key in ("gap", "worm_radius", "thread")}
@@ -166,13 +141,7 @@ def _formation() -> Computed:
     return dataset, [*HOBS.values(), "asperity.thesis.flanks.meshing.Meshing.in_worm"]
 
 
-@figure(
-    "2.11", "Mesh check with dye: 12 % oversized hob without and with a tilt of 2 deg",
-    "Gearset 3 with a centre distance of 2.9 in instead of the gearset photographed, which is not "
-    "named; dye 6 um thick, unloaded. Without tilt the wheel bears near a face edge; with 2 deg "
-    "in the middle, as the thesis found.",
-    drawings.dye,
-)  # fmt: skip
+@figure("2.11", drawings.dye)
 def _dye() -> Computed:
     variables: dict[str, Any] = {}
     gaps, faces, heights, shares, centres = [], [], [], [], []
@@ -214,13 +183,7 @@ def _dyed(found: Meshing, grid: FlankGrid, marks: Pattern) -> Shape:
     return joined([bare, *flanks]).turned(-pitch * (_TEETH // 2))
 
 
-@figure(
-    "2.13", "Worm profile modified between pitch line and tip",
-    "A steering worm's dimensions are not given; the worm of gearset 3 stands in. The relief "
-    "grows with the third power from the pitch line to 30 um at the tip; in the left picture it "
-    "is drawn ten times as large.",
-    drawings.modified_profile,
-)  # fmt: skip
+@figure("2.13", drawings.modified_profile)
 def _profile() -> Computed:
     modified = pair_of(EPS).worm
     plain = pair_of(Gear(_CASE)).worm

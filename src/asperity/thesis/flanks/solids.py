@@ -66,14 +66,7 @@ def facet_height(flank: WheelFlank, grid: FlankGrid, step: float) -> FloatArray:
     return height
 
 
-@figure(
-    "7.1", "Gearset 3 in space, and what a machining simulation leaves of a flank",
-    "The thesis's CAD model is lost; this is gearset 3 as reconstructed, with a centre distance "
-    "of 2.9 in. Right: the exact flank, and one cut at every 30 deg of the hob alone, its facets "
-    "enlarged 30 times. Those of the thesis's model, at the edges of the teeth, came from its "
-    "tool's path, which is lost; shaft and hub are left out.",
-    drawings.gearset,
-)  # fmt: skip
+@figure("7.1", drawings.gearset)
 def _gearset() -> Computed:
     wheel = _wheel()
     teeth = wheel.pair.geometry.wheel_teeth
@@ -101,13 +94,7 @@ def _gearset() -> Computed:
     return dataset, how
 
 
-@figure(
-    "7.2", "Gearset 3 simplified for a simulation",
-    "The thesis's CAD model is lost; this is gearset 3 as reconstructed, with a centre distance "
-    "of 2.9 in. The worm and nine teeth with their rim; shaft and hub are left out, as the thesis "
-    "does.",
-    drawings.sector,
-)  # fmt: skip
+@figure("7.2", drawings.sector)
 def _sector() -> Computed:
     teeth = _centred(Shape.of_mesh(_mesh("coarse", _SECTOR)), _SECTOR)
     both = joined([teeth, Shape.of_body(mounted_worm(_wheel().pair), 1, every=(2, 1))])
@@ -115,26 +102,14 @@ def _sector() -> Computed:
     return dataset, [f"{_FLANK} --out out/flank"]
 
 
-@figure(
-    "7.3", "The worm as a rigid shell",
-    "Its surface alone, open at both ends, as quadrilaterals; every corner lies on the exact "
-    "surface. A simulation here takes the worm without facets, by its distance function; the mesh "
-    "is for others.",
-    drawings.shell,
-)  # fmt: skip
+@figure("7.3", drawings.shell)
 def _shell() -> Computed:
     worm = Shape.of_body(worm_body(_wheel().pair), 1, every=(5, 1), ends=False)
     dataset = labelled(**worm.variables("worm"))
     return dataset, [f"{_FLANK} --out out/flank"]
 
 
-@figure(
-    "7.4", "Topology and mesh of a wheel tooth",
-    "The thesis had to blend facets into one face a flank. Here each flank, fillet and tip is one "
-    "face from the start, and the corners of the mesh lie on it exactly. The mesh is of "
-    "structured hexahedra, of intermediate density.",
-    drawings.topology,
-)  # fmt: skip
+@figure("7.4", drawings.topology)
 def _topology() -> Computed:
     mesh = _mesh("intermediate", 1)
     groups = (
@@ -151,13 +126,7 @@ def _topology() -> Computed:
     return dataset, [f"{_FLANK} --density intermediate --out out/flank"]
 
 
-@figure(
-    "7.11", "Mesh densities of the wheel: coarse, intermediate, fine",
-    "As in the thesis the element sizes are 100, 75 and 50 % of the coarse one, which is a fifth "
-    "of the axial module here, as Table 7.4 is lost. A tooth of the wheel; the worm needs no "
-    "mesh.",
-    drawings.densities,
-)  # fmt: skip
+@figure("7.11", drawings.densities)
 def _densities() -> Computed:
     meshes = {name: _mesh(name, 1) for name in DENSITIES}
     variables: dict[str, Any] = {}

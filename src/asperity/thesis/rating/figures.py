@@ -10,35 +10,17 @@ from asperity.thesis.rating import drawings
 from asperity.thesis.rating.rated import GEARSET_2, GEARSETS, OPTIMISED
 
 
-@figure(
-    "3.1", "Efficiency of gearset 2 with each way to less friction",
-    "By ISO/TR 14521, with the friction that the thesis quotes for each; oils by the standard and, "
-    "hatched, a vibration of 20 um at 20 kHz by our own friction model stand beside them. The "
-    "quoted vibrations are 20 times as fast as the sliding. Bars leave the power of a vibration "
-    "out, as the thesis does; diamonds count what of it goes into the contact.",
-    plot_comparison,
-)  # fmt: skip
+@figure("3.1", plot_comparison)
 def _methods() -> Computed:
     return GEARSET_2.comparison.to_dataset(), [GEARSET_2.command("methods")]
 
 
-@figure(
-    "3.2", "Efficiency of gearset 2 over each of its inputs",
-    "By ISO/TR 14521; one input is raised at a time, in steps of 5 %, with the centre distance as "
-    "it is. Crosses: above these the film parameter h* is not above zero, and there is no answer.",
-    plot_sensitivity,
-)  # fmt: skip
+@figure("3.2", plot_sensitivity)
 def _inputs() -> Computed:
     return GEARSET_2.sensitivity.to_dataset(), [GEARSET_2.command("sensitivity")]
 
 
-@figure(
-    "3.3", "Friction by two standards",
-    "Base friction by ISO/TR 14521 in mineral oil, tooth friction of gearsets 2 and 3 with its "
-    "size, geometry, material and roughness factors, and friction by AGMA 6034, which knows the "
-    "sliding velocity alone; markers: the gearsets at 1440 rpm.",
-    drawings.friction,
-)  # fmt: skip
+@figure("3.3", drawings.friction)
 def _friction() -> Computed:
     velocity = np.geomspace(0.02, 20.0, 601)
     curves, agma, at = [], [], []
@@ -71,19 +53,15 @@ def _friction() -> Computed:
 
 
 @figure(
-    "3.4", "Efficiencies as they are and at the optimum",
-    "By ISO/TR 14521 and AGMA 6034; gearsets 1 and 4 are lost, and so are the bounds of the "
-    "optimum (Table 3.6 here).",
+    "3.4",
     drawings.efficiencies,
     {
         "eta_z": ("iso14521", "eta_z1_2", "1", "efficiency of the teeth, ISO/TR 14521"),
         "eta_AGMA": ("agma6034", "eta", "1", "efficiency of the teeth, AGMA 6034"),
     },
-)  # fmt: skip
+)
 @figure(
-    "3.5", "Permissible torques as they are and at the optimum",
-    "M_26k, M_w and M_s by BS 721, from tables that are from memory; T_G,all by AGMA 6034. "
-    "Gearsets 1 and 4 are lost.",
+    "3.5",
     drawings.torques,
     {
         "M_26k": ("bs721", "M_26k_Nm", "N m", "permissible torque for 26000 h, BS 721"),
@@ -91,7 +69,7 @@ def _friction() -> Computed:
         "M_s": ("bs721", "M_s_Nm", "N m", "torque permitted by strength, BS 721"),
         "T_G_all": ("agma6034", "allowable_torque_Nm", "N m", "allowable torque, AGMA 6034"),
     },
-)  # fmt: skip
+)
 def _optima(wanted: dict[str, tuple[str, str, str, str]]) -> Computed:
     """Numbers of the gearsets as they are and of their optima: standard, key, unit, meaning."""
     optima = [gear.optimum for gear in GEARSETS.values()]

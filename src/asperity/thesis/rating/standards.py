@@ -23,7 +23,7 @@ _LEAST, _MOST = 0.20, 0.30
 """By which polyglycol lowers gear friction (2.3.2)."""
 
 
-@claim("2.8", "2.1.5", "Better efficiency can make a worm gearset reversible.", "can")
+@claim("2.8")
 def _reversible() -> Finding:
     study = GEARSET_2.comparison
     rows = [study[method.key] for method in quoted_methods()]
@@ -50,7 +50,7 @@ def _reversible() -> Finding:
     )
 
 
-@claim("2.9", "2.3.2, 3.2.2", "Polyglycol oil lowers gear friction, after Doleschel.", "20 to 30 %")
+@claim("2.9")
 def _polyglycol() -> Finding:
     quoted = quoted_methods()
     study = GEARSET_2.comparison
@@ -82,7 +82,7 @@ def _polyglycol() -> Finding:
     )  # fmt: skip
 
 
-@claim("2.11", "2.3.2", "3.24 and 2.77 kW of two oils of one grade are 14.6 % apart.", "14.6 %")
+@claim("2.11")
 def _one_grade() -> Finding:
     share = 1.0 - _BEST / _WORST
     half = 0.005
@@ -103,8 +103,7 @@ def _one_grade() -> Finding:
     )
 
 
-@claim("3.15", "3.3.4", "eta_AGMA is higher than eta_z also since the equations (6) and (7) "
-       "differ.", "also")  # fmt: skip
+@claim("3.15")
 def _equations() -> Finding:
     pairs = {}
     for name, gear in GEARSETS.items():
@@ -135,7 +134,7 @@ def _torques(rated: object) -> tuple[float, float, float]:
     return long, allowable, min(wear, strength)
 
 
-@claim("3.16", "3.3.5", "M_26k is close to T_G,all.", "close")
+@claim("3.16")
 def _close() -> Finding:
     found = {
         f"{name}, {when}": _torques(rated)
@@ -158,7 +157,7 @@ def _close() -> Finding:
     )  # fmt: skip
 
 
-@claim("3.17", "3.3.5, 8.1", "The optimum brings little more torque, and costs none.", "little")
+@claim("3.17")
 def _capacity() -> Finding:
     gains, allowable = {}, {}
     for name, gear in GEARSETS.items():
@@ -187,7 +186,7 @@ def _capacity() -> Finding:
     )  # fmt: skip
 
 
-@claim("3.18", "3.4", "The optimum's 45 % are little beside the other methods.", "little")
+@claim("3.18")
 def _beside_the_methods() -> Finding:
     study = GEARSET_2.comparison
     rows = [study[method.key] for method in quoted_methods()]

@@ -66,11 +66,7 @@ _TABLE_3_2 = (
 )
 
 
-@table(
-    "3.2", "Efficiency of gearset 2: inputs and results",
-    "By ISO/TR 14521. The thesis's table is lost; its column holds what the text repeats of it, "
-    "the last one where the number here is from.",
-)  # fmt: skip
+@table("3.2")
 def _efficiency() -> Grid:
     rated = GEARSET_2.rated
     return Grid.of(
@@ -87,12 +83,7 @@ def _efficiency() -> Grid:
     )
 
 
-@table(
-    "3.3", "Friction and efficiency of gearset 2 with each way to less friction",
-    "What the thesis has of the oils' viscosities is lost, and without influence on the "
-    "efficiency. Rows that are not in the thesis: oils by the formulas of ISO/TR 14521, and "
-    "vibration by our own friction model.",
-)  # fmt: skip
+@table("3.3")
 def _methods() -> Grid:
     study = GEARSET_2.comparison
     quoted = {study.rows[0].key: "0.0715"}
@@ -131,11 +122,7 @@ _EFFECTS = {
 }
 
 
-@table(
-    "3.4", "What each input does to the efficiency of gearset 2",
-    "The thesis's table is lost; its column holds what the text of 3.2.3 says. Elasticity: "
-    "relative change of the efficiency over that of the input, at the gearset as it is.",
-)  # fmt: skip
+@table("3.4")
 def _influences() -> Grid:
     return Grid.of(
         GEARSET_2.sensitivity.influences,
@@ -191,12 +178,7 @@ _TABLE_3_5 = (
 )
 
 
-@table(
-    "3.5", "Efficiency and load capacity of gearsets 2 and 3 as they are",
-    "By ISO/TR 14521, AGMA 6034 and, from tables that are from memory, BS 721. The thesis's table "
-    "is lost, gearsets 1 and 4 with it. The required life is 500 000 turns of the wheel, a tenth "
-    "of it for strength (3.3.1).",
-)  # fmt: skip
+@table("3.5")
 def _as_they_are() -> Grid:
     rated = {name: gear.rated for name, gear in GEARSETS.items()}
     columns = _beside(rated) | {"here": lambda row: row.here}
@@ -231,11 +213,7 @@ _BOUNDS = {
 }
 
 
-@table(
-    "3.6", "Constraints of the optimum",
-    "The thesis's table is lost. The bounds of alpha_n, q_1, m_x1, Ra_1 and x_2 are assumed; that "
-    "M_w and M_s may not fall is the thesis's.",
-)  # fmt: skip
+@table("3.6")
 def _constraints() -> Grid:
     limits: dict[tuple[str, str], list[Limit]] = {}
     for name, gear in GEARSETS.items():
@@ -282,11 +260,7 @@ _TABLE_3_7 = (
 )
 
 
-@table(
-    "3.7", "Efficiency and load capacity of gearsets 2 and 3 at the optimum",
-    "As Table 3.5, within the constraints of Table 3.6. The thesis's table is lost; its column "
-    "holds what the text of 3.3.5 says.",
-)  # fmt: skip
+@table("3.7")
 def _at_the_optimum() -> Grid:
     designs: dict[str, Rated] = {}
     for name, gear in GEARSETS.items():

@@ -16,7 +16,7 @@ from asperity.files.shipped import shipped_cases
 from asperity.files.store import write_text
 from asperity.thesis.exhibits import CLAIM, Exhibit
 from asperity.thesis.products import Plain
-from asperity.thesis.said import said_of
+from asperity.thesis.said import words_of
 
 _MADE = "made.json"
 _LEDGER = "claims.json"
@@ -59,9 +59,8 @@ def key_of(exhibit: Exhibit, *, full: bool = False) -> str:
     shipped = shipped_cases()
     cases = [shipped[case].read_bytes() for case in exhibit.cases]
     in_full = full and exhibit.has_full
-    words = said_of(exhibit.number) if exhibit.kind == CLAIM else ""
     name = exhibit.name + " in full" * in_full
-    return key(code_key(exhibit.module), name, repr(words), *cases)
+    return key(code_key(exhibit.module), name, repr(words_of(exhibit.name)), *cases)
 
 
 def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> Made:

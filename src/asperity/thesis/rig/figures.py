@@ -10,15 +10,9 @@ from asperity.thesis.rig.readings import velocities
 from asperity.vibration import Vibration
 
 _LOADS = m.LOADS_LB * m.POUND_FORCE
-_TABLE = "Table 6.3, measured; its loads, printed in N, are kilograms and are drawn in N here."
 
 
-@figure(
-    "6.8",
-    "Speeds and currents over the load, dry, the loads in N put right",
-    _TABLE,
-    drawings.speeds,
-)
+@figure("6.8", drawings.speeds)
 def _speeds() -> Computed:
     dataset = labelled(
         load=(("load",), _LOADS, "N", "normal load"),
@@ -30,10 +24,7 @@ def _speeds() -> Computed:
     return dataset, ["Table 6.3"]
 
 
-@figure(
-    "6.9", "Sliding, rolling and their ratio over the load, dry",
-    f"{_TABLE} Crosses: as printed.", drawings.sliding,
-)  # fmt: skip
+@figure("6.9", drawings.sliding)
 def _sliding() -> Computed:
     sliding, rolling, ratio = velocities()
     dataset = labelled(
@@ -48,11 +39,7 @@ def _sliding() -> Computed:
     return dataset, ["asperity.tribometer.discs, on the speeds of Table 6.3"]
 
 
-@figure(
-    "6.24", "Waveforms of the vibration at 750 Hz, u_a = 16 um",
-    "Displacement, and the velocity that follows: that of the triangle is 2/pi of the sine's peak, "
-    "and the same all the time.", drawings.waveforms,
-)  # fmt: skip
+@figure("6.24", drawings.waveforms)
 def _waveforms() -> Computed:
     steps = 2000
     time = np.arange(steps + 1) / steps * 2.0 / 750.0

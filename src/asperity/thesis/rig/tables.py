@@ -12,11 +12,7 @@ _DISCS = "asperity.tribometer.discs, on rig-preliminary"
 _CROSSED, _TICKED = "left out", "tested"
 
 
-@table(
-    "6.1", "Circumferential roughness of the preliminary discs",
-    "Ra in um, as the text has it, and the means that follow. The thesis keeps 0.76 and 0.81 um "
-    "(claim 6.9).",
-)  # fmt: skip
+@table("6.1")
 def _roughness() -> Grid:
     rows = [
         (disc, place, *readings, float(np.mean(readings)), float(values.mean()))
@@ -27,12 +23,7 @@ def _roughness() -> Grid:
     return Grid(columns, tuple(rows), ("the mean of three and of nine readings",))
 
 
-@table(
-    "6.3", "Dry runs of the preliminary rig",
-    "Loads, speeds and currents as the text has them, the velocities that follow beside the "
-    "printed ones, and the friction that the motor's current means. The column that is printed in "
-    "N holds kilograms (claim 6.16).",
-)  # fmt: skip
+@table("6.3")
 def _dry_runs() -> Grid:
     sliding, rolling, ratio = velocities()
     loads = m.LOADS_LB * m.POUND_FORCE
@@ -59,11 +50,7 @@ def _dry_runs() -> Grid:
     )
 
 
-@table(
-    "6.8", "Inputs of the Hertz pressure",
-    "The table is lost but for three numbers in the text (6.4.8). Diameters and materials are "
-    "stated in 6.4.1; the moduli were chosen to give the printed pressure (claim 6.1).",
-)  # fmt: skip
+@table("6.8")
 def _hertz() -> Grid:
     rig = pair()
     stated, chosen, follows = "stated", "chosen to give p_max", "follows"
@@ -85,11 +72,7 @@ def _hertz() -> Grid:
     return Grid(columns, tuple(rows), ("asperity.tribometer.discs, on rig-final",))
 
 
-@table(
-    "6.10", "Test matrix",
-    "As the text has it; a few marks of the triangular wave are lost and taken "
-    "as tested, as their neighbours are. The same at six frequencies and three supplies each.",
-)  # fmt: skip
+@table("6.10")
 def _matrix() -> Grid:
     tested = {("sine", mode, "oil") for mode in m.AMPLITUDES}
     tested |= {("triangle", mode, "oil") for mode in m.AMPLITUDES} | {

@@ -130,7 +130,7 @@ def steady_viscous() -> float:
     return (forces[1] - forces[0]) / (viscous * velocity)
 
 
-@claim("4.7", "App. A.5", "LuGre with zero damping and Stribeck terms equals Dahl.", "exact")
+@claim("4.7")
 def _lugre() -> Finding:
     axes = ((RATIO, "2,20"), (DIRECTION, ALL_AROUND))
     dahl = Sweep("table-4.4", axes, (PERIODIC,))

@@ -18,11 +18,6 @@ if TYPE_CHECKING:
 
 _DENSE = "0.1:20:0.1"
 _SCHEMES = ("exponential", "two-phase")
-_LINES = (
-    "The pre-existing model as the exponential scheme (full line), the coupled one as the "
-    "two-phase "
-    "scheme (dashed)"
-)
 _CLOSED = "asperity.slider.closed_forms"
 CLOSED_FORMS: dict[str, tuple[Callable[[Any], Any], str]] = {
     "table-4.3": (longitudinal_ratio, f"{_CLOSED}.longitudinal_ratio(k)"),
@@ -67,12 +62,7 @@ def two_cycles(history: "xr.Dataset", model: Model) -> "xr.Dataset":
     return part.assign_coords(time=("time", part["time"].values - begin, attributes))
 
 
-@figure(
-    "2.7", "Dahl's friction force from rest",
-    "The exponent sets how the contact yields: 0 is elastic up to the full force, 2 creeps towards "
-    "it. Full force and deflection limit of Table 4.3.",
-    drawings.force_over_displacement,
-)  # fmt: skip
+@figure("2.7", drawings.force_over_displacement)
 def _dahl_from_rest() -> Computed:
     force, s_max = 5.5, 68.75e-9
     exponents = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
@@ -94,23 +84,15 @@ _RIGID = (
 )  # fmt: skip
 
 
+@figure("2.14", drawings.cycle, {"rigid drive": Body("table-4.1-L2", (PERIODIC,))})
 @figure(
-    "2.14", "Rigid friction in a cycle of longitudinal vibration",
-    "While the base outruns the body, friction pushes the body forward. The thesis gives no "
-    "numbers; those of simulation L2 are used, with v_a = 2 v_d.",
-    drawings.cycle, {"rigid drive": Body("table-4.1-L2", (PERIODIC,))},
-)  # fmt: skip
-@figure(
-    "2.15", "Dahl friction in a cycle of longitudinal vibration",
-    "At 4 kHz and v_a = 0.75 mm/s against v_d = 0.5 mm/s the asperities give way before the force "
-    "can turn: it falls, but keeps its sign. The thesis gives no other numbers; those of Table 4.3 "
-    "are used, with its compliant drive and with a rigid one.",
+    "2.15",
     drawings.cycle,
     {
         "compliant drive": Body("table-4.3", (_SLOW, PERIODIC)),
         "rigid drive": Body("table-4.1-L4", (*_RIGID, _SLOW, PERIODIC)),
     },
-)  # fmt: skip
+)
 def _cycle(bodies: dict[str, Body]) -> Computed:
     """Base velocity and friction over one cycle of periodic states."""
     dataset = _solved([*bodies], [*bodies.values()], "friction")
@@ -125,15 +107,7 @@ def _cycle(bodies: dict[str, Body]) -> Computed:
     return dataset, [*bodies.values()]
 
 
-@figure(
-    "2.16", "Rigid friction in a cycle of transverse vibration",
-    "Right: the slip, drive and vibration together, at even times of half a cycle, and the "
-    "friction "
-    "against it: it keeps its size and swings, so that what is left along the drive is smaller. "
-    "Left: the same over time. The thesis gives no numbers; those of simulation L2 are used, "
-    "with the base moving across the drive.",
-    drawings.transverse_cycle,
-)  # fmt: skip
+@figure("2.16", drawings.transverse_cycle)
 def _transverse_cycle() -> Computed:
     body = Body("table-4.1-L2", (PERIODIC, f"{DIRECTION}=90 deg"))
     result, model, history = body.result, body.model, body.history
@@ -153,36 +127,15 @@ def _transverse_cycle() -> Computed:
     return dataset, [body]
 
 
-@figure(
-    "4.3", "Rigid drive, vibration slower than the drive",
-    "Simulations L1 (rigid friction) and L3 (asperities): the drive force stays at mu F_N once the "
-    "asperities are stretched.",
-    drawings.stacked, "L1", "L3",
-)  # fmt: skip
-@figure(
-    "4.4", "Rigid drive, vibration faster than the drive",
-    "Simulations L2 (rigid friction) and L4, L5, L6 with softer and softer asperities, from rest; "
-    "L6 has not settled yet at the end.",
-    drawings.stacked, "L2", "L4", "L5", "L6",
-)  # fmt: skip
+@figure("4.3", drawings.stacked, "L1", "L3")
+@figure("4.4", drawings.stacked, "L2", "L4", "L5", "L6")
 def _basic(*names: str) -> Computed:
     bodies = [Body(f"table-4.1-{name}", ("solve.duration=30 ms",)) for name in names]
     return _solved(names, bodies, "drive_force"), bodies
 
 
-@figure(
-    "4.17", "Longitudinal vibration: what is left of the drive force",
-    "Table 4.3. Line: periodic states; markers: 1 s marched with either scheme; dashed: rigid "
-    "friction and rigid drive.",
-    drawings.over_ratio, "table-4.3", "split",
-)  # fmt: skip
-@figure(
-    "4.20", "Transverse vibration: what is left of the drive force",
-    "Table 4.4. Lines: periodic states of the three relaxation laws; markers: 1 s marched with law "
-    "split and either scheme; dotted: rigid friction and rigid drive with the transferred part of "
-    "the vibration, eta_y k.",
-    drawings.over_ratio, "table-4.4", "split", "unsplit", "vector",
-)  # fmt: skip
+@figure("4.17", drawings.over_ratio, "table-4.3", "split")
+@figure("4.20", drawings.over_ratio, "table-4.4", "split", "unsplit", "vector")
 def _over_ratio(case: str, *laws: str) -> Computed:
     """Periodic states of some laws and a closed form as lines, both schemes as markers."""
     marched = Sweep(case, ((RATIO, MARKED),))
@@ -210,34 +163,15 @@ def _schemes(case: str, ratio: str) -> list[Body]:
     return [Body(case, settings), Body(case, (*settings, TWO_PHASE))]
 
 
-@figure(
-    "4.18", "Drive force when longitudinal vibration sets in, k = 6",
-    f"Table 4.3. {_LINES}. The last millisecond, enlarged, shows the undulation that the two-phase "
-    "scheme puts into the drive force by stretching the drive with the base's motion; it is not "
-    "physical.",
-    drawings.drive_over_time, "table-4.3", "6",
-)  # fmt: skip
-@figure(
-    "4.21", "Drive force when transverse vibration sets in, k = 20",
-    f"Table 4.4. {_LINES}. Enlarged: the last millisecond.",
-    drawings.drive_over_time, "table-4.4", "20",
-)  # fmt: skip
+@figure("4.18", drawings.drive_over_time, "table-4.3", "6")
+@figure("4.21", drawings.drive_over_time, "table-4.4", "20")
 def _drive_over_time(case: str, ratio: str) -> Computed:
     bodies = _schemes(case, ratio)
     return _solved(_SCHEMES, bodies, "drive_force"), bodies
 
 
-@figure(
-    "4.19", "Friction under longitudinal vibration, k = 6",
-    f"Table 4.3, two cycles at the end of the march. {_LINES}.",
-    drawings.friction_over_cycles, "table-4.3", "6", ["x"],
-)  # fmt: skip
-@figure(
-    "4.22", "Friction under transverse vibration, k = 20",
-    f"Table 4.4, two cycles at the end of the march. {_LINES}. Along the drive the force changes "
-    "in size, across it in size and sign.",
-    drawings.friction_over_cycles, "table-4.4", "20", ["x", "y"],
-)  # fmt: skip
+@figure("4.19", drawings.friction_over_cycles, "table-4.3", "6", ["x"])
+@figure("4.22", drawings.friction_over_cycles, "table-4.4", "20", ["x", "y"])
 def _friction_over_cycles(case: str, ratio: str, axes: list[str]) -> Computed:
     bodies = _schemes(case, ratio)
     cycles = [two_cycles(body.result.to_dataset()[["friction"]], body.model) for body in bodies]
@@ -245,12 +179,7 @@ def _friction_over_cycles(case: str, ratio: str, axes: list[str]) -> Computed:
     return side_by_side(_SCHEMES, cycles, full).sel(axis=axes), bodies
 
 
-@figure(
-    "4.23", "What is left of the drive force in every direction of vibration",
-    "Table 4.4. Lines: periodic states; filled markers: 25 directions marched for 1 s; open "
-    "diamonds: LuGre friction without damping and Stribeck terms, at k = 2 and 20.",
-    drawings.over_direction,
-)  # fmt: skip
+@figure("4.23", drawings.over_direction)
 def _over_direction() -> Computed:
     marched = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, ALL_AROUND)))
     settled = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, "0:360:3")), (PERIODIC,))

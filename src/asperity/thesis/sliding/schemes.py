@@ -81,20 +81,8 @@ def increment(
     )
 
 
-@figure(
-    "4.11", "An increment of the older transverse model in two phases",
-    "The body goes from N' to N'_1 and the root follows along the asperity from M to M'1; the base "
-    "then moves across by EF, of which the root takes the share eta_y to M'2, and follows along "
-    "the "
-    "asperity to M_1. Lengths are over s_max; the increment is of a size that can be seen.",
-    drawings.increment, 0.0,
-)  # fmt: skip
-@figure(
-    "4.15", "An increment of the coupled model in two phases",
-    "As figure 4.11, but the base moves along x too: by (42) that is counted to the body's own "
-    "motion, dashed, of which it is taken. eta_y = 0.71, exponent 1.",
-    drawings.increment, 0.25,
-)  # fmt: skip
+@figure("4.11", drawings.increment, 0.0)
+@figure("4.15", drawings.increment, 0.25)
 def _increment(base_x: float) -> Computed:
     root, body = np.array([0.0, 0.42]), np.array([0.5, 0.0])
     own, base_y = np.array([0.55, -0.12]), 0.5
@@ -112,12 +100,7 @@ def _increment(base_x: float) -> Computed:
     return dataset, [_HOW]
 
 
-@figure(
-    "4.14", "Displacement of a base that vibrates at an angle, and its components",
-    "u along the axis of vibration at the angle theta, x_b = u cos(theta) along the drive and "
-    "y_b = u sin(theta) across it; dotted: to where it swings.",
-    drawings.base,
-)  # fmt: skip
+@figure("4.14", drawings.base)
 def _base() -> Computed:
     theta, share = math.radians(35.0), 0.8
     dataset = labelled(

@@ -8,11 +8,7 @@ from asperity.thesis.products import Cell, Grid
 from asperity.thesis.sliding.bodies import PERIODIC, TWO_PHASE, Body
 
 
-@table(
-    "4.1", "Six bodies on a rigid drive",
-    "The thesis's inputs survive in its text; v_a against v_d, and s_max, tell them apart. Forces "
-    "are of periodic states.",
-)  # fmt: skip
+@table("4.1")
 def _basic() -> Grid:
     bodies = {f"L{n}-Sim": Body(f"table-4.1-L{n}", (PERIODIC,)) for n in range(1, 7)}
     found = {name: body.result for name, body in bodies.items()}
@@ -50,31 +46,14 @@ _CARRIED = (
 )
 
 
-@table(
-    "4.2", "What the coupled model carries from step to step",
-    "As the text has it, and what stands for it in the scheme here, which keeps the deflection's "
-    "two components instead of the asperity's root.",
-)  # fmt: skip
+@table("4.2")
 def _carried() -> Grid:
     columns = ("variable", "computed by", "used in", "here")
     return Grid(columns, _CARRIED, ("asperity.friction.two_phase",))
 
 
-_INPUTS = (
-    "The inputs as the thesis prints them and as the shipped case has them; k_t follows. {}Below, "
-    "what they give."
-)
-_SAME_RATIOS = "A direction of 270 deg gives the ratios of 90 deg (claim 4.10). "
-
-
-@table(
-    "4.3", "The body under longitudinal vibration", _INPUTS.format(""),
-    "table-4.3", (0.5, 4000.0, 55.0, 68.75, 80.0, 0.0),
-)  # fmt: skip
-@table(
-    "4.4", "The body under transverse vibration", _INPUTS.format(_SAME_RATIOS),
-    "table-4.4", (2.0, 3000.0, 50.8, 75.49, 67.29, 270.0),
-)  # fmt: skip
+@table("4.3", "table-4.3", (0.5, 4000.0, 55.0, 68.75, 80.0, 0.0))
+@table("4.4", "table-4.4", (2.0, 3000.0, 50.8, 75.49, 67.29, 270.0))
 def _compared(case: str, thesis: tuple[float, ...]) -> Grid:
     """What the thesis prints: mass, frequency, normal force, deflection, stiffness, direction."""
     mass, frequency, force, deflection, stiffness, direction = thesis

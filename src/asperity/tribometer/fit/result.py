@@ -9,6 +9,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.results import Result, quantity
+from asperity.results.interval import Interval
 from asperity.results.quantity import plain
 from asperity.results.table import Table
 from asperity.units import to_si
@@ -17,18 +18,14 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclasses.dataclass(frozen=True)
-class Parameter:
-    """A fitted parameter.
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Parameter(Interval):
+    """A fitted parameter, in SI.
 
     Attributes
     ----------
     key, units : str
         ``table.key``, and the unit of the numbers.
-    value : float
-        SI.
-    ci95 : tuple
-        Ends of its interval; None where it is open.
     identifiable : bool
         Whether both ends are closed.
     why : str
@@ -38,25 +35,24 @@ class Parameter:
     """
 
     key: str
-    value: float
     units: str
-    ci95: tuple[float | None, float | None]
     identifiable: bool
     why: str
     written: str
 
     def to_json(self) -> dict[str, Any]:
         """Return what is in SI."""
-        told = dataclasses.asdict(self)
-        del told["written"]
-        return told
+        return {
+            "key": self.key, "value": self.value, "units": self.units,
+            "ci95": self.ends, "identifiable": self.identifiable, "why": self.why,
+        }  # fmt: skip
 
     def row(self) -> tuple[str | float, ...]:
         """Return key, value, ends, unit and why in short, in the case's unit."""
         zero, one = (to_si(f"{n} {self.written}", self.units) for n in (0, 1))
-        low, high = ("open" if end is None else (end - zero) / (one - zero) for end in self.ci95)
-        value = (self.value - zero) / (one - zero)
-        return self.key, value, low, high, self.written, self._parted[0]
+        shown = self.mapped(lambda value: (value - zero) / (one - zero))
+        ends = ("open" if end is None else end for end in shown.ends)
+        return self.key, shown.value, *ends, self.written, self._parted[0]
 
     @property
     def rest(self) -> str:
@@ -95,7 +91,7 @@ class FitResult(Result):
 
     title = "Friction law fitted to measurements"
     stem = "fit"
-    drawings: ClassVar[Mapping[str, str]] = {"fit": "asperity.tribometer.fit.plots:plot_fit"}
+    drawings: ClassVar[Mapping[str, str]] = {"fit": "asperity.tribometer.plots:plot_fit"}
 
     parameters: tuple[Parameter, ...]
     correlation: FloatArray
@@ -145,13 +141,9 @@ class FitResult(Result):
         dataset = dataset.assign_coords(
             parameter=("parameter", names, {"units": "1", "long_name": "parameter, in SI"})
         )
-        for name, values in (
-            ("value", [one.value for one in self.parameters]),
-            ("low", [_or_nan(one.ci95[0]) for one in self.parameters]),
-            ("high", [_or_nan(one.ci95[1]) for one in self.parameters]),
-        ):
-            meaning = {"value": "value", "low": "lower end", "high": "upper end"}[name]
+        for name, meaning in (("value", "value"), ("low", "lower end"), ("high", "upper end")):
             described = {"units": "1", "long_name": f"{meaning} of a parameter, in its SI unit"}
+            values = [_or_nan(getattr(one, name)) for one in self.parameters]
             dataset[name] = ("parameter", np.array(values), described)
         return dataset
 

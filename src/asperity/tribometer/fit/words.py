@@ -6,6 +6,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.results import interval
 from asperity.tribometer.fit.estimate import Estimate
 from asperity.tribometer.fit.forward import SLIDE, Predictor
 from asperity.tribometer.fit.outliers import Outlier, Spoilt
@@ -17,7 +18,7 @@ _UNLIKELY = 0.05
 _ABOVE = 3.0  # deviations by which a ratio lies above what a law can give
 _MANY = 5  # rows that are named one by one
 
-Ends = Sequence[tuple[float | None, float | None]]
+Ends = Sequence[interval.Ends]
 Walls = dict[tuple[int, int], tuple[float, str]]
 
 
@@ -27,7 +28,7 @@ def parameter_of(
 ) -> Parameter:  # fmt: skip
     """Return a parameter with its interval, and what the data do not tell of it."""
     one = problem.free[place]
-    low, high = (None if end is None else math.exp(end) for end in ends[place])
+    found = interval.Interval(float(best.point[place]), *ends[place]).mapped(math.exp)
     others = np.abs(correlation[place])
     others[place] = 0.0
     partner = int(np.argmax(others)) if len(others) > 1 else place
@@ -42,17 +43,17 @@ def parameter_of(
     elif stopped := [walls[place, side] for side in (-1, 1) if (place, side) in walls]:
         (reached, reason), *_ = stopped
         why = f"the model answers no further than {one.told(math.exp(reached))}: {reason}"
-    elif low is None and high is None:
+    elif found.ends == (None, None):
         why = "chi-square does not rise by 3.84 on either side"
-    elif low is None or high is None:
-        side = "below" if low is None else "above"
+    elif found.width is None:
+        side = "below" if found.low is None else "above"
         why = f"the data do not bound it {side}"
     elif abs(with_it) > _CORRELATED:
         why = f"goes with {problem.free[partner].key}: correlation {with_it:+.2f}"
-    closed = low is not None and high is not None and abs(with_it) <= _AS_ONE
+    closed = found.width is not None and abs(with_it) <= _AS_ONE
     return Parameter(
-        one.key, math.exp(float(best.point[place])), one.quantity.unit, (low, high), closed, why,
-        one.written,
+        found.value, *found.ends, key=one.key, units=one.quantity.unit, identifiable=closed,
+        why=why, written=one.written,
     )  # fmt: skip
 
 

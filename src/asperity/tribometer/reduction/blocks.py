@@ -2,7 +2,7 @@
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -164,11 +164,36 @@ def _moments(part: NDArray[np.int16]) -> tuple[FloatArray, FloatArray]:
     return means, squares.astype(np.float64)
 
 
-def angle(blocks: Blocks, signal: str, gear_ratio: float) -> FloatArray:
-    """Return the angle of a disc in the middle of each block, rad, by the speed of its motor."""
+def angle(
+    blocks: Blocks,
+    signal: str,
+    gear_ratio: float,
+    unsettled: Sequence[tuple[int, int, int]] = (),
+) -> FloatArray:
+    """Return the angle of a disc in the middle of each block, rad, by the speed of its motor.
+
+    A counter tells all turns, but later than the disc makes them. Once it has settled, the angle
+    is late by a speed's constant part of a turn, which run-out's phase takes up. Before, the disc
+    already turns as fast, so that the angle goes back from there along a line.
+
+    Parameters
+    ----------
+    blocks : Blocks
+        Of a recording.
+    signal : str
+        The speed.
+    gear_ratio : float
+        Of the motor to the disc.
+    unsettled : sequence of (int, int, int), optional
+        Of windows the first block, the first one in which the counter has settled, and the one
+        after the last.
+    """
     speed = np.where(blocks.lost[signal], 0.0, blocks.means[signal]) / gear_ratio
     turned = np.cumsum(speed) * blocks.length
     made: FloatArray = turned - 0.5 * speed * blocks.length
+    for first, settled, last in unsettled:
+        back = np.arange(settled - first, 0, -1) * blocks.length
+        made[first:settled] = made[settled] - speed[settled:last].mean() * back
     return made
 
 

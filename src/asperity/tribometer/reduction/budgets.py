@@ -7,8 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from asperity.casefile import Case
-from asperity.results.quantity import plain, text_of
+from asperity.results.quantity import plain
 from asperity.results.table import Table
+from asperity.results.words import text_of
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL
 from asperity.tribometer.reduction.joint import TORQUE

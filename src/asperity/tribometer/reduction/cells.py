@@ -6,9 +6,6 @@ from asperity.files.store import harmless_cell
 from asperity.results import Quantities
 from asperity.results.quantity import Entry
 
-CI95 = "_ci95"
-"""What the key of an interval ends in."""
-
 
 def declared(rows: tuple[Quantities, ...]) -> list[Entry]:
     """Return what answers declare; nothing where there is none."""
@@ -34,7 +31,7 @@ def variable(entry: Entry, values: list[Any], dim: str) -> Any:
     import numpy as np
 
     described = {"units": entry.label.unit or "1", "long_name": entry.label.meaning}
-    if CI95 in entry.name:
+    if entry.label.is_ends:
         ends = [(np.nan, np.nan) if value is None else value for value in values]
         return (dim, "end"), np.array(ends, dtype=float), described
     if any(isinstance(value, str | tuple) for value in values):

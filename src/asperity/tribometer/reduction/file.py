@@ -22,7 +22,7 @@ from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL, Following
 from asperity.tribometer.reduction.heard.acceleration import Heard as Tones
 from asperity.tribometer.reduction.heard.listen import Listened
-from asperity.tribometer.reduction.joint import TORQUE, Interval, Joint, estimate_jointly
+from asperity.tribometer.reduction.joint import TORQUE, Joint, estimate_jointly
 from asperity.tribometer.reduction.levels import Levels
 from asperity.tribometer.reduction.prediction import model_ratios
 from asperity.tribometer.reduction.result import (
@@ -40,6 +40,7 @@ _LEVEL_BLOCK = 0.1  # s, in which noise and run-out are told apart
 _FEWEST = 10  # of these in a window; reduction.least_window has as many blocks at least
 _DATED = TORQUE, STEEL, BRONZE, CURRENT, "acceleration"  # what numbers rest on
 _LEAST_OF_SPEED = 1.0  # s of it that have settled, in a window
+_COUNTS = 3.0  # in the time a speed takes to settle: one begun before, one behind, and a filter
 _WIDE = 5.0  # points to either side, above which an interval is wide
 _PART_TURN = 1.0
 _FUNDAMENTAL = 8.0 / math.pi**2  # of a triangle: what a chain that passes one tone leaves of it
@@ -150,11 +151,15 @@ def _joint(blocks: Blocks, windows: _Windows, pair: Pair, given: Reduction) -> J
     late = np.zeros(blocks.count)
     for part, unsettled in zip(windows.parts, windows.unsettled, strict=True):
         late[part.first : part.first + unsettled] = 1.0
+    settling = [
+        (part.first, part.first + unsettled, part.last)
+        for part, unsettled in zip(windows.parts, windows.unsettled, strict=True)
+    ]
     columns = np.column_stack(
         (
             blocks.time,
-            angle(blocks, "speed_steel", pair.drives.gear_ratio),
-            angle(blocks, "speed_bronze", pair.drives.bronze_gear_ratio),
+            angle(blocks, STEEL, pair.drives.gear_ratio, settling),
+            angle(blocks, BRONZE, pair.drives.bronze_gear_ratio, settling),
             late,
             *(blocks.means[name] for name in names),
         )
@@ -176,6 +181,8 @@ def _joint(blocks: Blocks, windows: _Windows, pair: Pair, given: Reduction) -> J
         times, signals, (steel, bronze), of_window,
         [place % 2 == 1 for place in range(len(windows.parts))], drift=given.drift,
         left_out=left_out,
+        pulses=dict.fromkeys((STEEL, BRONZE), 2.0 * math.pi / pair.drives.encoder_pulses),
+        count_time=given.speed_settling / _COUNTS,
     )  # fmt: skip
 
 
@@ -213,20 +220,16 @@ def _numbers(
     change = following.torque_change()
     torques = [following.torque(one) for one in (0, 1)]
     sliding = [following.sliding_velocity(one).times(1e3) for one in (0, 1)]
-    intervals: dict[str, Interval | None] = {
+    values: dict[str, Any] = {
         "torque_before": torques[0], "torque_with": torques[1], "torque_change": change,
         "power_change": following.power_change(),
         "efficiency_change": following.efficiency_change(),
         "full_efficiency_change": following.full_efficiency_change(),
         "sliding_velocity_before": sliding[0], "sliding_velocity_with": sliding[1],
-    }  # fmt: skip
-    values: dict[str, Any] = {
-        "low": change.low, "high": change.high, "deviation": change.deviation,
         "slide_roll_ratio": following.slide_roll_ratio(),
         "turns_seen": _turns(blocks, STEEL, pair.drives.gear_ratio, segment.shaken),
         "bronze_turns": _turns(blocks, BRONZE, pair.drives.bronze_gear_ratio, segment.shaken),
     }  # fmt: skip
-    values["sliding_velocity_deviation"] = sliding[1].deviation
     if (oil := case.get(Lubricant)) is not None:
         rolling = float(discs.rolling_velocity(*following.rims(levels, 0)))
         values["film_parameter"] = pair.film(oil, rolling)
@@ -254,13 +257,9 @@ def _numbers(
             for name, one in (("k_v_before", before), ("k_v_with", shaken)) if one > 0.0
         }  # fmt: skip
         amplitude = _amplitude(blocks, tones, doubt)
-        intervals["k_v"] = following.velocity_ratio(peak, amplitude)
+        values["k_v"] = following.velocity_ratio(peak, amplitude)
         # What a chain that passes one tone leaves of a triangle is a sine.
         question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
-    there = {name: one for name, one in intervals.items() if one is not None}
-    for name, one in there.items():
-        values |= {name: one.value, f"{name}_ci95": one.ends}
-    values["budgets"] = {name: one.budget for name, one in there.items()}
     flags += _flags(recording, blocks, segment, values)
     doubtful = bool(odd or segment.flags) or change.high - change.low > 2.0 * _WIDE
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
@@ -330,7 +329,7 @@ def _flags(
     flags = []
     if values["turns_seen"] < _PART_TURN:
         flags.append(f"{values['turns_seen']:.2g} of a turn of the steel disc is seen")
-    if values["sliding_velocity_with"] <= 0.0:
+    if values["sliding_velocity_with"].value <= 0.0:
         flags.append("the bronze disc outruns the steel disc")
     begin, end = segment.before.first * blocks.length, segment.shaken.last * blocks.length
     flags += [

@@ -12,8 +12,8 @@ from asperity.tribometer import discs
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction import quantities
-from asperity.tribometer.reduction.joint import TORQUE, Interval, Joint, Pairs
-from asperity.tribometer.uncertainty import Cause, Contribution, Kind
+from asperity.tribometer.reduction.joint import TORQUE, Joint, Pairs
+from asperity.tribometer.uncertainty import Budgeted, Cause, Contribution, Kind
 
 STEEL, BRONZE, CURRENT = "speed_steel", "speed_bronze", "current_steel"
 _BEFORE, _WITH = 0, 1
@@ -66,17 +66,17 @@ class Following:
         """The levels of the segment's two windows."""
         return self.joint.pairs(2 * self.place, 2 * self.place + 1)
 
-    def torque_change(self) -> Interval:
+    def torque_change(self) -> Budgeted:
         """Return (73), %."""
         return self._interval(
             lambda of: float(quantities.torque_change(of[TORQUE][_WITH], of[TORQUE][_BEFORE]))
         )
 
-    def torque(self, place: int) -> Interval:
+    def torque(self, place: int) -> Budgeted:
         """Return it before (0) or with vibration (1), N m."""
         return self._interval(lambda of: float(of[TORQUE][place]))
 
-    def power_change(self) -> Interval:
+    def power_change(self) -> Budgeted:
         """Return (74), %."""
 
         def change(of: Pairs) -> float:
@@ -85,7 +85,7 @@ class Following:
 
         return self._interval(change)
 
-    def efficiency_change(self) -> Interval | None:
+    def efficiency_change(self) -> Budgeted | None:
         """Return the change of (75), points; None where no current was measured."""
         return self._of_power(lambda of, place: float(
             quantities.thesis_efficiency(
@@ -94,7 +94,7 @@ class Following:
             )
         ))  # fmt: skip
 
-    def full_efficiency_change(self) -> Interval | None:
+    def full_efficiency_change(self) -> Budgeted | None:
         """Return the change of an efficiency in which motor and gear lose, points."""
         return self._of_power(lambda of, place: float(
             quantities.drive_efficiency(
@@ -103,7 +103,7 @@ class Following:
             )
         ))  # fmt: skip
 
-    def sliding_velocity(self, place: int) -> Interval:
+    def sliding_velocity(self, place: int) -> Budgeted:
         """Return it before (0) or with vibration (1), m/s."""
         return self._interval(lambda of: float(discs.sliding_velocity(*self.rims(of, place))))
 
@@ -112,7 +112,7 @@ class Following:
         both = (float(discs.slide_roll_ratio(*self.rims(self.levels, one))) for one in (0, 1))
         return 0.5 * sum(both)
 
-    def velocity_ratio(self, peak: float, amplitude: Cause) -> Interval | None:
+    def velocity_ratio(self, peak: float, amplitude: Cause) -> Budgeted | None:
         """Return v_a, of some uncertainty, over the mean of the sliding velocities."""
 
         def mean(of: Pairs) -> float:
@@ -129,14 +129,14 @@ class Following:
         """Return the velocities of both rims, m/s."""
         return self.pair.rims(float(of[STEEL][place]), float(of[BRONZE][place]))
 
-    def _of_power(self, one: Efficiency) -> Interval | None:
+    def _of_power(self, one: Efficiency) -> Budgeted | None:
         if not self.powered or CURRENT not in self.levels or self.voltage <= 0.0:
             return None
         if min(self.levels[CURRENT]) <= 0.0:
             return None
         return self._interval(lambda of: 100.0 * (one(of, _WITH) - one(of, _BEFORE)))
 
-    def _interval(self, of: Number, beside: Sequence[Contribution] = ()) -> Interval:
+    def _interval(self, of: Number, beside: Sequence[Contribution] = ()) -> Budgeted:
         before = 2 * self.place
         return self.joint.interval(of, before, before + 1, self.confidence, self._added, beside)
 
@@ -159,7 +159,10 @@ class Following:
         yield Cause(f"{name}: calibration", kind, covariance, line.degrees_of_freedom)
         for what, most in line.limits:
             yield Cause(f"{name}: {what}", "B", np.diag([most**2 / 3.0] * 2))
-        if name in (STEEL, BRONZE):
+        if (told := self.joint.levels[name].steps) is not None:
+            here = slice(2 * self.place, 2 * self.place + 2)
+            yield Cause(f"{name}: steps of the encoder", "B", told[here, here])
+        elif name in (STEEL, BRONZE):
             # A window begins and ends between two pulses: each end is off by a part of one.
             steps = [
                 2.0 * math.pi / (self.pair.drives.encoder_pulses * one) for one in self.seconds

@@ -19,8 +19,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
+from asperity.tribometer.reduction.counted import estimate_counted
 from asperity.tribometer.reduction.levels import Levels, estimate_levels
-from asperity.tribometer.uncertainty import Budget, Cause, Contribution
+from asperity.tribometer.uncertainty import Budget, Budgeted, Cause, Contribution
 
 TORQUE = "torque_steel"
 _FEWEST_FREEDOM = 3.0
@@ -28,34 +29,6 @@ _STEP = 1e-6  # of the larger level, for slopes: differences of both sides are r
 
 Pairs = Mapping[str, FloatArray]
 """Of each signal its level before, and with vibration."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Interval:
-    """A number with the ends of its interval and its standard deviation."""
-
-    value: float
-    low: float
-    high: float
-    deviation: float
-    budget: Budget
-
-    @classmethod
-    def of(cls, budget: Budget) -> "Interval":
-        """Return the interval that a budget leaves."""
-        half = budget.expanded
-        return cls(
-            budget.value, budget.value - half, budget.value + half, budget.uncertainty, budget
-        )
-
-    def times(self, factor: float) -> "Interval":
-        """Return it in another unit."""
-        return Interval.of(self.budget.times(factor))
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """Both ends."""
-        return self.low, self.high
 
 
 @dataclasses.dataclass(frozen=True)
@@ -88,7 +61,7 @@ class Joint:
         confidence: float,
         added: Mapping[str, Sequence[Cause]] | None = None,
         beside: Sequence[Contribution] = (),
-    ) -> Interval:
+    ) -> Budgeted:
         """Return what follows from levels of two windows, with its interval.
 
         Parameters
@@ -140,7 +113,7 @@ class Joint:
             if both:
                 others.append(_correlation(f"{one} and {other}: correlation of their noises", both))
         noises = _with_freedom(noises, doubts, others)
-        return Interval.of(Budget(of(pairs), (*noises, *others), confidence))
+        return Budgeted.of(Budget(of(pairs), (*noises, *others), confidence))
 
 
 def _noise(name: str) -> str:
@@ -202,6 +175,8 @@ def estimate_jointly(
     *,
     drift: bool = True,
     left_out: Mapping[str, BoolArray] | None = None,
+    pulses: Mapping[str, float] | None = None,
+    count_time: float = 0.0,
 ) -> Joint:
     """Estimate the levels of several signals in all windows of a file.
 
@@ -223,6 +198,10 @@ def estimate_jointly(
         Of a signal other than the torque the blocks in which it is not what it should be, such as
         speeds that still change on their way through an encoder's counter. One is left of each
         window, which its level takes up.
+    pulses : mapping of str to float, optional
+        Of speeds that an encoder's counter tells, the angle of a pulse, rad.
+    count_time : float
+        That these are counted over, s, or a longer time; zero where they are not counted.
 
     Raises
     ------
@@ -238,7 +217,12 @@ def estimate_jointly(
             continue
         here = ~left_out[name] if left_out and name in left_out else whole
         kept[name] = here
-        levels[name] = estimate_levels(
+        counted = None
+        if count_time > 0.0 and pulses and name in pulses:
+            counted = estimate_counted(
+                times, signal, window, shaken, swings, ~here, pulses[name], count_time
+            )
+        levels[name] = counted or estimate_levels(
             times[here], signal[here], (angles[0][here], angles[1][here]), window[here], shaken,
             drift=drift, swings=swings[here],
         )  # fmt: skip

@@ -17,17 +17,18 @@ noise is that of the torque's sensor, which moves nothing.
 """
 
 import dataclasses
+import functools
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
-from asperity.tribometer.reduction.noise import lasting, whitened
+from asperity.tribometer.reduction.noise import share_of_state, weighed, whitened
 
 _RUNOUT = 0.05  # what run-out and drift are expected to be at most, as a share: loosely held
-_GIVE = 1.0  # what a signal gives to the whole torque, as a share: loosely held
+EXPECTED_GIVE = 1.0  # what a signal gives to the whole torque, as a share: loosely held
 _ROUNDS = 2
 _LOOK = 0.35  # first step of the search, in the logarithms of what is sought
 _ENOUGH = 200
@@ -39,6 +40,9 @@ _USUAL_MEMORY, _MEMORY_SPREAD = 0.3, 1.5  # s, and of its logarithm
 _FLOOR = 1e-18  # of the noise's variance, over the signal's largest value squared
 _MOST_SIZE = 6.0  # of that logarithm, which a signal without any noise leaves open
 _SIZE_SPREAD = 0.7  # of the logarithm of the noise under vibration over that without
+
+
+Solve = Callable[[FloatArray], tuple[float, FloatArray, FloatArray]]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -71,6 +75,9 @@ class Levels:
         Of the signal about its levels, without its white noise.
     sensed : ndarray, shape (windows,)
         Variance that white noise alone leaves in the mean of each window.
+    steps : ndarray, shape (windows, windows), optional
+        What steps of an encoder leave in the levels, beside the covariance; None where it is not
+        told apart.
     """
 
     values: FloatArray
@@ -87,6 +94,7 @@ class Levels:
     give: float
     swings: FloatArray
     sensed: FloatArray
+    steps: FloatArray | None = None
 
 
 class _Fit:
@@ -136,7 +144,8 @@ class _Fit:
         products = np.empty((width, width))
         if self.rows.shape != columns.shape:
             self.rows = np.empty_like(columns)
-        logarithm = whitened(self.times, columns, sizes, share, memory, self.rows, products)
+        state = share * share_of_state(memory, self.block)
+        logarithm = whitened(self.times, columns, sizes, state, memory, self.rows, products)
         normal, right, square = products[:-1, :-1], products[:-1, -1], float(products[-1, -1])
         free = self.signal.size - width + 1
         scale = self.scale if math.isnan(given[3]) else math.exp(given[3])
@@ -152,11 +161,24 @@ class _Fit:
         likelihood = (
             logarithm + free * math.log(scale) + rest / scale
             + float(np.linalg.slogdet(information)[1])
-            + (given[2] / _SIZE_SPREAD) ** 2
-            + (math.log(memory / _USUAL_MEMORY) / _MEMORY_SPREAD) ** 2
+            + unexpected(memory, given[2])
         )  # fmt: skip
         found: FloatArray = np.append(estimate, scale)
         return float(likelihood), found, information / scale
+
+
+def unexpected(memory: float, size: float) -> float:
+    """Return twice the negative logarithm of what is expected of noise, but for a constant.
+
+    Parameters
+    ----------
+    memory : float
+        s.
+    size : float
+        Logarithm of the noise under vibration over that without.
+    """
+    lasts = math.log(memory / _USUAL_MEMORY) / _MEMORY_SPREAD
+    return (size / _SIZE_SPREAD) ** 2 + lasts**2
 
 
 def _noise(given: FloatArray, block: float) -> tuple[float, float, float]:
@@ -213,7 +235,7 @@ def estimate_levels(
             shared.append((times - 0.5 * (times[0] + times[-1])) / span)
         expected = _RUNOUT
     else:
-        shared, expected = [swings], _GIVE
+        shared, expected = [swings], EXPECTED_GIVE
     prior = np.concatenate((np.zeros(count), np.full(len(shared), expected**-2.0)))
     fit = _Fit(
         times, signal / size, window, np.column_stack(shared), np.asarray(shaken), prior,
@@ -223,12 +245,17 @@ def estimate_levels(
     given = np.array([0.0, math.log(5.0), 0.0, math.nan])
     for _ in range(1 if fit.linear else _ROUNDS):
         columns = fit.columns()
-        given = _most_likely(fit, columns, given, with_size=with_size)
+        of = functools.partial(fit.solve, columns)
+        given[3] = math.nan
+        given = likeliest(lambda trial: of(trial)[0], given, 3 if with_size else 2)  # noqa: B023
         _, found, _ = fit.solve(columns, given)
         fit.levels, fit.shape = found[:count], found[count:-1]
     given[3] = math.log(found[-1])
     columns = fit.columns()
-    gradients, doubt = _doubt(fit, columns, given, count, with_size=with_size)
+    free = [0, 1, 2, 3] if with_size else [0, 1, 3]
+    if given[0] <= _NEAR_NONE + 1.0:
+        free = [place for place in free if place > 1]  # a memory of no noise means nothing
+    gradients, unsure = doubt(functools.partial(fit.solve, columns), given, count, free)
     _, estimate, information = fit.solve(columns, given)
     spread, deviation = np.linalg.inv(information), math.sqrt(found[-1])
     rows, target = fit.rows[:, :-1], fit.rows[:, -1]
@@ -236,8 +263,10 @@ def estimate_levels(
     sizes = np.where(fit.shaken[window], ratio, 1.0)
     level = fit.member @ fit.levels
     swung = level * (fit.shared @ fit.shape) if not fit.linear else fit.shared @ fit.shape
-    rest = np.empty_like(times)
-    lasting(times, signal / size - level - swung, sizes, share, memory, rest)
+    left, rest = signal / size - level - swung, np.empty_like(times)
+    state = share * share_of_state(memory, fit.block)
+    weighed(times, left, sizes, state, memory, rest)
+    rest = left - (1.0 - share) * sizes * rest
     white = (size * deviation) ** 2 * (1.0 - share) * np.where(fit.shaken, ratio, 1.0) ** 2
     c = np.zeros(5)
     if not fit.linear:
@@ -245,15 +274,15 @@ def estimate_levels(
     return Levels(
         size * fit.levels, np.asarray(size**2 * spread[:count, :count], dtype=np.float64),
         (math.hypot(c[0], c[1]), math.hypot(c[2], c[3])), float(c[4]),
-        size * deviation, share, memory, size**2 * gradients, doubt,
+        size * deviation, share, memory, size**2 * gradients, unsure,
         size * (spread[:count] @ rows.T) / deviation,
         (target - rows @ estimate[:-1]) / deviation,
-        size * _beyond_doubt(fit.shape[0], spread[count, count]) if fit.linear else 0.0,
+        size * beyond_doubt(fit.shape[0], spread[count, count]) if fit.linear else 0.0,
         size * (swung + rest), white / fit.member.sum(axis=0),
     )  # fmt: skip
 
 
-def _beyond_doubt(value: float, variance: float) -> float:
+def beyond_doubt(value: float, variance: float) -> float:
     """Return a value whose square is what the square of an uncertain one is without its variance.
 
     What nothing tells is none, rather than as large as may be.
@@ -261,38 +290,40 @@ def _beyond_doubt(value: float, variance: float) -> float:
     return math.copysign(math.sqrt(max(value**2 - variance, 0.0)), value)
 
 
-def _most_likely(
-    fit: _Fit, columns: FloatArray, given: FloatArray, *, with_size: bool
-) -> FloatArray:
+def likeliest(unlikely: Callable[[FloatArray], float], given: FloatArray, free: int) -> FloatArray:
+    """Return parameters of noise, of which the first ones are free, where something is least."""
     from scipy.optimize import minimize
 
-    free = 3 if with_size else 2
-
-    def unlikely(sought: FloatArray) -> float:
-        trial = np.concatenate((sought, np.zeros(3 - free), [math.nan]))
-        return fit.solve(columns, trial)[0]
-
-    start = given[:free]
+    fixed, start = given[free:], given[:free]
     simplex = np.vstack((start, start + np.diag([3.0 * _LOOK, 2.0 * _LOOK, _LOOK][:free])))
     found = minimize(
-        unlikely, start, method="Nelder-Mead",
+        lambda sought: unlikely(np.concatenate((sought, fixed))), start, method="Nelder-Mead",
         options={"initial_simplex": simplex, "maxfev": _ENOUGH, "xatol": 0.02, "fatol": 0.02},
     )  # fmt: skip
-    return np.concatenate((found.x, np.zeros(3 - free), [math.nan]))
+    return np.concatenate((found.x, fixed))
 
 
-def _doubt(
-    fit: _Fit, columns: FloatArray, given: FloatArray, count: int, *, with_size: bool
+def doubt(
+    solve: Solve, given: FloatArray, count: int, free: Sequence[int]
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the covariance's slopes by the noise's parameters, and those parameters' own."""
-    free = [0, 1, 2, 3] if with_size else [0, 1, 3]
-    if given[0] <= _NEAR_NONE + 1.0:
-        free = [place for place in free if place > 1]  # a memory of no noise means nothing
-    steps = np.zeros((len(free), 4))
-    steps[np.arange(len(free)), free] = _STEP
-    middle = fit.solve(columns, given)[0]
-    up = [fit.solve(columns, given + step) for step in steps]
-    down = [fit.solve(columns, given - step) for step in steps]
+    """Return the slopes of the levels' covariance by the noise's parameters, and their own.
+
+    Parameters
+    ----------
+    solve : callable
+        Of the parameters twice the restricted likelihood's negative, estimates, their information.
+    given : ndarray
+        The likeliest parameters.
+    count : int
+        Of levels, the first of the estimates.
+    free : sequence of int
+        The parameters that are in doubt.
+    """
+    steps = np.zeros((len(free), given.size))
+    steps[np.arange(len(free)), list(free)] = _STEP
+    middle = solve(given)[0]
+    up = [solve(given + step) for step in steps]
+    down = [solve(given - step) for step in steps]
     slopes = np.array(
         [
             (np.linalg.inv(a[2]) - np.linalg.inv(b[2]))[:count, :count] / (2.0 * _STEP)
@@ -303,7 +334,7 @@ def _doubt(
     for m in range(len(free)):
         bend[m, m] = up[m][0] - 2.0 * middle + down[m][0]
         for n in range(m):
-            cross = fit.solve(columns, given + steps[m] + steps[n])[0]
+            cross = solve(given + steps[m] + steps[n])[0]
             bend[m, n] = bend[n, m] = cross - up[m][0] - up[n][0] + middle
     # Twice a negative likelihood bends by twice the information.
     information = 0.5 * bend / _STEP**2

@@ -4,16 +4,17 @@ import csv
 import io
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.files.store import write_text
 from asperity.results import Quantities, Result, quantity
-from asperity.results.quantity import plain
+from asperity.results.interval import numbers_of, value_of
+from asperity.results.quantity import CI95, labelled, measured, plain
 from asperity.results.table import Table
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budgets
-from asperity.tribometer.reduction.cells import CI95, cell, declared, rounded, variable
-from asperity.tribometer.uncertainty import Budget
+from asperity.tribometer.reduction.cells import cell, declared, rounded, variable
+from asperity.tribometer.uncertainty import Budget, Budgeted
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,18 +29,9 @@ _ENDS = "low", "high"
 GOOD, DOUBTFUL, REFUSED = "good", "doubtful", "refused"
 
 
-Ends = tuple[float, float] | None
-
-
 def _beside(symbol: str, unit: str, meaning: str) -> Any:
     """Declare what files tell beside what JSON does."""
     return quantity(symbol, unit, meaning, only="file", default=None)
-
-
-def _ends(unit: str, meaning: str, key: str, *, only: Literal["file"] | None = None) -> Any:
-    """Declare both ends of an interval."""
-    told = f"interval of {meaning}, 95 %"
-    return quantity("", unit, told, key=key, default=None, only=only, shown=False)
 
 
 class SegmentResult(Quantities):
@@ -54,48 +46,25 @@ class SegmentResult(Quantities):
         "f_c", "Hz", "commanded frequency", key="commanded_Hz", default=None
     )
     motor_voltage: float = quantity("V_ms", "V", "supply of the steel disc's motor")
-    torque_before: float | None = quantity(
-        "T_b", "N m", "torque before", key="torque_before_Nm", default=None
+    torque_before: Budgeted | None = measured("T_b", "N m", "torque before")
+    torque_with: Budgeted | None = measured("T_w", "N m", "torque with vibration")
+    torque_change: Budgeted | None = measured("dT", "%", "change of the torque", ends_only="json")
+    power_change: Budgeted | None = measured("dP", "%", "change of the power")
+    efficiency_change: Budgeted | None = measured(
+        "d eta_s", "%", "change of thesis (75), points", key="efficiency_change_points"
     )
-    torque_before_ci95: Ends = _ends("N m", "the torque before", "torque_before_ci95_Nm")
-    torque_with: float | None = quantity(
-        "T_w", "N m", "torque with vibration", key="torque_with_Nm", default=None
+    sliding_velocity_before: Budgeted | None = measured(
+        "v_sl", "mm/s", "sliding velocity before", key="sliding_velocity_before_mm_s"
     )
-    torque_with_ci95: Ends = _ends("N m", "the torque with vibration", "torque_with_ci95_Nm")
-    torque_change: float | None = quantity("dT", "%", "change of the torque", default=None)
-    torque_change_ci95: tuple[float, float] | None = quantity(
-        "", "%", "interval of the change", key="torque_change_ci95_percent", default=None,
-        only="json",
-    )  # fmt: skip
-    power_change: float | None = quantity("dP", "%", "change of the power", default=None)
-    power_change_ci95: Ends = _ends("%", "the change of the power", "power_change_ci95_percent")
-    efficiency_change: float | None = quantity(
-        "d eta_s", "%", "change of thesis (75), points", key="efficiency_change_points",
-        default=None,
-    )  # fmt: skip
-    efficiency_change_ci95: Ends = _ends(
-        "%", "the change of (75), points", "efficiency_change_ci95_points"
-    )
-    sliding_velocity_before: float | None = quantity(
-        "v_sl", "mm/s", "sliding velocity before", key="sliding_velocity_before_mm_s", default=None
-    )
-    sliding_velocity_before_ci95: Ends = _ends(
-        "mm/s", "the sliding velocity before", "sliding_velocity_before_ci95_mm_s"
-    )
-    sliding_velocity_with: float | None = quantity(
-        "v_sl", "mm/s", "sliding velocity with vibration", key="sliding_velocity_with_mm_s",
-        default=None,
-    )  # fmt: skip
-    sliding_velocity_with_ci95: Ends = _ends(
-        "mm/s", "the sliding velocity with vibration", "sliding_velocity_with_ci95_mm_s"
+    sliding_velocity_with: Budgeted | None = measured(
+        "v_sl", "mm/s", "sliding velocity with vibration", key="sliding_velocity_with_mm_s"
     )
     slide_roll_ratio: float | None = quantity(
         "R", "", "slide-roll ratio, mean of before and with", default=None
     )
-    k_v: float | None = quantity(
-        "k_v", "", "v_a over the mean of the sliding velocities before and with", default=None
+    k_v: Budgeted | None = measured(
+        "k_v", "", "v_a over the mean of the sliding velocities before and with"
     )
-    k_v_ci95: Ends = _ends("", "k_v", "k_v_ci95")
     model_ratio: float | None = quantity(
         "", "", "torque with over torque before, by the friction model", default=None
     )
@@ -105,43 +74,60 @@ class SegmentResult(Quantities):
     quality: str = quantity("", "", "good, doubtful or refused")
     flags: tuple[str, ...] = quantity("", "", "what to know of it", default=())
 
-    low: float | None = _beside("", "%", "lower end of the change's interval")
-    high: float | None = _beside("", "%", "upper end of the change's interval")
-    deviation: float | None = _beside("", "%", "standard deviation of the change")
-    full_efficiency_change: float | None = _beside(
-        "d eta", "%", "change of the efficiency in which motor and gear lose, points"
-    )
-    full_efficiency_change_ci95: Ends = _ends(
-        "%", "the change of that, points", "full_efficiency_change_ci95_points", only="file"
-    )
+    @property
+    @labelled("", "%", "lower end of the change's interval", only="file")
+    def low(self) -> float | None:
+        """Lower end of the interval of the torque's change, %."""
+        return None if self.torque_change is None else self.torque_change.low
+
+    @property
+    @labelled("", "%", "upper end of the change's interval", only="file")
+    def high(self) -> float | None:
+        """Upper end of the interval of the torque's change, %."""
+        return None if self.torque_change is None else self.torque_change.high
+
+    @property
+    @labelled("", "%", "standard deviation of the change", only="file")
+    def deviation(self) -> float | None:
+        """Standard deviation of the torque's change, %."""
+        return None if self.torque_change is None else self.torque_change.deviation
+
+    full_efficiency_change: Budgeted | None = measured(
+        "d eta", "%", "change of the efficiency in which motor and gear lose, points",
+        key="full_efficiency_change_points", only="file",
+    )  # fmt: skip
     k_v_before: float | None = _beside("k_v", "", "v_a over the sliding velocity before")
     k_v_with: float | None = _beside("k_v", "", "v_a over the sliding velocity with vibration")
     velocity_amplitude: float | None = _beside("v_a", "mm/s", "peak velocity of the vibration")
     velocity_deviation: float | None = _beside("", "mm/s", "standard deviation of v_a")
-    sliding_velocity_deviation: float | None = _beside(
-        "", "mm/s", "standard deviation of the sliding velocity with vibration"
-    )
+
+    @property
+    @labelled("", "mm/s", "standard deviation of the sliding velocity with vibration", only="file")
+    def sliding_velocity_deviation(self) -> float | None:
+        """Standard deviation of the sliding velocity with vibration, mm/s."""
+        return None if self.sliding_velocity_with is None else self.sliding_velocity_with.deviation
+
     bronze_turns: float | None = _beside("", "", "turns of the bronze disc in the window")
     film_parameter: float | None = _beside("lambda", "", "film over roughness before")
     start: float | None = _beside("t", "s", "start of the vibration")
-    budgets: Mapping[str, Budget] | None = None
+
+    @property
+    def budgets(self) -> dict[str, Budget]:
+        """What each number is uncertain by; nothing of a segment that was refused."""
+        found = {name: getattr(self, name) for name in budgets.NUMBERS}
+        return {name: one.budget for name, one in found.items() if one is not None}
 
     @property
     def cell(self) -> tuple[Any, ...]:
         """What two repeats of one measurement share."""
         return self.mode, self.lubricant, self.waveform, self.commanded, self.motor_voltage
 
-    def ends(self, name: str) -> tuple[float | None, float | None, float | None]:
-        """Return a number that has an interval, with its ends."""
-        low, high = getattr(self, name + CI95) or (None, None)
-        return getattr(self, name), low, high
-
     @property
     def ratio(self) -> float | None:
         """Torque with over torque before."""
         if self.torque_with is None or self.torque_before is None:
             return None
-        return self.torque_with / self.torque_before
+        return self.torque_with.value / self.torque_before.value
 
 
 class FileResult(Quantities):
@@ -187,9 +173,7 @@ class Reduced(Result):
 
     title = "Recordings of a disc-on-disc rig, reduced"
     stem = "reduce"
-    drawings: ClassVar[Mapping[str, str]] = {
-        "reduce": "asperity.tribometer.reduction.plots:plot_changes"
-    }
+    drawings: ClassVar[Mapping[str, str]] = {"reduce": "asperity.tribometer.plots:plot_changes"}
 
     segments: tuple[SegmentResult, ...]
     files: tuple[FileResult, ...]
@@ -205,9 +189,7 @@ class Reduced(Result):
     @property
     def uncertainties(self) -> tuple[budgets.Row, ...]:
         """Of each segment that was reduced its file, its start and its budgets."""
-        return tuple(
-            (one.file, one.start, one.budgets) for one in self.segments if one.budgets is not None
-        )
+        return tuple((one.file, one.start, one.budgets) for one in self.segments if one.budgets)
 
     def to_json(self) -> dict[str, Any]:
         """Return the segments, and beside them what is told of each recording."""
@@ -250,7 +232,7 @@ class Reduced(Result):
                 if entry.label.only == "json" or entry.name in ("gaps", "findings"):
                     continue
                 dataset[name] = variable(entry, values, dim)
-        each = [(one.file, one.start, one.budgets or {}) for one in self.segments]
+        each = [(one.file, one.start, one.budgets) for one in self.segments]
         return dataset.merge(budgets.variables(each))
 
     def tables(self) -> tuple[Table, ...]:
@@ -259,8 +241,9 @@ class Reduced(Result):
             (
                 one.file, one.mode, one.lubricant, one.waveform, one.motor_voltage, one.commanded,
                 *(rounded(number, 4) for number in (
-                    one.torque_before, one.torque_with, one.torque_change, one.low, one.high)),
-                rounded(one.k_v, 3), rounded(one.model_ratio, 3), one.quality,
+                    value_of(one.torque_before), value_of(one.torque_with),
+                    value_of(one.torque_change), one.low, one.high)),
+                rounded(value_of(one.k_v), 3), rounded(one.model_ratio, 3), one.quality,
             )
             for one in self.segments
         ]  # fmt: skip
@@ -322,8 +305,9 @@ class Reduced(Result):
         return tuple(
             Table.of(
                 ("file", "f Hz", *(word for head in names.values() for word in (head, *_ENDS))),
-                [(one.file, one.commanded, *(rounded(value, 4) for name in names
-                                             for value in one.ends(name))) for one in used],
+                [(one.file, one.commanded, *(
+                    rounded(value, 4) for name in names
+                    for value in numbers_of(getattr(one, name)))) for one in used],
                 left=1, title=title,
             )
             for title, names in tables.items()
@@ -345,12 +329,14 @@ class Reduced(Result):
         Of a triangle the velocity is that of its first harmonic, as a sine.
         """
         rows = [
-            (1.0 + one.torque_change / 100.0, one.deviation / 100.0, one.sliding_velocity_with,
-             one.sliding_velocity_deviation, one.velocity_amplitude, one.velocity_deviation,
-             one.commanded, 90.0 if one.mode == TRANSVERSE else 0.0)
+            (1.0 + one.torque_change.value / 100.0, one.deviation / 100.0,
+             one.sliding_velocity_with.value, one.sliding_velocity_deviation,
+             one.velocity_amplitude, one.velocity_deviation, one.commanded,
+             90.0 if one.mode == TRANSVERSE else 0.0)
             for one in self.segments
             if one.torque_change is not None and one.deviation and one.commanded is not None
-            and one.velocity_amplitude and (one.sliding_velocity_with or 0.0) > 0.0
+            and one.velocity_amplitude and one.sliding_velocity_with is not None
+            and one.sliding_velocity_with.value > 0.0
         ]  # fmt: skip
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows([_MEASURED, *rows])
@@ -361,12 +347,12 @@ class Reduced(Result):
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
         entries = [entry for entry in declared(self.segments) if entry.label.only != "json"]
-        names = ([entry.key.replace(CI95, f"_{end}") for end in _ENDS] if CI95 in entry.key
+        names = ([entry.key.replace(CI95, f"_{end}") for end in _ENDS] if entry.label.is_ends
                  else [entry.key] for entry in entries)  # fmt: skip
         writer.writerow([name for one in names for name in one])
         for one in self.segments:
             found = {entry.name: entry.value for entry in one.entries()}
-            cells = (found[entry.name] or (None, None) if CI95 in entry.key
+            cells = (found[entry.name] or (None, None) if entry.label.is_ends
                      else [found[entry.name]] for entry in entries)  # fmt: skip
             writer.writerow([cell(one) for several in cells for one in several])
         return text.getvalue()

@@ -211,7 +211,7 @@ def repeats(segments: Sequence[SegmentResult]) -> tuple[float | None, int]:
     cells: dict[tuple[Any, ...], list[float]] = defaultdict(list)
     for one in segments:
         if one.torque_change is not None:
-            cells[one.cell].append(one.torque_change)
+            cells[one.cell].append(one.torque_change.value)
     freedom = sum(len(values) - 1 for values in cells.values())
     if not freedom:
         return None, 0

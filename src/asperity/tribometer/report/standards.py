@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from asperity.casefile import Case
+from asperity.results.interval import numbers_of
 from asperity.results.table import Table
 from asperity.tribometer import discs
 from asperity.tribometer.channels import Channels
@@ -101,7 +102,8 @@ def friction(case: Case, segments: Sequence[SegmentResult]) -> Table:
 
     rows = [
         (one.file, one.commanded, one.motor_voltage,
-         *(of(value) for name in ("torque_before", "torque_with") for value in one.ends(name)))
+         *(of(value) for found in (one.torque_before, one.torque_with)
+           for value in numbers_of(found)))
         for one in segments if one.quality != REFUSED
     ]  # fmt: skip
     heads = ("file", "f Hz", "V_ms V", "mu before", "low", "high", "mu with", "low", "high")
@@ -155,8 +157,9 @@ def _parameters(
 ) -> Iterator[tuple[str, str]]:
     pair = Pair.from_case(case)
     yield "normal force", f"{pair.rig.load:.1f} N"
-    speeds = [one for segment in used for one in
-              (segment.sliding_velocity_before, segment.sliding_velocity_with) if one]  # fmt: skip
+    speeds = [one.value for segment in used for one in
+              (segment.sliding_velocity_before, segment.sliding_velocity_with)
+              if one and one.value]  # fmt: skip
     yield "sliding speed", _range(speeds, "mm/s")
     yield "sliding distance", f"{sum(one.distance for one in files):.4g} m"
     paths = [one.path for one in files if one.path]
@@ -193,8 +196,8 @@ def _environment(case: Case) -> Iterator[tuple[str, str]]:
 
 def _friction(used: Sequence[SegmentResult], reduced: Reduced) -> Iterator[tuple[str, str]]:
     yield "coefficient of friction", "below, of each segment" if used else MISSING
-    yield "change by vibration", _range([one.torque_change for one in used if one.torque_change
-                                         is not None], "%")  # fmt: skip
+    yield "change by vibration", _range([one.torque_change.value for one in used
+                                         if one.torque_change is not None], "%")  # fmt: skip
     deviation = reduced.repeat_deviation
     yield "repeatability", (
         MISSING if deviation is None

@@ -79,7 +79,18 @@ class TwinFit:
     misfit: float
 
     def applied(self, case: Case) -> Case:
-        """Return a case whose simulated rig has these values."""
+        """Return a case whose simulated rig has these values.
+
+        Parameters
+        ----------
+        case : Case
+            A configuration with ``[twin]``.
+
+        Returns
+        -------
+        Case
+            Another one.
+        """
         return case.replace_values({f"twin.{key}": value for key, value in self.values.items()})
 
 
@@ -94,6 +105,11 @@ def fit_twin(case: Case, recordings: Sequence[str | Path], free: Sequence[str] =
         They are reduced first; segments that are refused are left out.
     free : sequence of str
         Keys of `BOUNDS`.
+
+    Returns
+    -------
+    TwinFit
+        Values in SI, their standard deviations as shares of them, and the misfit.
 
     Raises
     ------
@@ -116,7 +132,7 @@ def _measured(segment: SegmentResult) -> Iterator[Measured]:
     frequency = segment.commanded or segment.frequency
     torques = segment.torque_before, segment.torque_with
     sliding = segment.sliding_velocity_before, segment.sliding_velocity_with
-    numbers = [one for one in (*torques, *sliding) if one is not None]
+    numbers = [one.value for one in (*torques, *sliding) if one is not None]
     if segment.quality == REFUSED or frequency is None or len(numbers) < 4:
         return
     before, after, slow, fast = numbers

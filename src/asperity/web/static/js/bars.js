@@ -1,6 +1,7 @@
 /** Bars that say in words what they show: margins against a limit, and what moves a number. */
 import { html } from "../vendor/preact.js";
 import { Num } from "./number.js";
+import { symbol } from "./symbols.js";
 import { Table } from "./table.js";
 import { digits } from "./units.js";
 
@@ -32,7 +33,7 @@ export const Sided = ({ value, most, kind = value < 0 ? "less" : "more" }) =>
  *   entry: any}[]}} props
  */
 export const Margins = ({ rows }) => html`<${Table} kind="bars" rows=${rows} columns=${[
-  ["safety", ({ name, symbol }) => html`${name} <span class="of">${symbol}</span>`, "row"],
+  ["safety", (row) => html`${row.name} <span class="of">${symbol(row.symbol)}</span>`, "row"],
   ["up to 3 times what is asked", ({ value, asked, holds }) => html`<${Bar} from=${0}
     to=${Math.min(value / asked / MOST, 1) * 300} mark=${300 / MOST} kind=${holds ? "good" : "bad"} />`],
   ["value", ({ entry, value }) => (entry ? html`<${Num} entry=${entry} count=${3} />` : digits(value, 3)), "right"],

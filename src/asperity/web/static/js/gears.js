@@ -1,8 +1,8 @@
 /** Worm and wheel turning in mesh, shaken as it is set, with the line on which teeth touch in its colours. */
-import { html, useMemo, useRef } from "../vendor/preact.js";
+import { html, useMemo, useRef, useState } from "../vendor/preact.js";
 import { Play, usePlayed } from "./frames.js";
 import { Legend, shade, span } from "./map.js";
-import { lineOf, poseOf, sectionOf, sliding, threadsOf, touching, wheelOf, windowOf } from "./mesh.js";
+import { lineOf, poseOf, pressedBy, sectionOf, sliding, threadsOf, touching, wheelOf, windowOf } from "./mesh.js";
 import { digits } from "./units.js";
 
 /** Ways to shake it: what is said of each. */
@@ -34,18 +34,20 @@ function wayOf({ apart, module, pitch, rolling }, mode) {
 
 /**
  * What moves in a picture of a gearset.
- * @param {{geometry: any, mode: string, speed: number}} props `geometry` as `rate` tells it; `mode` "" where nothing
- *   is shaken; `speed` of the worm, rad/s
+ * @param {{geometry: any, mode: string, speed: number, pressed?: any}} props `geometry` as `rate` tells it; `mode` ""
+ *   where nothing is shaken; `speed` of the worm, rad/s; `pressed` as of Gears, where pressure is what is shown
  */
-function useMesh({ geometry, mode, speed }) {
+function useMesh({ geometry, mode, speed, pressed }) {
   const picture = useRef(null);
   const made = useMemo(() => {
     const section = sectionOf(geometry);
-    const line = lineOf(section, speed);
+    const valueAt = pressed ? pressedBy(pressed) : (point) => sliding(section, point, speed);
+    const line = lineOf(section, valueAt);
     const range = span(line.map(({ value }) => value));
-    return { section, line, range, threads: threadsOf(section), wheel: wheelOf(section), view: windowOf(section) };
-  }, [JSON.stringify(geometry), speed]);
-  const { section, range } = made;
+    const [threads, wheel, view] = [threadsOf(section), wheelOf(section), windowOf(section)];
+    return { section, line, range, valueAt, threads, wheel, view };
+  }, [JSON.stringify(geometry), speed, pressed]);
+  const { section, range, valueAt } = made;
   const colour = (value) => shade((value - range[0]) / (range[1] - range[0]));
   const draw = (seconds) => {
     const { gone, threads, along, angle, wheel, aside } = poseOf(section, mode, seconds);
@@ -67,7 +69,7 @@ function useMesh({ geometry, mode, speed }) {
       if (!at) return;
       each.setAttribute("cx", at.x.toFixed(3));
       each.setAttribute("cy", at.y.toFixed(3));
-      each.setAttribute("fill", colour(sliding(section, at, speed)));
+      each.setAttribute("fill", colour(valueAt(at)));
     });
   };
   const playing = usePlayed(picture, draw, [made, mode]);
@@ -94,17 +96,27 @@ const near = ({ x, y }) => `${x.toFixed(3)} ${y.toFixed(3)}`;
 
 /**
  * A gearset in motion, in a box.
- * @param {{geometry: any, mode?: string, speed: number}} props
+ * @param {{geometry: any, mode?: string, speed: number, pressed?: {radius: number[], face: number[],
+ *   pressure: number[]} | null}} props `pressed`: at the nodes of a flank, mm and MPa, where the answer has it
  */
-export function Gears({ geometry, mode = "", speed }) {
-  const { picture, made, colour, playing } = useMesh({ geometry, mode, speed });
+export function Gears({ geometry, mode = "", speed, pressed = null }) {
+  const [by, setBy] = useState("sliding");
+  const shown = by === "pressure" ? pressed : null;
+  const { picture, made, colour, playing } = useMesh({ geometry, mode, speed, pressed: shown });
   const { range } = made;
-  const says = `Worm and wheel in mesh, cut through the middle of the wheel. The surfaces slide on each other at
-    ${digits(range[0], 3)} to ${digits(range[1], 3)} m/s.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
+  const does = shown ? "Pressed with" : "The surfaces slide at";
+  const says = `Worm and wheel in mesh, cut through the middle of the wheel. ${does}
+    ${digits(range[0], 3)} to ${digits(range[1], 3)} ${shown ? "MPa" : "m/s"}.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
   return html`<section class="panel" aria-label="in mesh"><h2>In mesh</h2>
     <${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode} says=${says} />
     <div class="row"><${Play} ...${playing} />
-      <${Legend} range=${range} unit="m/s" label="sliding velocity, along the line on which teeth touch" /></div>
+      ${pressed ? html`<span class="choice"><label for="line-shows">line</label>${" "}
+        <select id="line-shows" value=${by} onChange=${(event) => setBy(event.target.value)}>
+          <option value="sliding">sliding velocity</option><option value="pressure">pressure</option></select></span>`
+        : null}
+      <${Legend} range=${range} unit=${shown ? "MPa" : "m/s"} label=${shown
+        ? "largest pressure over a pitch, in the middle of the wheel's face"
+        : "sliding velocity, along the line on which teeth touch"} /></div>
     <p class="says">To scale, cut through the middle of the wheel, with straight flanks of the worm; slowed. The dots
       are where teeth touch now; the worm's flanks slide out of the picture.
       ${mode ? ` Shaken: ${WAYS[mode]}, far more than it is${mode === "screw" ? ""

@@ -1,12 +1,13 @@
 /** Colours of a value, and maps of a flank: cells of a mesh, filled by what holds in them. */
 import { html } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
+import { inWords } from "./symbols.js";
 import { digits } from "./units.js";
 
 /** From low to high, told apart by those who do not see all colours: cividis. */
 const STOPS = "00224e 123570 3b496c 575d6d 707173 8a8678 a59c74 c3b369 e1cc55 fee838".split(" ");
 const RGB = STOPS.map((text) => [0, 2, 4].map((at) => parseInt(text.slice(at, at + 2), 16)));
-const LEVELS = 24;
+export const LEVELS = 24;
 
 /** Red, green and blue, 0 to 255, of a share from 0 to 1. */
 export function colourAt(share) {
@@ -40,7 +41,7 @@ export function gridCells(rows, columns) {
 }
 
 /** A path of the cells of each level, and of those without a value. */
-function painted({ x, y, cells, values, range: [low, high] }) {
+export function painted({ x, y, cells, values, range: [low, high] }) {
   const paths = Array.from({ length: LEVELS + 1 }, () => "");
   for (const cell of cells) {
     const mean = cell.reduce((sum, at) => sum + values[at], 0) / cell.length;
@@ -59,7 +60,7 @@ export function Legend({ range: [low, high], unit, label }) {
   return html`<ul class="legend ramp"><li>
     <svg viewBox=${`0 0 ${LEVELS} 1`} preserveAspectRatio="none" role="img" aria-label=${`colours from ${ends}`}>
       ${steps.map((level) => html`<rect x=${level} width="1.05" height="1" fill=${shade((level + 0.5) / LEVELS)} />`)}
-    </svg> ${ends}: ${label}</li></ul>`;
+    </svg> ${ends}: ${inWords(label)}</li></ul>`;
 }
 
 /**

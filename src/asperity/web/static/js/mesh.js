@@ -88,13 +88,37 @@ function onLine({ alpha, rolling, tip, outside, root }, along) {
 export const sliding = ({ apart, starts, teeth }, { x, y }, speed) =>
   (1e-3 * speed * Math.hypot(apart - y, (starts / teeth) * Math.hypot(x, y)));
 
-/** The line on which teeth touch while they pass, in pieces, with the sliding velocity of each. */
-export function lineOf(section, speed) {
+/**
+ * The line on which teeth touch while they pass, in pieces, with the value of each.
+ * @param {any} section @param {(point: {x: number, y: number}) => number} valueAt
+ */
+export function lineOf(section, valueAt) {
   const { module } = section;
   const steps = 120;
   const points = Array.from({ length: steps + 1 }, (_, n) => onLine(section, (n / steps - 0.5) * 14 * module))
     .filter(Boolean);
-  return points.map((point) => ({ ...point, value: sliding(section, point, speed) }));
+  return points.map((point) => ({ ...point, value: valueAt(point) }));
+}
+
+/** Nodes so near to the middle of a face count as of it, of half of its width. */
+const MIDDLE = 0.12;
+
+/**
+ * The pressure in the middle of a wheel's face over the distance from its axis, mm.
+ * @param {{radius: ArrayLike<number>, face: ArrayLike<number>, pressure: ArrayLike<number>}} nodes of a flank
+ * @returns {(point: {x: number, y: number}) => number} the pressure at a point of the section
+ */
+export function pressedBy({ radius, face, pressure }) {
+  const most = Math.max(...Array.from(face, Math.abs));
+  const near = Array.from(radius, (r, at) => [r, pressure[at], Math.abs(face[at])])
+    .filter(([, , aside]) => aside <= MIDDLE * most).sort(([one], [other]) => one - other);
+  return ({ x, y }) => {
+    const r = Math.hypot(x, y);
+    const next = near.findIndex(([at]) => at >= r);
+    if (next <= 0) return near.at(next < 0 ? -1 : 0)?.[1] ?? NaN;
+    const [[from, low], [to, high]] = [near[next - 1], near[next]];
+    return low + ((r - from) / (to - from || 1)) * (high - low);
+  };
 }
 
 /** What is seen: from left to right, and from the top, in mm. */

@@ -1,6 +1,7 @@
 /** A number that opens what is behind it: symbol, equation, source, trust. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { Beneath } from "./figure.js";
+import { inWords, symbol } from "./symbols.js";
 import { Table } from "./table.js";
 import { readable } from "./units.js";
 
@@ -30,7 +31,7 @@ export function Num({ entry, label = false, count = 5 }) {
       ? readable(entry.value, entry.unit, count)
       : [entry.value === null ? "–" : String(entry.value), entry.unit];
   return html`<span class="num">
-    ${label ? html`<span class="of">${entry.meaning}</span> ` : null}
+    ${label ? html`<span class="of">${inWords(entry.meaning)}</span> ` : null}
     <button type="button" data-key=${entry.key} data-value=${entry.value ?? ""}
       title="where it comes from" aria-haspopup="dialog"
       onClick=${(event) => (asked.value = { entry, button: event.currentTarget })}>
@@ -59,16 +60,16 @@ export function Behind() {
   };
   const rows = entry
     ? [
-        ["symbol", entry.symbol], ["exactly", `${entry.value ?? "none"} ${entry.unit}`],
-        ["equation", entry.equation], ["equation from", entry.own],
+        ["symbol", symbol(entry.symbol)], ["exactly", `${entry.value ?? "none"} ${entry.unit}`],
+        ["equation", symbol(entry.equation)], ["equation from", entry.own],
         [entry.trust === "computed" ? "source" : "weakest source of what it follows from", entry.source],
         ["trust", TRUST[entry.trust] ?? entry.trust], ["in --json", entry.key],
       ]
     : [];
   return html`<div popover="auto" ref=${box} class="behind" tabindex="-1" role="dialog"
       aria-label="where the number comes from" onToggle=${closed}>
-    <p><b>${entry?.meaning}</b></p>
-    <dl>${rows.filter(([, text]) => String(text ?? "").trim())
+    <p><b>${inWords(entry?.meaning)}</b></p>
+    <dl>${rows.filter(([, text]) => (Array.isArray(text) ? text.length : String(text ?? "").trim()))
       .map(([name, text]) => html`<dt>${name}</dt><dd>${text}</dd>`)}</dl>
   </div>`;
 }
@@ -84,7 +85,7 @@ export const Facts = ({ found, keys }) => html`<p class="facts">${keys.map((key)
   .map((entry) => html`<${Num} key=${entry.key} entry=${entry} label count=${4} />`)}</p>`;
 
 const COLUMNS = [
-  ["what", ({ meaning, key }) => meaning || key], ["symbol", ({ symbol }) => symbol],
+  ["what", ({ meaning, key }) => inWords(meaning) || key], ["symbol", (entry) => symbol(entry.symbol)],
   ["value", (entry) => html`<${Num} entry=${entry} />`, "right"],
 ];
 

@@ -4,6 +4,7 @@ import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
 import { share } from "./share.js";
+import { inWords } from "./symbols.js";
 import { visited } from "./visited.js";
 
 /**
@@ -30,6 +31,10 @@ export function App({ screens, children }) {
   const { screen, params } = route.value;
   const here = screens.find(({ name }) => name === screen);
   if (here?.kind) last[here.kind] = caseParams(params);
+  useEffect(() => {
+    // On a phone the screens are one row, which scrolls.
+    document.querySelector("nav [aria-current]")?.scrollIntoView({ block: "nearest", inline: "center" });
+  }, [screen]);
   useEffect(() => {
     document.title = `${here?.title ?? "?"} · asperity`;
   }, [here]);
@@ -137,7 +142,7 @@ function Save({ toml, unless }) {
 /** What a reader of the numbers should know. @param {{notes: string[] | undefined}} props */
 export const Notes = ({ notes }) => notes?.length ? html`<details class="notes">
   <summary>${notes.length === 1 ? "1 note" : `${notes.length} notes`}</summary>
-  <ul aria-label="notes">${notes.map((note) => html`<li key=${note}>${note}</li>`)}</ul></details>` : null;
+  <ul aria-label="notes">${notes.map((note) => html`<li key=${note}>${inWords(note)}</li>`)}</ul></details>` : null;
 
 /** Put a text on the clipboard, or show it where there is none. */
 export async function copy(text) {

@@ -21,7 +21,7 @@ const ordered = (value) => (value?.constructor === Object
   ? Object.entries(value).sort().map(([key, each]) => [key, ordered(each)]) : value);
 
 /** A short name for what is asked. @param {object} body */
-function nameOf(body) {
+export function nameOf(body) {
   let sum = 5381;
   for (const sign of JSON.stringify(ordered(body))) sum = (sum * 33 + sign.codePointAt(0)) >>> 0;
   return sum.toString(36);
@@ -31,16 +31,31 @@ function nameOf(body) {
 const shipped = signal([]);
 get("shown/index.json").then((found) => (shipped.value = found), () => {});
 
+/** What a case is called on the page. */
+const aliasOf = (name) => about.value?.cases.find((each) => each.name === name)?.alias || name;
+
 /**
- * The answer that ships for a command of a case, whatever else is set; null where there is none.
+ * The answer that ships for what is asked, whatever else is set; null where there is none.
  * @param {any} asked @param {string} slot
+ * @param {boolean} any whether that of another case is shown where the case has none of its own
  */
-function exampleOf(asked, slot) {
+function exampleOf(asked, slot, any) {
+  if (!asked) return null;
   const named = (name) => about.value?.cases.find(({ alias }) => alias && alias === name)?.name ?? name;
-  const kind = ({ command, case: name, options }) => nameOf({ command, name: named(name), options });
-  const found = asked && shipped.value.find((each) => each.slot === slot && kind(each.asked) === kind(asked));
-  const same = found && nameOf({ ...found.asked, case: asked.case });
-  return found ? { ...found, id: `shown/${found.at}`, name: same } : null;
+  const kind = ({ command, options }) => nameOf({ command, options });
+  const alike = shipped.value.filter((each) => each.slot === slot && kind(each.asked) === kind(asked));
+  const own = alike.find((each) => named(each.asked.case) === named(asked.case));
+  const found = own ?? (any ? alike[0] : null);
+  const same = own && nameOf({ ...own.asked, case: asked.case });
+  return found ? { ...found, id: `shown/${found.at}`, name: same, other: own ? "" : aliasOf(found.asked.case) } : null;
+}
+
+/** The answer that ships for a command, whatever is set: its id and what it is; null until it is there, or unwanted. */
+export function useShipped(command, wanted) {
+  const example = wanted && shipped.value.find(({ asked }) => asked.command === command);
+  const id = example ? `shown/${example.at}` : "";
+  const data = useAsked(id && answerOf(id), (leave) => get(answerOf(id), leave)).found;
+  return data && { ...example, id, data };
 }
 
 const isShipped = (id) => id.startsWith("shown/");
@@ -64,9 +79,10 @@ const NOTHING = { job: null, data: null, error: null, asking: false };
  * @param {string} command
  * @param {object | null} body what a new one would be asked: case, settings, options
  * @param {string} slot what tells it from another job of the same command on the screen
+ * @param {boolean} any whether an answer that ships may be of another case
  * @returns {Job}
  */
-export function useJob(command, body, slot = "") {
+export function useJob(command, body, slot = "", any = false) {
   const asked = body && { command, ...body };
   const name = asked ? nameOf(asked) : "";
   const param = `job-${command}${slot}`;
@@ -81,7 +97,8 @@ export function useJob(command, body, slot = "") {
     const failed = (error) => error.name === "AbortError" || put({ error, asking: false });
     let answered = false;
     const hear = (job) => {
-      put({ job, asking: false, error: job.error ? new Refused(job.error, 0) : null });
+      const error = job.error ? new Refused(job.error, 0) : null;
+      put({ job: { ...job, heard: performance.now() }, asking: false, error });
       // Its pictures may come later.
       if (!job.answered || answered) return;
       answered = true;
@@ -104,11 +121,11 @@ export function useJob(command, body, slot = "") {
   };
   const stop = () => post(`/api/jobs/${id}/stop`, {});
   // What ships is shown until the reader's own is there.
-  const example = state.data ? null : exampleOf(asked, slot);
+  const example = state.data ? null : exampleOf(asked, slot, any);
   const ships = useAsked(example ? answerOf(example.id) : "", (leave) => get(answerOf(example.id), leave)).found;
   const found = { can: Boolean(asked), start, stop, id, ...state };
   if (!ships) return { ...found, from: state.data ? id : "", stale: Boolean(id) && of !== name };
-  const job = state.job ?? { state: "done", files: example.files, shipped: true };
+  const job = state.job ?? { state: "done", files: example.files, shipped: true, other: example.other };
   return { ...found, job, from: example.id, files: example.files, data: ships, stale: example.name !== name };
 }
 
@@ -136,22 +153,38 @@ export function lasting(seconds) {
   return `${seconds < size ? "1" : (seconds / size).toFixed(0)} ${unit}`;
 }
 
-/** How far a job is and how long it still takes, in words. */
-export function left({ state, done, total, seconds, answered }) {
+/** Draw anew every second while something goes on. */
+function useTicking(on) {
+  const [, setCount] = useState(0);
+  useEffect(() => {
+    const timer = on ? setInterval(() => setCount((old) => old + 1), 1000) : 0;
+    return () => clearInterval(timer);
+  }, [on]);
+}
+
+/** How far a job is, how long it has run and how long it still takes at its pace so far, in words. */
+export function left({ state, done, total, seconds: told, heard, answered }) {
+  // Since it was told, time goes on.
+  const seconds = told + (state === "running" && heard ? (performance.now() - heard) / 1000 : 0);
   const without = answered && state === "stopped" ? ", with its answer, without all of its files" : "";
   if (ENDED.includes(state)) return `${state} after ${lasting(seconds)}${without}`;
   if (answered) return "answered; its files are being written";
-  if (!total) return state;
+  const so = state === "running" ? `for ${lasting(seconds)}` : "";
+  if (!total) return so ? `${state} ${so}` : state;
   const rest = done > 0.02 * total && seconds > 2 ? `, about ${lasting((seconds * (total - done)) / done)} left` : "";
-  return `${state}, ${done} of ${total}${rest}`;
+  return `${state}, ${done} of ${total}${so && `, ${so}`}${rest}`;
 }
+
+const shippedSays = ({ other }, stale) => `an answer that ships${other ? `, of the case ${other}`
+  : stale ? ", to the case as it is written" : ""}; your own takes its place`;
 
 /** Begin, how far it is, stop. @param {{work: Job, label: string}} props */
 export function Work({ work, label }) {
   const { job, asking, can, stale, start, stop } = work;
   const running = job && !ENDED.includes(job.state);
+  useTicking(running);
   const said = asking ? "begun" : running ? left(job)
-    : job?.shipped ? `an answer that ships${stale ? ", to the case as it is written" : ""}; your own takes its place`
+    : job?.shipped ? shippedSays(job, stale)
     : stale && job ? "something was set since; this is the answer to what was asked before"
     : job ? left(job) : "";
   return html`<div class="work">
@@ -172,7 +205,8 @@ export const WorkPanel = ({ title, name, says, label, work, children }) => html`
     <${Work} work=${work} label=${label} />
     <div class=${work.stale ? "before" : ""}>
       ${work.data ? html`<${Notes} notes=${work.data.notes} />` : null}
-      ${children}</div>
+      ${children}
+      <${Files} job=${work.job} /></div>
   </section>`;
 
 /** Several errors or none, as a screen tells one. */

@@ -1,13 +1,17 @@
 /** An elastic block: what it settles to beside a rigid body, and the pressure under it. */
 import { html } from "../../vendor/preact.js";
+import { fetchRaw, useAsked } from "../api.js";
+import { Deformed } from "../deformed.js";
 import { AllKeys, Amplitude, Field, Slider, useValue } from "../form.js";
 import { FlankMap, span } from "../map.js";
 import { AllNumbers, byKey, Num } from "../number.js";
+import { unpacked } from "../packed.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
 import { useCase } from "../state.js";
-import { inUnit } from "../units.js";
-import { Files, firstError, lasting, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { inWords } from "../symbols.js";
+import { digits, inUnit } from "../units.js";
+import { firstError, lasting, placeOf, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 const START = { "block.elements": "[4, 3, 3]", "block.element": "hex8", "vibration.start": "2 ms",
   "solve.step": "4 us", "solve.duration": "20 ms" };
@@ -27,8 +31,8 @@ const LEAST = 60;
 export function view() {
   const { name, settings } = useCase();
   const ask = (method) => (name ? { case: name, settings: { ...settings, "solve.method": method } } : null);
-  const settled = useJob("block", ask("settled"), "-settled");
-  const marched = useJob("block", ask("march"), "-march");
+  const settled = useJob("block", ask("settled"), "-settled", true);
+  const marched = useJob("block", ask("march"), "-march", true);
   const taken = useTaken(settled, "block", ask("settled"));
   const mesh = useMesh();
   return html`<${Screen} title="Elastic block" kinds=${["block"]} first="block-shaken-along" start=${START}
@@ -58,6 +62,8 @@ export function view() {
   <//>`;
 }
 
+const PACKED = "frames.bin";
+
 /** How fine the mesh is and what it takes. */
 function useMesh() {
   const { text } = useValue("block.elements");
@@ -86,7 +92,14 @@ function Mesh({ text, elements, nodes }) {
 /** What an answer that has not settled lacks. */
 function Loose({ numbers }) {
   if (numbers.settled?.value !== false) return null;
-  return html`<p role="status">Not settled, no prediction: ${numbers.settled_by.value}.</p>`;
+  return html`<p role="status">Not settled, no prediction: ${inWords(numbers.settled_by.value)}.</p>`;
+}
+
+/** How the elastic block does beside the rigid body, in words. */
+function besides({ ratio: { value: elastic }, slider_ratio: { value: rigid } }) {
+  if (typeof elastic !== "number" || !rigid) return ".";
+  const more = 100 * (elastic / rigid - 1);
+  return `: ${digits(Math.abs(more), 2)} % ${more < 0 ? "less" : "more"} than of a rigid body.`;
 }
 
 function Settled({ work }) {
@@ -98,31 +111,37 @@ function Settled({ work }) {
   return html`<${Loose} numbers=${numbers} />
     <div class="headline"><p class="large">${loose ? "(" : null}<${Num}
       entry=${numbers.ratio} count=${4} />${loose ? ")" : null}</p>
-      <p>elastic block; the rigid body <${Num} entry=${numbers.slider_ratio} count=${4} /><br />
+      <p>of the force without vibration is left${besides(numbers)}<br />
+        <span class="of">of the rigid body</span> <${Num} entry=${numbers.slider_ratio} count=${4} /><br />
         <${Num} entry=${numbers.unsteadiness} label count=${2} /></p></div>
     ${data ? html`<${Plot} title="Friction over a settled cycle" y="friction (N)"
       x=${{ label: "phase, cycles", values: data.phase.values }} series=${[
         { label: "elastic block", unit: "N", values: along(data.friction) },
         { label: "rigid body", unit: "N", values: along(data.slider_friction), dash: [4, 3], colour: 6 }]} />` : null}
-    <${Files} job=${work.job} /><${AllNumbers} entries=${work.data.entries} />`;
+    <${AllNumbers} entries=${work.data.entries} />`;
 }
 
 function Marched({ work }) {
   const numbers = byKey(work.data?.entries);
   const data = useData(work, ["pressure", "faces", "node_x", "node_y", "drive_force"]);
+  const files = work.files ?? work.job?.files ?? [];
+  const path = files.includes(PACKED) ? placeOf(work.from, PACKED) : "";
+  const packed = useAsked(path, async (leave) => unpacked(await (await fetchRaw(path, leave)).arrayBuffer())).found;
   if (!work.data) return null;
   const milli = ({ values }) => values.map((value) => 1e3 * value);
   const pressure = data?.pressure.values.map((value) => value / 1e3);
   return html`<${Loose} numbers=${numbers} />
     <p class="row">${["ratio", "drive_force_N", "peak_pressure_Pa"].map((key) =>
       html`<${Num} entry=${numbers[key]} label count=${4} />`)}</p>
-    ${data ? html`<div class="grid">
-      <${FlankMap} title="Pressure under the block" label="mean pressure at a node" unit="kPa"
+    ${data && packed ? html`<${Deformed} packed=${packed}
+      contact=${{ x: milli(data.node_x), y: milli(data.node_y), cells: quads(data.faces) }} />` : null}
+    ${data ? html`<div class="pair">
+      <${FlankMap} title="Pressure under the block, its mean" label="mean pressure at a node" unit="kPa"
         x=${milli(data.node_x)} y=${milli(data.node_y)} cells=${quads(data.faces)} values=${pressure}
         range=${span(pressure)} says="seen from below; along the drive to the right, across it upwards" />
       <${Plot} title="Drive force over time" x=${{ label: "time", unit: "ms", values: milli(data.time) }}
         series=${[{ label: "drive force", unit: "N", values: data.drive_force.values }]} /></div>` : null}
-    <${Files} job=${work.job} /><${AllNumbers} entries=${work.data.entries} of=", marched" />`;
+    <${AllNumbers} entries=${work.data.entries} of=", marched" />`;
 }
 
 /** Quadrilaterals of the faces of elements, of which those of nine nodes have four. */

@@ -1,5 +1,5 @@
 /** A worm gearset under load and shaken: what the motor is spared, and what that costs. */
-import { html } from "../../vendor/preact.js";
+import { html, useMemo } from "../../vendor/preact.js";
 import { useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
@@ -37,10 +37,13 @@ const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
 const rows = ({ shape: [count, width], values }) =>
   Array.from({ length: count }, (_, row) => values.slice(row * width, (row + 1) * width));
 
+const less = (ratio) => (typeof ratio !== "number" ? "."
+  : `: the motor gives ${digits(100 * Math.abs(1 - ratio), 3)} % ${ratio < 1 ? "less" : "more"}.`);
+
 /** A torque ratio never stands alone: beside it, whether it is balanced and settled. */
 const Ratio = ({ found, answer }) => html`<div class="ratio">
   <p class="large"><${Num} entry=${found.torque_ratio} count=${4} /></p>
-  <p>mean torque of the worm over that without vibration</p>
+  <p>of the worm's torque without vibration is left${less(answer.torque_ratio)}</p>
   <p><${Verdict} ok=${answer.settled} yes="settled" no="not settled" />${" "}
     <span class="of">balance of the wheel</span>${" "}<${Num} entry=${found.torque_balance} count=${3} /></p>
   ${answer.settled ? null : html`<p class="warn">▲ The wheel coasts or speeds up: this ratio is not what the
@@ -92,7 +95,7 @@ function Pattern({ data, found }) {
   return html`<p class="choice"><label for="load">torque of the wheel</label>${" "}
       <select id="load" value=${String(at)} onChange=${(event) => setParam("load", event.target.value)}>
         ${loads.map((load, n) => html`<option value=${String(n)}>${digits(load, 4)} N m</option>`)}</select></p>
-    <div class="grid">
+    <div class="pair">
       <${FlankMap} title="Where it bears over a pitch, and how hard" label="largest pressure" unit="MPa"
         x=${value("node_face", 1e3)} y=${value("node_radius", 1e3)} cells=${rows(data.faces)} values=${values}
         range=${[0, span(values)[1]]} />
@@ -138,15 +141,19 @@ function Locking({ answer, found, data }) {
 export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: {} } : null;
-  const shaken = useJob("drive", body);
-  const loaded = useJob("drive", body && { ...body, options: { static: true } }, "-static");
-  const ways = useJob("directions", body);
-  const held = useJob("locking", body);
+  const shaken = useJob("drive", body, "", true);
+  const loaded = useJob("drive", body && { ...body, options: { static: true } }, "-static", true);
+  const ways = useJob("directions", body, "", true);
+  const held = useJob("locking", body, "", true);
   const { geometry } = useLive("rate", body && { case: name, settings }, 200).data?.answer ?? {};
   const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const mode = useValue("vibration.mode").text;
   const taken = useTaken(shaken, "drive", body);
   const under = useData(loaded, UNDER);
+  const pressed = useMemo(() => (under && !loaded.stale ? {
+    radius: under.node_radius.values.map((r) => 1e3 * r), face: under.node_face.values.map((z) => 1e3 * z),
+    pressure: rows(under.pattern).at(-1).map((pressure) => pressure / 1e6),
+  } : null), [under, loaded.stale]);
   const creep = useData(held, ["amplitude", "creep_over", "creep_limit"]);
   const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
@@ -158,7 +165,8 @@ export function view() {
       <${Folded}><${Form} tables=${["vibration", "drive", "actuator", "operation", "friction", "shaft"]} brief /><//>
     </section>
     <section class="shown">
-      ${geometry && speed ? html`<${Gears} geometry=${geometry} speed=${speed} mode=${mode} />` : null}
+      ${geometry && speed ? html`<${Gears} geometry=${geometry} speed=${speed} mode=${mode}
+        pressed=${pressed} />` : null}
       <${WorkPanel} title="Shaken" name="shaken" label="shake it" work=${shaken}
           says="A minute or several: the more the gearset must be shaken until it settles, the longer.">
         ${shaken.data ? html`<${Ratio} found=${of} answer=${shaken.data.answer} />

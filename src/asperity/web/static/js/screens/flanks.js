@@ -4,12 +4,14 @@ import { fetchRaw, useAsked } from "../api.js";
 import { Folded, Form } from "../form.js";
 import { FlankMap, gridCells, Legend, span } from "../map.js";
 import { AllNumbers, byKey, Facts } from "../number.js";
+import { unpacked } from "../packed.js";
 import { Plot } from "../plot.js";
-import { nearest, stage, unpacked } from "../scene.js";
+import { nearest, stage } from "../scene.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
+import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
-import { placeOf, useJob, useTaken, Work } from "../work.js";
+import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
@@ -98,6 +100,7 @@ function Space({ gears, shown, options }) {
     setPlaying(false);
     put((Number(event.target.value) * Math.PI) / 180);
   };
+  const touch = useTouch(turned);
   return html`<section class="panel" aria-label="in space">
     <div class="row">${options}</div>
     ${without ? html`<p class="notes" role="status">This browser draws nothing in space (no WebGL); the maps beneath
@@ -109,7 +112,7 @@ function Space({ gears, shown, options }) {
       <button type="button" aria-pressed=${playing} onClick=${() => setPlaying(!playing)}>
         ${playing ? "❚❚ pause" : "▶ play"}</button>
       <input type="range" aria-label="angle of the worm" min="0" max=${degrees(header.pitch)} step="0.5"
-        value=${degrees(phi)} aria-valuetext=${`${digits(degrees(phi), 3)} degrees`} onInput=${turned} />
+        value=${degrees(phi)} aria-valuetext=${`${digits(degrees(phi), 3)} degrees`} ...${touch} />
       <output>${degrees(phi).toFixed(1)}° of a pitch of ${digits(degrees(header.pitch), 4)}°</output>
     </div>
     <${Over} gears=${gears} shown=${shown} phi=${phi} />
@@ -167,10 +170,17 @@ function Over({ gears, shown: { layer, side, values, range }, phi }) {
 const FACTS = ["contact_ratio", "contact_ratio_marked", "pattern_area_fraction", "transmission_error_rad",
   "ease_off_max_um", "backlash_normal_mm"];
 
+/** What the flanks do, in a sentence. */
+function touches({ contact_ratio: ratio, pattern_area_fraction: share }) {
+  if (typeof ratio?.value !== "number" || typeof share?.value !== "number") return null;
+  return html`<b>${digits(ratio.value, 3)}</b> teeth touch at a time, over${" "}
+    ${digits(100 * share.value, 2)} % of a flank.`;
+}
+
 export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: { density: "coarse" } } : null;
-  const work = useJob("flank", body);
+  const work = useJob("flank", body, "", true);
   const taken = useTaken(work, "flank", body);
   const path = (work.files ?? work.job?.files)?.includes(PACKED) ? placeOf(work.from, PACKED) : "";
   const packed = useAsked(path, async (leave) => unpacked(await (await fetchRaw(path, leave)).arrayBuffer()));
@@ -195,9 +205,10 @@ export function view() {
       lead="The wheel cut exactly as its hob cuts it: where it touches the worm, and what that does.">
     <div class="columns">
       <section class="controls" aria-label="what is set"><${Work} work=${work} label="cut the wheel" />
+        <${Files} job=${work.job} />
         <${Folded}><${Form} tables=${["hob", "mount", "modification"]} brief /><//></section>
-      <section class="shown">
-        ${gears ? html`<${Space} gears=${gears} options=${options} shown=${shown} />
+      <section class=${work.stale ? "shown before" : "shown"}>
+        ${gears ? html`<p class="big">${touches(of)}</p><${Space} gears=${gears} options=${options} shown=${shown} />
           <div class="panel"><${Facts} found=${of} keys=${FACTS} />
             ${of.backlash_normal_mm?.value < 0 ? html`<p class="says">A backlash below nothing: so far the teeth
               overlap.</p>` : null}</div>`

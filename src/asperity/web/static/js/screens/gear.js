@@ -8,6 +8,7 @@ import { Gears } from "../gears.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
+import { symbol } from "../symbols.js";
 import { Table } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
 import { Report } from "../work.js";
@@ -139,13 +140,13 @@ function First({ verdict }) {
   return html`<section class="panel" aria-label="first to fail">
     <h2>${safety.holds ? "Nearest to its limit" : "First to fail"}</h2>
     <p class="big"><${Verdict} ok=${safety.holds} /> ${safety.name}, ${STANDARDS[safety.standard]}</p>
-    <p>${safety.symbol} is ${digits(safety.value, 3)} of ${digits(safety.asked, 3)} asked.</p>
+    <p>${symbol(safety.symbol)} is ${digits(safety.value, 3)} of ${digits(safety.asked, 3)} asked.</p>
     <h3>What moves it most</h3>
     <${Tornado} label="what moves it most" rows=${rows} unit="%" />
     ${alternatives.length ? html`<h3>Best listed instead</h3>
       <ul class="plain">${alternatives.map((other) => html`<li><button type="button" class="quiet"
         onClick=${() => setAll({ [other.key]: other.value })}>try ${other.value}</button>
-        ${safety.symbol} ${digits(other.safety, 3)}</li>`)}</ul>` : null}
+        ${symbol(safety.symbol)} ${digits(other.safety, 3)}</li>`)}</ul>` : null}
   </section>`;
 }
 

@@ -1,9 +1,10 @@
 /** What runs, what waits and what is done, with its files. */
 import { html, useEffect, useRef, useState } from "../../vendor/preact.js";
-import { get, post, remove } from "../api.js";
+import { fetchRaw, get, post, remove, useAddress, useAsked } from "../api.js";
+import { belongsTo } from "../belongs.js";
 import { copy, Screen } from "../shell.js";
-import { go } from "../state.js";
-import { Files, left } from "../work.js";
+import { address, go } from "../state.js";
+import { Files, left, placeOf } from "../work.js";
 
 /** In the order in which they are listed; what waits stands beside what runs. */
 const SIGNS = { running: "▶", queued: "…", stopped: "❚❚", done: "✓", failed: "✗" };
@@ -36,19 +37,43 @@ export function view() {
     ${jobs && !jobs.length ? html`<p>Nothing was begun in this folder yet. Screens such as${" "}
       <a href="#/sweep" onClick=${(event) => (event.preventDefault(), go("sweep"))}>Sweep</a>${" "}
       begin jobs.</p>` : null}
-    <ul class="jobs">${sorted.map((job) => html`<${Job} key=${job.id} job=${job} act=${act} />`)}</ul>
+    <ul class="jobs">${sorted.map((job) => html`<${Job} key=${job.id} job=${job} jobs=${jobs} act=${act} />`)}</ul>
   <//>`;
 }
 
-function Job({ job, act }) {
+/** A small picture of what a job left, fetched once it is seen; nothing where it left none. */
+function Picture({ job: { id, command, case: name, files, state } }) {
+  const box = useRef(null);
+  const [seen, setSeen] = useState(false);
+  const file = state === "done" ? files.find((each) => each.endsWith(".png")) : "";
+  useEffect(() => {
+    if (!box.current) return;
+    const watch = new IntersectionObserver(([entry]) => entry.isIntersecting && setSeen(true));
+    watch.observe(box.current);
+    return () => watch.disconnect();
+  }, [file]);
+  const path = seen && file ? placeOf(id, encodeURIComponent(file)) : "";
+  const source = useAddress(useAsked(path, async (leave) => (await fetchRaw(path, leave)).blob()).found);
+  return file ? html`<div class="small" ref=${box}>
+    ${source ? html`<img src=${source} alt=${`what ${command} ${name} drew`} />` : null}</div>` : null;
+}
+
+function Job({ job, jobs, act }) {
   const { id, command, case: name, state, done, total, error, notes, line } = job;
   const running = state === "running";
   const button = (said, run, kind) => html`<button type="button" class=${kind} aria-label=${`${said}: ${line}`}
     onClick=${run}>${said}</button>`;
   const path = `/api/jobs/${id}`;
   const told = notes.filter((note) => running || !note.startsWith("this will take")).slice(-2);
-  return html`<li class="panel">
-    <p><b>${command}</b> ${name} <span class=${`state ${state}`}>${SIGNS[state]} ${left(job)}</span></p>
+  const there = belongsTo(job, jobs);
+  const open = (event) => {
+    if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+    event.preventDefault();
+    go(there.screen, there.params);
+  };
+  return html`<li class="panel"><${Picture} job=${job} />
+    <p><b>${there ? html`<a href=${address(there)} onClick=${open}>${command} ${name}</a>`
+      : `${command} ${name}`}</b> <span class=${`state ${state}`}>${SIGNS[state]} ${left(job)}</span></p>
     ${running ? html`<progress aria-label=${`${command} ${name}`} max=${total || 1}
       value=${total ? done : undefined}></progress>` : null}
     ${error ? html`<p class="bad">✗ ${error}</p>` : null}

@@ -1,17 +1,16 @@
 /** The rig: a recording, its segments, what vibration did in each, and a law fitted to that. */
-import { html, useRef, useState } from "../../vendor/preact.js";
-import { about, get, job as submit, loadAbout, upload, useLive } from "../api.js";
-import { Figure } from "../figure.js";
-import { Field, useValue, words } from "../form.js";
+import { html, useState } from "../../vendor/preact.js";
+import { about, get, job as submit, loadAbout, upload, useAsked, useLive } from "../api.js";
+import { Field, words } from "../form.js";
 import { Live } from "../live.js";
-import { path, Plot, ticks } from "../plot.js";
+import { Plot } from "../plot.js";
 import { Screen, tell } from "../shell.js";
+import { OWN, Refusals, Signals } from "../signals.js";
 import { go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
-import { digits, inUnit } from "../units.js";
-import { useJob, Work, WorkPanel } from "../work.js";
+import { digits } from "../units.js";
+import { Files, placeOf, useJob, useShipped, Work, WorkPanel } from "../work.js";
 
-const OWN = "reduction.";
 const EXPORTS = ".csv,.txt,.asc,.lvm,.dat,.mat,.tdms,.wav,.sr,.mf4,.nc";
 /** What a page can record by itself: one file of a few cells on the simulated rig. */
 const TRIAL = {
@@ -24,9 +23,10 @@ const LAW = {
   "friction.mu": "0.1", "friction.max_deflection": "70 nm", "friction.law": "split", "friction.transfer": "0.7",
 };
 const FREE = ["friction.transfer", "friction.max_deflection", "friction.transfer,friction.max_deflection"];
-const SHOWN = ["torque_steel", "speed_steel", "drive_deviation"];
 const FINDING = ["settling", "speed_settling", "least_window", "threshold", "block"];
-const [WIDTH, ROW, LEFT, RIGHT] = [900, 110, 64, 8];
+
+/** Signals of the recording whose answer ships. */
+const SEEN = "signals.json";
 
 export function view() {
   const { name, settings } = useCase();
@@ -36,12 +36,20 @@ export function view() {
   const seen = useLive("signals", asked && { ...asked, case: name }, 60);
   const reduced = useJob("rig reduce", asked);
   const found = reduced.data?.answer;
+  const example = useExample(!rec);
   return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy} now=${!rec || seen.now}
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
-      answer=${seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }}
+      answer=${rec && seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }}
       error=${rec ? (seen.error ?? reduced.error) : null}>
     <${Live} />
     <${Bring} name=${name} rec=${rec} />
+    ${example ? html`<section class="panel" aria-label="signals">
+        <h2>${example.seen.recording}, simulated</h2>
+        <p class="says" role="status">an answer that ships; your own takes its place</p>
+        <${Signals} ...${example.seen} /></section>
+      <${Levels} segments=${example.segments} />
+      <section class="panel" aria-label="fit"><h2>A friction law fitted to it</h2>
+        <${Law} found=${example.law} /></section>` : null}
     ${rec && seen.data ? html`<section class="panel" aria-label="signals">
       <h2>${seen.data.answer.recording}${seen.data.answer.simulated ? ", simulated" : ""}</h2>
       <${Signals} ...${seen.data.answer} />
@@ -49,10 +57,21 @@ export function view() {
       <details><summary>how segments are found</summary>
         ${FINDING.map((key) => html`<${Field} key=${key} path=${OWN + key} />`)}</details>
       <${Work} work=${reduced} label="reduce" />
+      <${Files} job=${reduced.job} />
     </section>` : rec && !seen.error ? html`<p class="wait">One moment.</p>` : null}
     ${found ? html`<${Levels} segments=${found.segments} />
       <${Fit} name=${name} id=${reduced.job.state === "done" ? reduced.id : ""} />` : null}
   <//>`;
+}
+
+/** What the screen opens with: a recording that ships, what it is reduced to, a law fitted to that. */
+function useExample(wanted) {
+  const reduced = useShipped("rig reduce", wanted);
+  const fitted = useShipped("fit", wanted);
+  const path = reduced ? placeOf(reduced.id, SEEN) : "";
+  const seen = useAsked(path, (leave) => get(path, leave)).found;
+  if (!reduced || !fitted || !seen) return null;
+  return { seen: seen.answer, segments: reduced.data.answer.segments, law: fitted.data.answer };
 }
 
 /** Recordings there are, and how another one comes. */
@@ -123,102 +142,6 @@ function Bring({ name, rec }) {
   </section>`;
 }
 
-/** Signals over time with the windows of each segment; an edge that is dragged moves the settling. */
-function Signals({ time, signals, segments, settling_s: answered, duration_s: duration }) {
-  const { settings, set } = useCase();
-  const least = inUnit(useValue(`${OWN}least_window`).text, "s") || 0;
-  const box = useRef(null);
-  const grip = useRef(null);
-  const [held, setHeld] = useState(null);
-  const written = settings[`${OWN}settling`];
-  // What is dragged or set is drawn at once: an answer to what was set before moves nothing back.
-  const settling = held ?? (written ? inUnit(written, "s") : answered);
-  const rows = SHOWN.map((name) => signals.find((each) => each.name === name)).filter(Boolean);
-  const height = rows.length * ROW + 24;
-  const along = (seconds) => LEFT + ((WIDTH - LEFT - RIGHT) * seconds) / duration;
-  // Of the segment whose edge is moved, the least window stays.
-  const settle = (seconds, { with: [from, to] }) =>
-    Math.max(0, Math.round(Math.min(seconds, to - from + answered - least) * 20) / 20);
-  const put = (seconds) => set(`${OWN}settling`, `${digits(seconds, 4)} s`);
-  const grab = (event, one) => {
-    grip.current = one;
-    event.preventDefault();
-    event.currentTarget.focus();
-    event.currentTarget.setPointerCapture(event.pointerId);
-  };
-  const move = (event) => {
-    if (grip.current === null) return;
-    const { left, width } = box.current.getBoundingClientRect();
-    const place = ((event.clientX - left) / width) * WIDTH - LEFT;
-    setHeld(settle((place / (WIDTH - LEFT - RIGHT)) * duration - grip.current.start, grip.current));
-  };
-  const drop = () => {
-    grip.current = null;
-    if (held !== null) put(held);
-    setHeld(null);
-  };
-  const keyed = (event, one) => {
-    const step = { ArrowLeft: -0.1, ArrowRight: 0.1 }[event.key];
-    if (!step) return;
-    event.preventDefault();
-    put(settle(settling + step, one));
-  };
-  const columns = () => [{ label: "time", unit: "s", values: time },
-    ...signals.map(({ name, unit, values }) => ({ label: words(name), unit, values }))];
-  // The left edges move with the settling, the right ones are where something changes.
-  const ends = ([from, to]) => [Math.min(from + settling - answered, to), to].map((at) => Math.min(at, duration));
-  const window = (kind, colour) => {
-    const [from, to] = ends(kind).map(along);
-    return html`<rect class=${`window fill${colour}`} x=${from} width=${to - from} y="4"
-      height=${rows.length * ROW - 8} />`;
-  };
-  return html`<${Figure} title="Signals, and the windows before and with vibration" kind="bare" columns=${columns}>
-    <div class="scroll wide"><svg ref=${box} class="signals drawn" viewBox=${`0 0 ${WIDTH} ${height}`} role="group"
-        aria-label="signals over time" onPointerMove=${move} onPointerUp=${drop} onPointerCancel=${drop}>
-      ${segments.map((one, at) => html`<g key=${at} class=${one.refused ? "segment refused" : "segment"}>
-        <title>${told(one, at)}</title>${window(one.before, 3)}${window(one.with, 1)}
-        <text x=${along(ends(one.with)[0]) + 10} y="18">
-          ${one.commanded_Hz ? `${digits(one.commanded_Hz, 4)} Hz` : "?"}${one.refused ? " ✗" : ""}</text>
-      </g>`)}
-      ${rows.map(({ name, unit, values }, row) => html`<${Line} key=${name} label=${`${words(name)} (${unit})`}
-        time=${time} values=${values} along=${along} top=${row * ROW} />`)}
-      ${ticks(0, duration, false, 10).map((at) => html`<text key=${at} class="tick" x=${along(at)} y=${height - 6}
-        text-anchor="middle">${at}</text>`)}
-      ${segments.map((one, at) => html`<rect key=${at} class="grip" x=${along(ends(one.with)[0]) - 4} width="8" y="4"
-        height=${rows.length * ROW - 8} role="slider" tabindex="0" aria-label=${`settling, at segment ${at + 1}`}
-        aria-valuemin="0" aria-valuemax=${duration} aria-valuenow=${settling}
-        aria-valuetext=${`${digits(settling, 3)} s`} onKeyDown=${(event) => keyed(event, one)}
-        onPointerDown=${(event) => grab(event, one)} />`)}
-    </svg></div>
-    <p class="says">Time in s. Green: sliding before; blue: with vibration. Drag the left edge of a blue window,
-      or press ← →: what is left out behind every change is ${digits(settling, 3)} s.</p>
-  <//>`;
-}
-
-function Line({ label, time, values, along, top }) {
-  const known = values.filter((value) => value !== null);
-  const [low, high] = [Math.min(...known), Math.max(...known)];
-  const up = { at: (value) => top + ROW - 14 - ((ROW - 28) * (value - low)) / (high - low || 1) };
-  const end = (value) => html`<text class="tick" x=${LEFT - 6} y=${up.at(value) + 4}
-    text-anchor="end">${digits(value, 3)}</text>`;
-  return html`<g class="row-of"><path class="trace" d=${path(time, values, { at: along }, up)} />
-    <text class="name" x=${LEFT + 4} y=${top + ROW - 3}>${label}</text>${end(high)}${end(low)}</g>`;
-}
-
-const told = ({ start, refused }, at) =>
-  `segment ${at + 1}, ${digits(start, 4)} s${refused ? `: refused, ${refused}` : ""}`;
-
-function Refusals({ segments }) {
-  const odd = segments.map((one, at) => ({ ...one, at })).filter(({ refused, flags }) => refused || flags.length);
-  if (!segments.length) {
-    return html`<p class="notes">No vibration was found in it: its drive signal never varies for long.</p>`;
-  }
-  return odd.length ? html`<ul class="notes" aria-label="what to know of the segments">${odd.map((one) => html`
-    <li key=${one.at}>${one.refused ? "✗" : "~"} ${told(one, one.at)}
-      ${one.refused ? "" : `: ${one.flags.join("; ")}`}</li>`)}
-    </ul>` : null;
-}
-
 const SIGNS = { good: ["✓", "good"], doubtful: ["~", "warn"], refused: ["✗", "bad"] };
 const NUMBERS = [
   ["frequency (Hz)", "commanded_Hz"], ["torque before (N m)", "torque_before_Nm"],
@@ -227,6 +150,16 @@ const NUMBERS = [
 ];
 const percent = (ratio) => (ratio === null ? null : 100 * (ratio - 1));
 const shown = (value) => (value === null ? "–" : digits(value, 4));
+
+/** The segment in which the most was spared, in a sentence. */
+function Most({ segments }) {
+  const best = segments.toSorted((one, other) => one.torque_change_percent - other.torque_change_percent)[0];
+  if (!best) return html`<p class="big">No segment tells what vibration did.</p>`;
+  const { torque_change_percent: change, torque_change_ci95_percent: ends, commanded_Hz: at } = best;
+  return html`<p class="big"><b>${digits(Math.abs(change), 3)} %</b> ${change < 0 ? "less" : "more"} torque${
+    at ? ` at ${digits(at, 4)} Hz` : ""}${ends ? html`, <span class="says">95 % sure of ${
+    ends.map((each) => digits(Math.abs(each), 3)).toSorted().join(" to ")} %</span>` : null}</p>`;
+}
 
 /** What vibration did, with intervals, and the model beside it. */
 function Levels({ segments }) {
@@ -240,6 +173,7 @@ function Levels({ segments }) {
   const quality = ({ quality: found, flags }) => html`
     <span class=${SIGNS[found][1]}>${SIGNS[found][0]} ${found}</span> <span class="says">${flags.join("; ")}</span>`;
   return html`<section class="panel" aria-label="levels"><h2>What vibration did</h2>
+    <${Most} segments=${kept} />
     <${Table} region="levels of all segments" wide="levels" rows=${segments} columns=${[
       ["segment", (_, at) => at + 1, "row"],
       ...NUMBERS.map(([said, key]) =>
@@ -262,11 +196,7 @@ function Fit({ name, id }) {
   const work = useJob("fit", name && id ? {
     case: name, settings: { ...LAW, ...own }, arguments: { data: `jobs/${id}/measurements.csv` }, options: { free },
   } : null);
-  const found = work.data?.answer;
   const said = (keys) => words(keys.replaceAll("friction.", "")).replace(",", " and ");
-  const ended = (end) => (end === null ? "open" : digits(end, 4));
-  const sure = ({ identifiable, why }) => html`<span class=${identifiable ? "good" : "warn"}>
-    ${identifiable ? "✓ both ends" : "~ an end is open"}</span> ${why}`;
   return html`<${WorkPanel} title="Fit a friction law" name="fit" label="fit" work=${work}
       says="To the measured change of every segment, by marching each of them again and again: minutes.">
     <div class="row"><label class="asked">free
@@ -276,12 +206,20 @@ function Fit({ name, id }) {
       <summary>the law it begins from</summary>
       ${Object.keys(LAW).map((path) => html`<${Field} key=${path} path=${path} />`)}</details>
     ${work.error ? html`<p class="fault" role="alert">✗ ${work.error.message}</p>` : null}
-    ${found ? html`<${Table} rows=${found.parameters} columns=${[
-        ["parameter", ({ key }) => key, "row"],
-        ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
-        ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],
-        ["what the data tell", sure]]} />
-      <p class="says">chi² ${digits(found.chi2, 4)} at ${found.dof} degrees of freedom, law ${found.law},${" "}
-        ${found.points} measurements.</p>` : null}
+    ${work.data ? html`<${Law} found=${work.data.answer} />` : null}
   <//>`;
+}
+
+/** A law as it was fitted, with what the data tell of each of its parameters. */
+function Law({ found }) {
+  const ended = (end) => (end === null ? "open" : digits(end, 4));
+  const sure = ({ identifiable, why }) => html`<span class=${identifiable ? "good" : "warn"}>
+    ${identifiable ? "✓ both ends" : "~ an end is open"}</span> ${why}`;
+  return html`<${Table} region="the fitted law" rows=${found.parameters} columns=${[
+      ["parameter", ({ key }) => key, "row"],
+      ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
+      ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],
+      ["what the data tell", sure]]} />
+    <p class="says">chi² ${digits(found.chi2, 4)} at ${found.dof} ${found.dof === 1 ? "degree" : "degrees"}
+      of freedom, law ${found.law}, ${found.points} measurements.</p>`;
 }

@@ -5,6 +5,7 @@ import { Beneath } from "../figure.js";
 import { Screen } from "../shell.js";
 import { route, setParam } from "../state.js";
 import { Table } from "../table.js";
+import { useShipped } from "../work.js";
 
 /** By verdict: sign, word, colour. */
 const VERDICTS = {
@@ -21,7 +22,9 @@ const CHOICES = {
 };
 
 export function view() {
-  const { found: ledger, error } = useAsked("thesis", (leave) => get("/api/thesis", leave));
+  const { found: own, error } = useAsked("thesis", (leave) => get("/api/thesis", leave));
+  const ships = useShipped("thesis", true)?.data.answer;
+  const ledger = own ? withShipped(own, ships?.claims ?? []) : ships && unmadeOf(ships);
   const { q = "", verdict = "all" } = route.value.params;
   const wanted = verdict === "none" ? "" : verdict;
   const words = q.toLowerCase().split(/\s+/).filter(Boolean);
@@ -29,14 +32,14 @@ export function view() {
     const text = Object.values(one).join(" ").toLowerCase();
     return words.every((word) => text.includes(word));
   };
-  const claims = (ledger?.claims ?? []).filter((one) => says(one) && (verdict === "all" || one.verdict === wanted));
+  const claims = (ledger?.claims ?? []).filter((one) => says(one) && (verdict === "all" || is(one, wanted)));
   const figures = (ledger?.figures ?? []).filter((one) => says(one) && verdict === "all");
   const chapters = (ledger?.chapters ?? []).map((chapter) => ({
     ...chapter,
     claims: claims.filter((one) => one.chapter === chapter.number),
     figures: figures.filter((one) => one.chapter === chapter.number),
   })).filter((chapter) => chapter.claims.length + chapter.figures.length);
-  return html`<${Screen} title="Thesis" error=${error} busy=${!ledger && !error}
+  return html`<${Screen} title="Thesis" error=${error} busy=${!own && !error}
       lead="On friction under imposed vibration and in worm gears: what it says, and what comes of it when it is
         computed anew.">
     ${ledger ? html`
@@ -51,6 +54,8 @@ export function view() {
               ${" "}${said} ${key === "all" ? ledger.claims.length : count(ledger.claims, key)}</label>`)}
           </fieldset>
         </div>
+        <p class="big"><b>${count(ledger.claims, "reproduced")}</b> of ${ledger.claims.length} claims are reproduced,
+          ${" "}<b>${count(ledger.claims, "differs")}</b> differ.</p>
         <p class="says">${ledger.read}</p>
         <p class="says" role="status">${claims.length} of ${ledger.claims.length} claims,
           ${" "}${figures.length} of ${ledger.figures.length} figures. ${unmade(ledger)}</p>
@@ -60,12 +65,25 @@ export function view() {
   <//>`;
 }
 
-const count = (claims, verdict) => claims.filter((one) => one.verdict === verdict).length;
+/** What ships, before it is known what was made here. */
+const unmadeOf = (shipped) => ({ ...shipped, claims: shipped.claims.map((one) => ({ ...one, kept: false })) });
+
+/** Claims that were not made here, with what came of them as it ships. */
+function withShipped(ledger, shipped) {
+  const known = Object.fromEntries(shipped.map(({ id, verdict, ours, why }) => [id, { verdict, ours, why }]));
+  const claims = ledger.claims.map((one) => (one.kept ? one : { ...one, ...known[one.id] }));
+  return { ...ledger, claims };
+}
+
+/** Whether a claim has a verdict; "" means that it was not made here. */
+const is = (claim, verdict) => (verdict ? claim.verdict === verdict : !claim.kept);
+const count = (claims, verdict) => claims.filter((one) => is(one, verdict)).length;
 
 function unmade({ claims, figures, folder }) {
   const missing = [...claims, ...figures].filter(({ kept }) => !kept).length;
   return missing
-    ? `${missing} of all were not made here, or by another version: asperity thesis makes them, into ${folder}.`
+    ? `${missing} of all were not made here, or by another version: what stands here of claims ships with the page; `
+      + `asperity thesis makes them${folder && `, into ${folder}`}.`
     : `All were made here, in ${folder}.`;
 }
 
@@ -75,7 +93,9 @@ const COLUMNS = [
     ${said.map((words) => html`<p class="says" key=${words}>${words}</p>`)}`],
   ["thesis", ({ theirs }) => theirs],
   ["here", ({ id, ours, why, how, line, kept }) => html`${ours || "–"}
-    <details><summary aria-label=${`claim ${id}: ${kept ? "why" : "how"}`}>${kept ? "why" : "how"}</summary>
+    ${kept ? null : html`<p class="says">${ours ? "as it ships, " : ""}not made here</p>`}
+    <details><summary aria-label=${`claim ${id}: ${kept || why ? "why" : "how"}`}>${
+      kept || why ? "why" : "how"}</summary>
     ${why ? html`<p>${why}</p>` : null}<${How} lines=${kept ? how : [line]} /></details>`],
   ["verdict", ({ verdict }) => {
     const [sign, word, colour] = VERDICTS[verdict];

@@ -1,0 +1,60 @@
+"""What ``asperity size`` does."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from asperity.casefile.case import Case, naming_source
+from asperity.cli import show
+from asperity.cli.new import OTHER_FORMS, given_to
+from asperity.commands import case_tables
+from asperity.files.store import output_folder, write_text
+from asperity.start.duty import complete, duty
+from asperity.start.gear import proposals, ratio_of
+from asperity.start.kinds import Values, kind_of
+from asperity.start.write import case_text
+from asperity.studies.proposed import Proposals
+
+
+def size(
+    case: str,
+    ratio: str,
+    asked: Mapping[str, str | None],
+    settings: Sequence[str],
+    rank: str,
+    locks: str,
+    *,
+    cut: bool,
+    as_json: bool,
+    out: Path | None,
+) -> None:
+    """Print gearsets for a duty, and write each one as a case.
+
+    The duty is that of a case, if one is named, with what is asked by key of the operation and set
+    in its place. An empty ratio is that of ``requirements``; ``cut`` leaves out what no hob cuts.
+    """
+    values = duty(case)
+    given_to(values, asked, settings)
+    wanted = ratio_of(ratio) if ratio else None
+    origin = {setting.partition("=")[0].strip(): setting for setting in settings}
+    with naming_source(Case(case or "size", Path(), {}, values, case_tables(), origin)):
+        complete(values)
+        found = proposals(values, wanted, rank, cut=cut, locks=locks)
+    if as_json:
+        show.print_json(found.to_json())
+    else:
+        show.print_tables(found.tables())
+    if out is not None:
+        show.note(_written(found, values, out))
+
+
+def _written(found: Proposals, values: Values, out: Path) -> str:
+    """Write proposals to a folder, each also as a case; returns what is to be said of it."""
+    folder = output_folder(out)
+    kind, names = kind_of("gear"), found.write(folder, pictures="")
+    for place, proposal in enumerate(found.found, 1):
+        kept = {k: v for k, v in values["gearset"].items() if k not in OTHER_FORMS}
+        mine = {**values, "gearset": {**kept, **proposal.keys}}
+        tables = (*kind.tables, *(name for name in mine if name not in kind.tables))
+        text = case_text(f"Proposal {place}", mine, case_tables(), tables)
+        names.append(write_text(folder / f"proposal-{place}.toml", text).name)
+    return f"written to {folder}: {', '.join(names)}"

@@ -1,0 +1,156 @@
+"""Worm gearsets that are proposed, and how they are told."""
+
+from collections.abc import Iterator
+from typing import Any, ClassVar, NamedTuple
+
+from asperity.rating.demands import DEMANDS
+from asperity.rating.standing import NAMES
+from asperity.results import Result, quantity
+from asperity.results.table import Table
+
+MOST = 20
+"""Proposals that are shown."""
+
+
+class Proposal(NamedTuple):
+    """A gearset that is proposed.
+
+    Attributes
+    ----------
+    starts, wheel_teeth : int
+        Threads and teeth.
+    centre_distance_mm, axial_module_mm, diameter_factor, profile_shift : float
+        Its macro-geometry.
+    efficiency : float
+        Of the whole gearbox by ISO/TR 14521, worm driving.
+    margin : float
+        The least of all safeties over what is asked; 1 and more holds.
+    limited_by : str
+        The safety that has it, as ``standard.key``.
+    holds : bool
+        Whether every safety is enough.
+    locks_at_rest, locks_in_motion : tuple of str
+        The standards by whose friction the worm locks itself, of those that have an answer.
+    locks : str
+        In a word or two, by all of them: ``in motion``, ``at rest``, ``by some`` or ``no``.
+    hob : str
+        Of the shelf, by its name; empty where any hob may be.
+    mass_kg, rim_kg : float, optional
+        Of worm and wheel as full bodies, and of the wheel's rim with its teeth.
+    backlash_arcmin : tuple of float, optional
+        Least and greatest at the wheel in the worst case, where there are tolerances.
+    """
+
+    starts: int
+    wheel_teeth: int
+    centre_distance_mm: float
+    axial_module_mm: float
+    diameter_factor: float
+    profile_shift: float
+    efficiency: float
+    margin: float
+    limited_by: str
+    holds: bool
+    locks_at_rest: tuple[str, ...] = ()
+    locks_in_motion: tuple[str, ...] = ()
+    locks: str = ""
+    hob: str = ""
+    mass_kg: float | None = None
+    rim_kg: float | None = None
+    backlash_arcmin: tuple[float, float] | None = None
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """What a ``[gearset]`` table has of it."""
+        return {
+            "starts": self.starts,
+            "wheel_teeth": self.wheel_teeth,
+            "centre_distance": f"{self.centre_distance_mm:.12g} mm",
+            "axial_module": f"{self.axial_module_mm:.12g} mm",
+            "diameter_factor": self.diameter_factor,
+        }
+
+    @property
+    def settings(self) -> tuple[str, ...]:
+        """What makes a case it, for ``--set``."""
+        return tuple(f"gearset.{key}={value}" for key, value in self.keys.items())
+
+
+class Proposals(Result):
+    """Gearsets that are proposed for a ratio, a torque and a speed.
+
+    Attributes
+    ----------
+    found : tuple of Proposal
+        The best first.
+    """
+
+    title: ClassVar[str] = "Worm gearsets for what is asked"
+    stem: ClassVar[str] = "size"
+
+    rated: int = quantity("", "", "gearsets rated")
+    holding: int = quantity("", "", "of them hold by every standard")
+    ranked_by: str = quantity("", "", "ranked by")
+    found: tuple[Proposal, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the proposals, each with the settings that make it."""
+        found = [
+            {key: value for key, value in p._asdict().items() if value not in (None, "")}
+            | {"settings": list(p.settings)}
+            for p in self.found
+        ]
+        return super().to_json() | {"proposals": found}
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return a row for each proposal."""
+        headings = ("", "a (mm)", "z_1", "z_2", "u", "m_x1 (mm)", "q_1", "x_2", "eta (%)", "margin",
+                    "least safety", "locks", "mass (kg)")  # fmt: skip
+        rows = [
+            (str(place), f"{p.centre_distance_mm:g}", str(p.starts), str(p.wheel_teeth),
+             f"{p.wheel_teeth / p.starts:.4g}",
+             f"{p.axial_module_mm:g}", f"{p.diameter_factor:g}", f"{round(p.profile_shift, 3):g}",
+             f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", _safety(p.limited_by), p.locks,
+             "-" if p.mass_kg is None else f"{p.mass_kg:.3g}")
+            for place, p in enumerate(self.found[:MOST], 1)
+        ]  # fmt: skip
+        best = self.found[0]
+        first = " ".join(f'--set "{setting}"' for setting in best.settings)
+        remarks = [
+            f"{self.rated} gearset{'s' * (self.rated != 1)} rated, {self.holding} "
+            f"hold{'s' * (self.holding == 1)} by every standard; shown are those "
+            f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
+            # One that breaks is nobody's first one.
+            *([f"the first one: {first}"] if best.holds else []),
+            *(self.notes if self.holding else self.notes[:-1]),
+        ]
+        if len(self.found) > MOST:
+            remarks.insert(1, f"{len(self.found) - MOST} more with --json")
+        title = "" if self.holding else self.notes[-1].capitalize()
+        return (Table.of(headings, rows, title=title, remarks=remarks), *self._made())
+
+    def _made(self) -> Iterator[Table]:
+        """Yield what they are cut with and how they play, where that is asked."""
+        headings = ("", "hob", "backlash (arcmin)", "rim (kg)")
+        rows = [
+            (
+                str(place),
+                p.hob or "any",
+                _backlash(p),
+                "-" if p.rim_kg is None else f"{p.rim_kg:.3g}",
+            )
+            for place, p in enumerate(self.found[:MOST], 1)
+        ]
+        if any(p.hob or p.backlash_arcmin for p in self.found):
+            yield Table.of(headings, rows, title="Made with")
+
+
+def _safety(path: str) -> str:
+    """Return a safety as its symbol and the name of its standard."""
+    demand = next(demand for demand in DEMANDS if demand.path == path)
+    return f"{demand.symbol} {NAMES[demand.standard]}"
+
+
+def _backlash(proposal: Proposal) -> str:
+    interval = proposal.backlash_arcmin
+    return "-" if interval is None else f"{interval[0]:.3g} to {interval[1]:.3g}"

@@ -1,0 +1,38 @@
+/** Symbols set as they are printed: S_delta with its index below, mu as µ. */
+import { html } from "../vendor/preact.js";
+
+const GREEK = {
+  alpha: "α", beta: "β", gamma: "γ", delta: "δ", epsilon: "ε", zeta: "ζ", eta: "η", theta: "θ", lambda: "λ",
+  mu: "µ", nu: "ν", xi: "ξ", pi: "π", rho: "ρ", sigma: "σ", tau: "τ", phi: "φ", chi: "χ", psi: "ψ", omega: "ω",
+};
+const NAMES = Object.keys(GREEK).join("|");
+/** In a formula: a letter or two, or a Greek one by its name, and what stands below it. */
+const SYMBOL = new RegExp(`(?<![A-Za-z0-9_.])(${NAMES}|[A-Za-z]{1,2})(?:_([A-Za-z0-9_]+))?(?![A-Za-z0-9_])`, "g");
+/** In a sentence: only what has something below it, or is a factor before such a thing. */
+const IN_WORDS = new RegExp(
+  `(?<![A-Za-z0-9_.])(?:(${NAMES}|[A-Za-z]|Ra)_([A-Za-z0-9]{1,6})(?![A-Za-z0-9_.]\\w|\\w)|(mu)(?= [A-Z]_))`, "g");
+
+/** @returns {{text: string, below: string}[]} pieces of a text, each with what stands below it */
+export function pieces(text, pattern = SYMBOL) {
+  const found = [];
+  let at = 0;
+  for (const match of String(text).matchAll(pattern)) {
+    const [whole, base = match[3], below = ""] = match;
+    if (!below && !GREEK[base]) continue;
+    found.push({ text: text.slice(at, match.index) + (GREEK[base] ?? base), below: GREEK[below] ?? below });
+    at = match.index + whole.length;
+    // A factor is set close to what it multiplies.
+    if (match[3]) at += 1;
+  }
+  return [...found, { text: String(text).slice(at), below: "" }];
+}
+
+const set = (text, pattern) => (text ? pieces(text, pattern).map((each) => html`${each.text}${
+  each.below ? html`<sub>${each.below.replace("_", ",")}</sub>` : null}`) : text);
+
+/** A symbol or a formula. @param {string} text */
+export const symbol = (text) => set(text, SYMBOL);
+/** The same where nothing can stand below a letter. @param {string} text */
+export const plain = (text) => String(text ?? "").replace(/\bmu (?=[A-Z]_)/g, "µ ");
+/** A sentence with symbols in it. @param {string} text */
+export const inWords = (text) => set(text, IN_WORDS);

@@ -1,0 +1,157 @@
+"""A duty as a case file of its own, sized; the shelf of hobs, masses and backlash of proposals."""
+
+import json
+
+import pytest
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.gearset import Gearset
+from asperity.gearset.masses import masses
+from asperity.gearset.shelf import PAIRS
+from asperity.rating import rate_case
+
+TEXT = "250 N m, 1400 rpm, 500 h; 150 N m, 1400 rpm, 1500 h; 60 N m, 700 rpm, 3000 h"
+SHELF = """
+[source.shop]
+name = "tool crib"
+confidence = "verified"
+[hob."3.15 x 40"]
+axial_module = "3.15 mm"
+worm_pitch_diameter = "40 mm"
+from = { "*" = "shop" }
+[hob."4 x 44 left"]
+axial_module = "4 mm"
+worm_pitch_diameter = "44 mm"
+hand = "left"
+starts = 1
+from = { "*" = "shop" }
+"""
+
+
+def test_a_duty_is_begun_checked_and_sized_and_its_proposal_rated(asperity, tmp_path):
+    begun = ("new", "duty", "my.toml", "--defaults", "--ratio", "50")
+    code, output, errors = asperity(
+        *begun, "--set", f"spectrum.step={TEXT}", "--set", "requirements.self_locking=wanted",
+        "--set", "operation.output_torque=250 N m", "--set", "operation.worm_speed=1400 rpm",
+        cwd=tmp_path,
+    )  # fmt: skip
+    assert code == 0, errors
+    assert "asperity size my.toml" in output
+    code, output, errors = asperity("check", "my.toml", cwd=tmp_path)
+    assert code == 0, errors
+    assert "asperity size can take it" in output
+    code, output, errors = asperity("size", "my.toml", "--uncut", "--out", "out", cwd=tmp_path)
+    assert code == 0, errors
+    told = json.loads((tmp_path / "out" / "size.json").read_text("utf-8"))
+    rated = rate_case(read_case(tmp_path / "out" / "proposal-1.toml", case_tables()))
+    best = told["proposals"][0]
+    assert rated.iso14521["eta_ges"] == pytest.approx(best["efficiency"], rel=1e-9)
+    assert best["locks_at_rest"] == ["iso14521", "bs721", "agma6034"]
+    assert best["mass_kg"] == pytest.approx(masses(rated_gearset(tmp_path)).whole)
+
+
+def rated_gearset(folder):
+    return read_case(folder / "out" / "proposal-1.toml", case_tables()).require(Gearset)
+
+
+def test_torque_and_speed_are_those_of_the_greatest_load(asperity, tmp_path):
+    (tmp_path / "own.toml").write_text(
+        f'[requirements]\nratio = 50\n[operation]\nlubricant = "ISO VG 220 polyglycol"\n'
+        f'[spectrum]\nstep = "{TEXT}"\n'
+    )
+    options = ("--uncut", "--json")
+    code, output, errors = asperity("size", "own.toml", *options, cwd=tmp_path)
+    assert code == 0, errors
+    own = json.loads(output)
+    code, output, errors = asperity(
+        "size", "own.toml", *options, "--output-torque", "250 N m", "--worm-speed", "1400 rpm",
+        cwd=tmp_path,
+    )  # fmt: skip
+    assert code == 0, errors
+    assert own == json.loads(output)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("[requirements]\nratio = 50\n", "own.toml: operation.output_torque is missing"),
+        ('[operation]\noutput_torque = "9 N m"\nworm_speed = "9 rpm"\n', "ratio is missing"),
+        ("[gears]\n", "[gears] is not a table of a case file"),
+        (
+            f'[requirements]\nratio = 500\n[spectrum]\nstep = "{TEXT}"\n',
+            "own.toml: requirements.ratio is 500",
+        ),
+        ("[[requirements]]\nratio = 50\n", "write it as [requirements]"),
+    ],
+)
+def test_a_duty_that_lacks_something_is_refused_by_its_file(asperity, tmp_path, text, said):
+    (tmp_path / "own.toml").write_text(text)
+    code, _, errors = asperity("size", "own.toml", cwd=tmp_path)
+    assert code == 2
+    assert said in errors
+    assert errors.count("\n") <= 1
+
+
+def test_without_case_or_torque_it_is_asked_for(asperity, tmp_path):
+    code, _, errors = asperity("size", "--ratio", "40", cwd=tmp_path)
+    assert code == 2
+    assert "operation.output_torque is missing; give it, as --output-torque" in errors
+
+
+def test_only_hobs_of_the_shelf_are_proposed_and_each_is_named(asperity, tmp_path):
+    (tmp_path / "hobs.toml").write_text(SHELF)
+    duty = ("size", "--output-torque", "100 N m", "--worm-speed", "1400 rpm", "--uncut", "--json")
+    asked = ("--ratio", "50", "--set", "requirements.ratio_tolerance=0.1")
+    for which in ("own", "standard"):
+        code, output, errors = asperity(
+            "--materials", "hobs.toml", *duty, *asked, "--set", f"requirements.hobs={which}",
+            cwd=tmp_path,
+        )  # fmt: skip
+        assert code == 0, errors
+        found = json.loads(output)["proposals"]
+        assert found
+        for one in found:
+            module, diameter = map(float, one["hob"].split(" x "))
+            assert one["axial_module_mm"] == pytest.approx(module)
+            assert one["diameter_factor"] * module == pytest.approx(diameter)
+            # The left hob cuts no right-hand worm.
+            assert diameter in ((40.0,) if which == "own" else PAIRS[module])
+    code, output, errors = asperity("--materials", "hobs.toml", "hobs", cwd=tmp_path)
+    assert code == 0, errors
+    assert "3.15 x 40" in output
+    assert "tool crib" in output
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("size", "--ratio", "50", "--output-torque", "9 N m", "--worm-speed", "9 rpm",
+          "--set", "requirements.hobs=own"), "no data file has a hob"),
+        (("optimise", "gearset-3", "--set", "requirements.hobs=standard"), "needs another hob"),
+        (("optimise", "gearset-3", "--set", "requirements.hobs=standard", "--free",
+          "worm_roughness"), "none of them cuts a gearset"),
+    ],
+)  # fmt: skip
+def test_a_shelf_that_cannot_be_kept_is_refused(asperity, tmp_path, options, said):
+    code, _, errors = asperity(*options, cwd=tmp_path)
+    assert code == 2
+    assert said in errors
+
+
+def test_backlash_of_each_proposal_is_that_of_its_rating(asperity, tmp_path):
+    settings = ("--set", "tolerances.centre_distance=js7",
+                "--set", "tolerances.thread=['-40 um', '-70 um']",
+                "--set", "tolerances.tooth=['-50 um', '-100 um']")  # fmt: skip
+    code, output, errors = asperity(
+        "size", "--ratio", "50", "--output-torque", "250 N m", "--worm-speed", "1400 rpm",
+        "--uncut", "--out", "out", *settings, cwd=tmp_path,
+    )  # fmt: skip
+    assert code == 0, errors
+    assert "backlash (arcmin)" in output
+    best = json.loads((tmp_path / "out" / "size.json").read_text("utf-8"))["proposals"][0]
+    rated = rate_case(read_case(tmp_path / "out" / "proposal-1.toml", case_tables())).to_json()
+    new = rated["backlash"]["new"]
+    assert best["backlash_arcmin"] == pytest.approx(
+        [new["wheel_min_arcmin"], new["wheel_max_arcmin"]]
+    )
