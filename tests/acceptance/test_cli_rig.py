@@ -616,6 +616,12 @@ def fitted(asperity, folder, *options):
     return output
 
 
+def test_a_fit_of_what_is_no_key_is_refused(asperity, tmp_path):
+    (tmp_path / "data.csv").write_text("vibration.velocity_ratio,ratio,sd\n2,0.46,0.01\n", "utf-8")
+    refused(asperity("fit", tmp_path / "data.csv", "table-4.3", "--free", "x.y"), "--free x.y")
+
+
+@pytest.mark.slow
 def test_a_fit_prints_the_keys_of_the_contract(asperity, tmp_path):
     answer = json.loads(fitted(asperity, tmp_path, "--next", "1", "--json"))
     keys = ["parameters", "correlation", "laws", "residuals", "next", "solves", "failed"]
@@ -625,7 +631,6 @@ def test_a_fit_prints_the_keys_of_the_contract(asperity, tmp_path):
     assert answer["laws"][0].keys() == {"law", "chi2", "dof", "delta_chi2"}
     assert len(answer["next"]) == 1
     assert found["units"] == "m"
-    refused(asperity("fit", tmp_path / "data.csv", "table-4.3", "--free", "x.y"), "--free x.y")
 
 
 @pytest.mark.slow

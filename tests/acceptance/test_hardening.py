@@ -167,7 +167,7 @@ def asked_in_part(sent, monkeypatch):
     async def whole():
         config = uvicorn.Config(
             guard.Guard(application, "x", listening.getsockname()[1]), http=patience.Patient,
-            lifespan="off", log_config=None, log_level="critical",
+            lifespan="off", log_config=None, log_level="critical", timeout_keep_alive=1,
         )  # fmt: skip
         server = uvicorn.Server(config)
         server.capture_signals = lambda: __import__("contextlib").nullcontext()

@@ -8,16 +8,17 @@ from harvest import lines, noted
 from asperity.kernels.native import entries, kept, load
 from asperity.kernels.native.target import FEATURES
 
-QUICK = (
-    "slide table-4.1-L4",
+QUICK = "slide table-4.1-L4", "methods gearset-3"
+# Calls kernels in processes of its own.
+WORKERS = (
     "sweep table-4.3 --over vibration.velocity_ratio=2,6 --over friction.law=split,unsplit,vector "
-    "--set solve.method=periodic --out OUT",
-    "methods gearset-3",
+    "--set solve.method=periodic --out OUT"
 )
 
 
 def _marked(line):
-    return pytest.param(line, marks=(pytest.mark.slow, pytest.mark.campaign))
+    others = () if line == WORKERS else (pytest.mark.campaign,)
+    return pytest.param(line, marks=(pytest.mark.slow, *others))
 
 
 def test_every_command_line_that_is_recorded_is_in_the_list():

@@ -17,6 +17,9 @@ LINES = (
     "static table-4.3 --json",
     "slide normal-pin --json",
     "flank gearset-3b --density coarse --json",
+    "drive drive-thesis --json",
+    "block block-longitudinal --set block.elements='[4, 3, 3]' --set block.element=hex8 "
+    "--set vibration.start='2 ms' --set solve.step='4 us' --set solve.duration='5 ms' --json",
 )
 
 

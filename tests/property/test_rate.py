@@ -4,12 +4,14 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate, variants
+from asperity.rating.by_standard import judge_of
+from asperity.rating.demands import DEMANDS
 from asperity.rating.iso14521.efficiency import wheel_driving_efficiency
 from asperity.rating.self_locking import locking_friction
 
@@ -87,6 +89,20 @@ def test_input_is_output_and_losses(case):
     assert iso["eta_ges"] == pytest.approx(iso["output_power_W"] / iso["input_power_W"], rel=1e-12)
     shaft = iso["input_torque_Nm"] * iso["worm_speed_rpm"] * 2.0 * math.pi / 60.0
     assert shaft == pytest.approx(iso["input_power_W"], rel=1e-12)
+
+
+@settings(max_examples=30)
+@given(tables())
+def test_a_safety_judged_alone_is_that_of_the_whole_rating(case):
+    gearset, operation, options = case
+    rated = rate(*case)
+    for demand in DEMANDS:
+        judge = judge_of(demand, options, rated.tables_bs721)
+        if demand.standard in rated.found and demand.key in rated.found[demand.standard]:
+            assert judge(gearset, operation) == rated.found[demand.standard][demand.key]
+        else:
+            with pytest.raises(InputError):
+                judge(gearset, operation)
 
 
 @given(tables())

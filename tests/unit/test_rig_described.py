@@ -413,7 +413,8 @@ def test_a_guardian_switches_described_instruments_and_reads_them_back(guarded):
 
 
 def test_a_described_supply_that_stays_on_is_named(guarded):
-    guard, (two, _, _) = guarded()
+    # What is welded is waited for until the deadline.
+    guard, (two, _, _) = guarded('guardian.deadline="4 s"')
     for key in ("steel", "bronze"):
         guard.ask(key, "set", 3.0)
         guard.ask(key, "on")

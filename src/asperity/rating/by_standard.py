@@ -1,12 +1,17 @@
 """A gearset by one standard, named by a word, and what a rating by it always has."""
 
+import math
+
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rate as rate_agma6034
+from asperity.rating.agma6034.rating import rated as rated_agma6034
 from asperity.rating.bs721.rating import rate as rate_bs721
+from asperity.rating.bs721.rating import rated as rated_bs721
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import Demand
-from asperity.rating.inputs import Inputs, inputs
+from asperity.rating.inputs import Inputs, Values, inputs
 from asperity.rating.iso14521.rating import rate as rate_iso14521
+from asperity.rating.iso14521.rating import rated as rated_iso14521
 from asperity.rating.levers import Judge
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.result import Rating
@@ -31,10 +36,23 @@ def judge_of(demand: Demand, options: RatingOptions, tables: Tables) -> Judge:
     """Return what finds a safety of a gearset and its operation."""
 
     def judge(gearset: Gearset, operation: Operation) -> float:
-        rating = rate_by(demand.standard, inputs(gearset, operation, options), tables)
-        return float(rating[demand.key])
+        given = inputs(gearset, operation, options)
+        safety = float(_numbers(demand.standard, given, tables).get(demand.key, math.nan))
+        if math.isfinite(safety):
+            return safety
+        # A whole rating says why there is none.
+        return float(rate_by(demand.standard, given, tables)[demand.key])
 
     return judge
+
+
+def _numbers(name: str, given: Inputs, tables: Tables) -> Values:
+    """Return the numbers of a rating by key, without what is told of them."""
+    if name == "iso14521":
+        return rated_iso14521(given)[0]
+    if name == "bs721":
+        return rated_bs721(given, tables)[0]
+    return rated_agma6034(given)
 
 
 def rate_by(name: str, given: Inputs, tables: Tables) -> Rating:

@@ -82,12 +82,13 @@ class HalfSpace:
         a, b = spacing
         rows, columns = (fft.next_fast_len(2 * n, real=True) for n in shape)
         self._padded = rows, columns
-        x, y = (
-            step * np.minimum(np.arange(m), m - np.arange(m))
-            for step, m in zip(spacing, self._padded, strict=True)
-        )
+        # Of one quarter: the others mirror it.
+        halves = [m // 2 + 1 for m in self._padded]
+        x, y = (step * np.arange(n) for step, n in zip(spacing, halves, strict=True))
         # Of a unit force: the pressure is that over the rectangle's area.
-        kernel = rectangle_deflection(x[:, None], y[None, :], a, b) / (np.pi * modulus * a * b)
+        quarter = rectangle_deflection(x[:, None], y[None, :], a, b) / (np.pi * modulus * a * b)
+        i, j = (np.minimum(np.arange(m), m - np.arange(m)) for m in self._padded)
+        kernel = quarter[i[:, None], j]
         self.own = float(kernel[0, 0])  #: Deflection of a rectangle under its own unit force, m/N
         # An even function's transform is real.
         self._transform = fft.rfft2(kernel).real

@@ -236,11 +236,10 @@ class _Teeth:
     def first_strips(self) -> list[Strip | None]:
         """Return a strip over what is near the worm on each tooth; None where nothing is."""
         flank = self.contact.flank
-        points, normals, share, z = flank.grid
-        weights = flank.interpolation(share, z)
+        points, normals, *_ = flank.grid
         strips: list[Strip | None] = []
         for approach in self.approaches:
-            moved = weights @ approach.moved
+            moved = flank.on_grid @ approach.moved
             gap, *_ = approach.gaps(points + moved)
             size = float(np.linalg.norm(moved, axis=1).max())
             near = gap < max(_NEAR * size, _LEAST_NEAR)

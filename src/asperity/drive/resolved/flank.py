@@ -6,6 +6,7 @@ Lengths are in m, in the frame of a tooth that stands about +Y (`asperity.drive.
 from __future__ import annotations
 
 import dataclasses
+import functools
 from functools import cached_property
 
 import numpy as np
@@ -72,6 +73,12 @@ class ExactFlank:
             share,
             made.z.reshape(-1) / _MILLIMETRES,
         )
+
+    @cached_property
+    def on_grid(self) -> sparse.csr_array:
+        """What makes values at the points of `grid` of values at the nodes."""
+        _, _, share, z = self.grid
+        return self.interpolation(share, z)
 
     @property
     def nodes(self) -> int:
@@ -176,10 +183,7 @@ class ExactFlank:
         def powers(at: FloatArray, axis: int) -> tuple[FloatArray, FloatArray]:
             u = (at - middle[axis]) / reach[axis]
             values = np.polynomial.chebyshev.chebvander(u, degree)
-            slopes = np.zeros_like(values)
-            for k in range(1, degree + 1):
-                one = np.polynomial.chebyshev.chebder(np.eye(degree + 1)[k])
-                slopes[:, k] = np.polynomial.chebyshev.chebval(u, one) / reach[axis]
+            slopes = np.einsum("ki,ij->kj", values, _derivative(degree)) / reach[axis]
             return values, slopes
 
         one, _ = powers(places[:, 0], 0)
@@ -196,6 +200,15 @@ class ExactFlank:
         matrix[first, second] = found
         (px, dx), (py, dy) = powers(x, 0), powers(y, 1)
         return Heights(px @ matrix @ py.T, dx @ matrix @ py.T, px @ matrix @ dy.T, off)
+
+
+@functools.cache
+def _derivative(degree: int) -> FloatArray:
+    """Slopes of Chebyshev's polynomials in terms of themselves, one polynomial a column."""
+    found = np.zeros((degree + 1, degree + 1))
+    for k in range(1, degree + 1):
+        found[:degree, k] = np.polynomial.chebyshev.chebder(np.eye(degree + 1)[k])
+    return found
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

@@ -30,16 +30,22 @@ def rate(given: Inputs) -> Rating:
     InputError
         The standard cannot be applied.
     """
-    values = rated_efficiency(given)
-    with masking() as unanswered:
-        values = rated_capacity(given, values)
+    values, unanswered = rated(given)
     return Rating(
         EDITIONS[given.options.iso14521_edition],
         entries(given, "iso14521", values, _sources(given), _equations(given)),
         _violations(given, values),
-        (*unanswered.legend.values(), *_notes(given, values)),
-        tuple(unanswered.legend.values()),
+        (*unanswered, *_notes(given, values)),
+        unanswered,
     )
+
+
+def rated(given: Inputs) -> tuple[Values, tuple[str, ...]]:
+    """Return all numbers by the keys of a rating, and why some have no answer."""
+    values = rated_efficiency(given)
+    with masking() as unanswered:
+        values = rated_capacity(given, values)
+    return values, tuple(unanswered.legend.values())
 
 
 _HOTTEST_GIVEN = 100.0
