@@ -31,7 +31,8 @@ import numpy as np
 from asperity.runs.workers import Task
 from asperity.thesis import said
 from asperity.thesis.exhibits import claim, figure, table
-from asperity.thesis.products import Finding, Grid, labelled
+from asperity.results.dataset import described
+from asperity.thesis.products import Finding, Grid
 
 HERE = os.path.dirname(__file__)
 words = said._read()
@@ -50,7 +51,7 @@ def draw(dataset):
 @figure("9.1", draw, "figure 9.1")
 def drawn(name, full=False):
     note(name + " in full" * full)
-    return labelled(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"]
+    return described(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"]
 
 @table("9.1")
 def calculated():

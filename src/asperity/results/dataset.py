@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.results.quantity import Quantities
+from asperity.results.quantity import Label, Quantities
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -47,6 +47,48 @@ def to_dataset(
             described = {"units": "1", "long_name": long_name}
             coordinates[dim] = (dim, _array(list(names)), described)
     return xr.Dataset(variables, coordinates, written | dict(attributes))
+
+
+Described = tuple[Sequence[str], Any, str, str]
+"""A variable: its dimensions, values, units and long name."""
+
+
+def described(title: str = "", **variables: Described) -> "xr.Dataset":
+    """Return variables as a dataset; those named as a dimension are its coordinates."""
+    import xarray as xr
+
+    named = {
+        name: (dims, values, {"units": units, "long_name": long_name})
+        for name, (dims, values, units, long_name) in variables.items()
+    }
+    dimensions = {dim for dims, *_ in variables.values() for dim in dims}
+    made = xr.Dataset(named, attrs={"title": title} if title else {})
+    return made.set_coords(sorted(dimensions & set(named)))
+
+
+def along(dim: str, answers: Sequence[Quantities]) -> dict[str, Described]:
+    """Return what several answers of a kind have in files as variables along a dimension.
+
+    An interval has both ends along ``end``; a number that is not there is NaN, a text empty.
+    """
+    columns = zip(*(answer.entries() for answer in answers), strict=True)
+    return {
+        column[0].variable: _along(dim, column[0].label, [entry.value for entry in column])
+        for column in columns
+        if column[0].in_file
+    }
+
+
+def _along(dim: str, label: Label, values: Sequence[Any]) -> Described:
+    dims, unit = (dim,), label.unit or "1"
+    if label.is_ends:
+        ends = [(np.nan, np.nan) if value is None else value for value in values]
+        return (dim, "end"), np.array(ends, dtype=float), unit, label.meaning
+    if any(isinstance(value, str | tuple) for value in values):
+        texts = ["; ".join(value) if isinstance(value, tuple) else value or "" for value in values]
+        return dims, np.array(texts, dtype=object), unit, label.meaning
+    numbers = [np.nan if value is None else float(value) for value in values]
+    return dims, np.array(numbers), unit, label.meaning
 
 
 def _array(values: Any) -> Any:

@@ -177,15 +177,3 @@ class Finding:
     def write(self, stem: Path, words: Mapping[str, Any]) -> tuple[Plain, list[Path]]:
         """Return what is shown; the ledger is written of all claims together."""
         return dataclasses.asdict(self), []
-
-
-def labelled(**variables: tuple[Sequence[str], Any, str, str]) -> "xr.Dataset":
-    """Variables given as (dimensions, values, units, long name); a dimension's own is a coord."""
-    import xarray as xr
-
-    named = {
-        name: (dims, values, {"units": units, "long_name": long_name})
-        for name, (dims, values, units, long_name) in variables.items()
-    }
-    dimensions = {dim for dims, *_ in variables.values() for dim in dims}
-    return xr.Dataset(named).set_coords(sorted(dimensions & set(named)))
