@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray
 from asperity.results import Result, quantity
-from asperity.results.table import Table, table_of
+from asperity.results.table import Table, table_of, table_of_rows
 
 
 @dataclasses.dataclass(frozen=True)
@@ -92,14 +92,13 @@ class Checked(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return the counts, and a row a finding with what to do below."""
-        rows = [
-            (place, one.file, one.where, one.name, "not good" if one.spoils else "to know")
-            for place, one in enumerate(self.found, start=1)
-        ]
         told = [
             f"{place}: {one.evidence}; {one.remedy}"
             for place, one in enumerate(self.found, start=1)
         ]
-        listed = Table.of(("", "file", "vibration at", "finding", "numbers"), rows, left=5)
-        named = Table(listed.columns, listed.rows, remarks=(*told, *self.notes))
-        return table_of(self), named
+        columns = {
+            "": lambda one: str(self.found.index(one) + 1), "file": "file",
+            "vibration at": "where", "finding": "name",
+            "numbers": lambda one: "not good" if one.spoils else "to know",
+        }  # fmt: skip
+        return table_of(self), table_of_rows(self.found, columns, remarks=(*told, *self.notes))
