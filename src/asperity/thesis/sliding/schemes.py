@@ -12,7 +12,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.sliding import drawings_schemes as drawings
+from asperity.thesis.sliding import drawings
 
 _TRANSFER, _EXPONENT = 0.71, 1.0
 _HOW = "asperity.thesis.sliding.schemes.increment"
