@@ -9,7 +9,7 @@ JSON, netCDF, tables, pages, pictures and the variables of a sweep follow from t
 :Tests: `unit/test_results*`, `unit/test_settled`, `unit/test_terminal`, `unit/test_workbook`.
 """
 
-from asperity.results.quantity import Quantities, labelled, part, quantity
+from asperity.results.quantity import Quantities, labelled, measured, part, quantity
 from asperity.results.result import Result, Saved, read
 
-__all__ = ["Quantities", "Result", "Saved", "labelled", "part", "quantity", "read"]
+__all__ = ["Quantities", "Result", "Saved", "labelled", "measured", "part", "quantity", "read"]

@@ -7,10 +7,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.files.store import harmless_cell, write_text
-from asperity.results import Quantities, Result, quantity
+from asperity.results import Quantities, Result, labelled, measured, quantity
 from asperity.results.dataset import along, described
 from asperity.results.interval import numbers_of, value_of
-from asperity.results.quantity import CI95, labelled, measured, plain
+from asperity.results.quantity import CI95, plain
 from asperity.results.table import Table
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budgets
