@@ -19,11 +19,12 @@ from asperity.kernels import closure
 from asperity.runs import Interrupted, key, workers
 from asperity.runs.workers import Task, done
 from asperity.thesis import contents, exhibits
-from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, Chapter, everything, select
+from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything, select
 from asperity.thesis.exhibits import Exhibit
 from asperity.thesis.reproduce import run as reproduction
 from asperity.thesis.reproduce.files import key_of
 from asperity.thesis.reproduce.run import run
+from asperity.thesis.said import Chapter
 
 MODULE = """
 import os, time

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, get_args
 
 from asperity import __version__
 from asperity.files.store import write_atomically, write_dataset, write_text
+from asperity.thesis.said import listed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -105,6 +106,13 @@ class Grid:
             for one in things
         )
         return cls(tuple(columns), rows, tuple(_lines(how)))
+
+    @classmethod
+    def listed(cls, number: str, *how: How) -> "Grid":
+        """Return a table of words alone, as it is listed by its number."""
+        found = listed(f"table {number}")
+        rows = tuple(map(tuple, found["rows"]))
+        return cls(tuple(found["columns"]), rows, tuple(_lines(how)))
 
     def to_csv(self) -> str:
         """As text, numbers to the last digit."""
