@@ -1,6 +1,7 @@
 """The answer of ``asperity rig check``: findings, each with its evidence and what to do."""
 
 import dataclasses
+import itertools
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
@@ -96,8 +97,9 @@ class Checked(Result):
             f"{place}: {one.evidence}; {one.remedy}"
             for place, one in enumerate(self.found, start=1)
         ]
+        number = itertools.count(1)
         columns = {
-            "": lambda one: str(self.found.index(one) + 1), "file": "file",
+            "": lambda one: str(next(number)), "file": "file",
             "vibration at": "where", "finding": "name",
             "numbers": lambda one: "not good" if one.spoils else "to know",
         }  # fmt: skip
