@@ -56,7 +56,7 @@ Described = tuple[Sequence[str], Any, str, str]
 """A variable: its dimensions, values, units and long name."""
 
 
-def described(title: str = "", **variables: Described) -> "xr.Dataset":
+def described(title: str = "", /, **variables: Described) -> "xr.Dataset":
     """Return variables as a dataset; those named as a dimension are its coordinates."""
     import xarray as xr
 

@@ -7,7 +7,7 @@ from typing import Any, ClassVar, NamedTuple, Self
 from asperity.results.quantity import Entry, Quantities
 from asperity.results.words import Number, text_of
 
-__all__ = ["Bar", "Cell", "Column", "Number", "Table", "table_of", "table_of_rows"]
+__all__ = ["Bar", "Cell", "Column", "Columns", "Number", "Table", "table_of", "table_of_rows"]
 
 
 class Bar(str):
@@ -142,9 +142,13 @@ class Cell(NamedTuple):
         return text_of(value, key=key)
 
 
+Columns = Mapping[str, str | Callable[[Any], Any] | Cell]
+"""What the columns of a table hold, by their headings."""
+
+
 def table_of_rows(
     things: Iterable[Any],
-    columns: Mapping[str, str | Callable[[Any], Any] | Cell],
+    columns: Columns,
     *,
     title: str = "",
     remarks: Iterable[str] = (),

@@ -79,13 +79,13 @@ class Compared(Quantities):
     @labelled("k", "", "peak velocity of the vibration over the sliding velocity", only="file")
     def velocity_ratio(self) -> float | None:
         """Peak velocity of the vibration over the sliding velocity."""
-        return self.vibration and self.vibration.velocity_ratio
+        return None if self.vibration is None else self.vibration.velocity_ratio
 
     @property
     @labelled("v_a", "m/s", "peak velocity of the vibration", only="file")
     def velocity_amplitude(self) -> float | None:
         """Peak velocity of the vibration, m/s."""
-        return self.vibration and self.vibration.velocity
+        return None if self.vibration is None else self.vibration.velocity
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""

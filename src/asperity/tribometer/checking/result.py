@@ -7,7 +7,7 @@ from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray
 from asperity.results import Result, quantity
-from asperity.results.table import Table, table_of, table_of_rows
+from asperity.results.table import Columns, Table, table_of, table_of_rows
 
 
 @dataclasses.dataclass(frozen=True)
@@ -98,7 +98,7 @@ class Checked(Result):
             for place, one in enumerate(self.found, start=1)
         ]
         number = itertools.count(1)
-        columns = {
+        columns: Columns = {
             "": lambda one: str(next(number)), "file": "file",
             "vibration at": "where", "finding": "name",
             "numbers": lambda one: "not good" if one.spoils else "to know",

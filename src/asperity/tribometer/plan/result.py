@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray
 from asperity.results import Result, quantity
-from asperity.results.table import Table, table_of, table_of_rows
+from asperity.results.table import Columns, Table, table_of, table_of_rows
 from asperity.tribometer.plan.matrix import PlannedFile
 
 
@@ -62,7 +62,7 @@ class PlanResult(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return the plan in numbers and the files in their order."""
-        columns = {
+        columns: Columns = {
             "file": "name", "mode": "mode", "waveform": "waveform", "lubricant": "lubricant",
             "V_ms V": lambda one: f"{one.steel_supply:g}", "repeat": lambda one: str(one.repeat),
             "frequencies Hz": lambda one: " ".join(f"{cell.frequency:g}" for cell in one.cells),
