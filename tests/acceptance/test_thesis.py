@@ -23,7 +23,7 @@ from asperity.kernels import compiled
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything
 from asperity.thesis.products import VERDICTS as KINDS
-from asperity.thesis.said import READ_BY_A_MACHINE, findings, lost, said_of, slips
+from asperity.thesis.said import findings, lost, read_by_a_machine, said_of, slips
 
 # Where a method is no vibration, and where an input is raised too far, there is no such number.
 GAPS = {"3.1": ("velocity_ratio", "velocity_amplitude"), "3.2": ("eta_z1_2", "fails_above")}
@@ -514,7 +514,7 @@ def test_the_page_shows_every_claim_with_its_verdict_in_words_and_its_commands(r
 
 def test_the_page_quotes_the_thesis_and_says_who_read_it(result):
     page = result.index.read_text("utf-8")
-    assert READ_BY_A_MACHINE in page
+    assert read_by_a_machine() in page
     for entry in result.claims:
         card = page.partition(f'id="claim-{entry.number}"')[2].partition("</article>")[0]
         for line, _ in entry.plain["said"]:

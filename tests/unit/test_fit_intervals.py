@@ -64,7 +64,7 @@ def test_the_ends_that_are_expected_are_those_of_the_exact_profile():
 
 def meets(result):
     for one in result.parameters:
-        for found, expected in zip(one.ci95, ENDS[one.key], strict=True):
+        for found, expected in zip(one.ends, ENDS[one.key], strict=True):
             if expected is None:
                 assert found is None
             else:
@@ -148,8 +148,8 @@ def test_where_a_model_answers_no_more_an_end_is_open_and_says_so(tmp_path, monk
 
     monkeypatch.setattr(study, "Predictor", lambda *_: Short())
     one = {one.key: one for one in answer(problem(tmp_path), Run()).parameters}[MU]
-    assert one.ci95[1] is None
-    assert one.ci95[0] == pytest.approx(ENDS[MU][0], rel=2e-3)
+    assert one.ends[1] is None
+    assert one.ends[0] == pytest.approx(ENDS[MU][0], rel=2e-3)
     assert not one.identifiable
     assert one.why.startswith("the model answers no further than 1.0")
     assert "no answer beyond" in one.why

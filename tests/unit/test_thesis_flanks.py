@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from asperity.mesh import box
+from asperity.results.dataset import described
 from asperity.thesis.contents import FIGURES
 from asperity.thesis.flanks import figures as figures_flanks
 from asperity.thesis.flanks import solids as figures_solids
 from asperity.thesis.flanks.drawings_solids import View, paint
 from asperity.thesis.flanks.meshing import meshing
 from asperity.thesis.flanks.shapes import Shape, joined
-from asperity.thesis.products import labelled
 
 IDENTICAL, MISALIGNED, MODIFIED = 0, 1, 2
 
@@ -115,7 +115,7 @@ def cube():
 
 def test_a_shape_comes_back_from_its_dataset(cube):
     both = joined([cube, Shape.of_grid(np.zeros((2, 3, 3)), 1)])
-    back = Shape.read(labelled(**both.variables("cube")), "cube")
+    back = Shape.read(described(**both.variables("cube")), "cube")
     assert np.array_equal(back.points, both.points)
     assert np.array_equal(back.faces, both.faces)
     assert np.array_equal(np.unique(back.part, return_counts=True), [[0, 1], [24, 2]])

@@ -19,11 +19,12 @@ from asperity.kernels import closure
 from asperity.runs import Interrupted, key, workers
 from asperity.runs.workers import Task, done
 from asperity.thesis import contents, exhibits
-from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, Chapter, everything, select
+from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything, select
 from asperity.thesis.exhibits import Exhibit
 from asperity.thesis.reproduce import run as reproduction
 from asperity.thesis.reproduce.files import key_of
 from asperity.thesis.reproduce.run import run
+from asperity.thesis.said import Chapter
 
 MODULE = """
 import os, time
@@ -31,7 +32,8 @@ import numpy as np
 from asperity.runs.workers import Task
 from asperity.thesis import said
 from asperity.thesis.exhibits import claim, figure, table
-from asperity.thesis.products import Finding, Grid, labelled
+from asperity.results.dataset import described
+from asperity.thesis.products import Finding, Grid
 
 HERE = os.path.dirname(__file__)
 words = said._read()
@@ -50,7 +52,7 @@ def draw(dataset):
 @figure("9.1", draw, "figure 9.1")
 def drawn(name, full=False):
     note(name + " in full" * full)
-    return labelled(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"]
+    return described(k=((), 1.0, "1", "k")), ["asperity slide table-4.3"]
 
 @table("9.1")
 def calculated():

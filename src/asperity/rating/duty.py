@@ -1,5 +1,6 @@
 """What each part of a duty cycle has in the wear and the heat, by ISO/TR 14521."""
 
+import itertools
 import math
 
 import numpy as np
@@ -57,10 +58,11 @@ def _each(together: Values, count: int) -> tuple[Values, ...]:
 
 def duty_table(parts: tuple[DutyPart, ...]) -> Table:
     """Return a row for each part."""
+    number = itertools.count(1)
     return table_of_rows(
         parts,
         {
-            "": lambda part: f"part {parts.index(part) + 1}",
+            "": lambda part: f"part {next(number)}",
             "h": "hours",
             "T (N m)": "torque",
             "n_1 (rpm)": "speed",

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from typing import Any
 
+from asperity.results.dataset import rounded
 from asperity.results.quantity import plain
 from asperity.results.result import Result
-from asperity.results.variables import rounded
 
 _POINTS = 97
 

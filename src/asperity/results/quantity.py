@@ -206,6 +206,18 @@ def measured(
     """Declare a field as an `asperity.results.interval.Interval` or None, which it is by default.
 
     JSON has it as two keys, ``torque_Nm`` and ``torque_ci95_Nm``, a dataset as two variables.
+
+    Parameters
+    ----------
+    symbol, unit, meaning, key, only : str
+        Of the number, as of :class:`Label`; the key of the ends follows from its own.
+    ends_only : {'json', 'file', None}
+        Where the ends appear, if not wherever the number does.
+
+    Returns
+    -------
+    object
+        What a class derived from :class:`Quantities` takes as a field.
     """
     label = Label(symbol, unit, meaning, key, only=only, swept=False)
     ends = Label("", unit, f"{meaning}: interval of 95 %", only=ends_only or only, shown=False,

@@ -4,10 +4,10 @@ import dataclasses
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple, Self
 
-from asperity.results.quantity import Quantities
+from asperity.results.quantity import Entry, Quantities
 from asperity.results.words import Number, text_of
 
-__all__ = ["Bar", "Cell", "Column", "Number", "Table", "table_of", "table_of_rows"]
+__all__ = ["Bar", "Cell", "Column", "Columns", "Number", "Table", "table_of", "table_of_rows"]
 
 
 class Bar(str):
@@ -128,13 +128,12 @@ class Cell(NamedTuple):
     times: float = 1.0
     right: bool | None = None
 
-    def text(self, thing: Any, path: str) -> str:
-        """Return what it is of one, which stands in JSON by a path; empty for none."""
+    def text(self, thing: Any, entries: Mapping[str, Entry], path: str) -> str:
+        """Return what it is of one, whose quantities stand in JSON by a path; empty for none."""
         if not isinstance(self.of, str):
             return self._shown(self.of(thing), "")
-        if not isinstance(thing, Quantities):
+        if (entry := entries.get(self.of)) is None:
             return self._shown(getattr(thing, self.of), "")
-        entry = next(one for one in thing.entries() if one.name == self.of)
         return self._shown(entry.value, path and f"{path}.{entry.key}")
 
     def _shown(self, value: Any, key: str) -> str:
@@ -143,9 +142,13 @@ class Cell(NamedTuple):
         return text_of(value, key=key)
 
 
+Columns = Mapping[str, str | Callable[[Any], Any] | Cell]
+"""What the columns of a table hold, by their headings."""
+
+
 def table_of_rows(
     things: Iterable[Any],
-    columns: Mapping[str, str | Callable[[Any], Any] | Cell],
+    columns: Columns,
     *,
     title: str = "",
     remarks: Iterable[str] = (),
@@ -167,15 +170,17 @@ def table_of_rows(
         Where the list stands in JSON; empty where it does not.
     """
     cells = [one if isinstance(one, Cell) else Cell(one) for one in columns.values()]
-    rows = tuple(
-        tuple(cell.text(thing, within and f"{within}.{place}") for cell in cells)
-        for place, thing in enumerate(things)
-    )
+    rows = []
+    for place, thing in enumerate(things):
+        known = thing.entries() if isinstance(thing, Quantities) else ()
+        entries = {entry.name: entry for entry in known}
+        path = within and f"{within}.{place}"
+        rows.append(tuple(cell.text(thing, entries, path) for cell in cells))
     heads = tuple(
         Column(heading, right=_is_right(cell, [row[n] for row in rows]))
         for n, (heading, cell) in enumerate(zip(columns, cells, strict=True))
     )
-    return Table(heads, rows, title, tuple(remarks))
+    return Table(heads, tuple(rows), title, tuple(remarks))
 
 
 def _is_right(cell: Cell, texts: Sequence[str]) -> bool:

@@ -10,7 +10,7 @@ import numpy as np
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import ConvergenceError, InputError, shown
 from asperity.formulas.formula import Formula
-from asperity.results.variables import rounded
+from asperity.results.dataset import rounded
 from asperity.slider.closed_forms.ratios import directed_ratio, triangle_directed_ratio
 from asperity.slider.continuation import follow
 from asperity.slider.model import Model

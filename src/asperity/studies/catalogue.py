@@ -21,8 +21,8 @@ from asperity.gearset.parameters import Gearset
 from asperity.gearset.sizing import MODULES, MOST_STARTS, MOST_TEETH, least_teeth, possible_starts
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.variants import Variants, variants
+from asperity.results.dataset import described
 from asperity.studies.design import NEEDED, Bounds
-from asperity.studies.layout import labelled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -147,14 +147,10 @@ class Catalogue:
         """Return the proposals over ratio and centre distance."""
         both = ("ratio", "centre_distance")
         named = {key: (both, values, *_CATALOGUE[key]) for key, values in self.numbers.items()}
-        return labelled(
+        return described(
             "Most efficient worm gearsets of a catalogue",
-            {
-                "ratio": (("ratio",), self.ratios, "1", "gear ratio asked for"),
-                "centre_distance": (
-                    ("centre_distance",), self.centre_distances, "m", "centre distance",
-                ),
-            },
+            ratio=(("ratio",), self.ratios, "1", "gear ratio asked for"),
+            centre_distance=(("centre_distance",), self.centre_distances, "m", "centre distance"),
             candidates=(both, self.candidates, "1", "gearsets that were rated"),
             reason=(both, self.reason, "1", "why there is no proposal"),
             **{key.removesuffix("_Nm").removesuffix("_mm"): value for key, value in named.items()},

@@ -1,82 +1,95 @@
 """Ways to less friction side by side: what each is worth in one gearset."""
 
-import dataclasses
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-
 from asperity.errors import InputError, nearest
-from asperity.results import Result, quantity
-from asperity.results.table import Table
+from asperity.results import Quantities, Result, labelled, quantity
+from asperity.results.dataset import along, described
+from asperity.results.table import Cell, Table, table_of_rows
 from asperity.sources import Source
-from asperity.studies.layout import labelled, percent, points, words
+from asperity.studies.layout import points
 from asperity.studies.shaken import Shaken
 
 if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclasses.dataclass(frozen=True)
-class Compared:
+class Compared(Quantities):
     """A gearset with one way to less friction.
+
+    Efficiencies are those of the gears: the power of a vibration does not count but in
+    `efficiency_with_vibration`. The worm locks itself where the efficiency with the wheel driving
+    is not above zero.
 
     Attributes
     ----------
-    key, name : str
-        Short name, and what it is.
     kind : {'as it is', 'oil', 'additive', 'coating', 'vibration'}
         Family.
-    base_friction, friction : float
-        Base and mean coefficient of tooth friction.
-    efficiency, total_efficiency : float
-        Of the teeth and of the gearbox, the worm driving; the power of a vibration does not count.
-    back_driving_efficiency : float
-        Of the teeth, the wheel driving; the worm locks itself where it is not above zero.
     gain : float
         Rise of the efficiency of the teeth, as a share of one.
     source : Source
         Who reports the friction.
     vibration : Shaken or None
         What is imposed.
-    vibration_power : float
-        Power that it puts into the contact, W.
-    efficiency_with_vibration : float
-        Efficiency of the teeth with that power counted.
     """
 
-    key: str
-    name: str
-    kind: str
-    base_friction: float
-    friction: float
-    efficiency: float
-    total_efficiency: float
-    back_driving_efficiency: float
+    key: str = quantity("", "", "way to less friction", variable="way")
+    name: str = quantity("", "", "what it is")
+    kind: str = quantity("", "", "family")
+    base_friction: float = quantity(
+        "mu_0T", "", "base coefficient of friction", key="mu_0T", variable="mu_0T"
+    )
+    friction: float = quantity(
+        "mu_zm", "", "mean coefficient of tooth friction", key="mu_zm", variable="mu_zm"
+    )
+    efficiency: float = quantity(
+        "eta_z1-2", "", "efficiency of the teeth", key="eta_z1_2", variable="eta_z1_2"
+    )
+    total_efficiency: float = quantity(
+        "eta_ges", "", "efficiency of the gearbox", key="eta_ges", variable="eta_ges"
+    )
+    back_driving_efficiency: float = quantity(
+        "eta_z2-1", "", "efficiency of the teeth, wheel driving", key="eta_z2_1",
+        variable="eta_z2_1",
+    )  # fmt: skip
     gain: float
     source: Source
     vibration: Shaken | None
-    vibration_power: float
-    efficiency_with_vibration: float
+    vibration_power: float = quantity("P_v", "W", "power of the vibration", only="file")
+    efficiency_with_vibration: float = quantity(
+        "eta_z1-2", "", "efficiency of the teeth with the power of the vibration counted",
+        variable="eta_z1_2_with_power", only="file",
+    )  # fmt: skip
 
     @property
+    @labelled("", "", "whether the worm locks itself", key="self_locking", only="json")
     def locks(self) -> bool:
         """Whether the worm locks itself while it slides."""
         return self.back_driving_efficiency <= 0.0
 
+    @property
+    @labelled("", "", "who reports its friction", variable="source", only="file")
+    def reported(self) -> str:
+        """Who reports its friction, and how far that can be relied upon."""
+        return str(self.source)
+
+    @property
+    @labelled("k", "", "peak velocity of the vibration over the sliding velocity", only="file")
+    def velocity_ratio(self) -> float | None:
+        """Peak velocity of the vibration over the sliding velocity."""
+        return None if self.vibration is None else self.vibration.velocity_ratio
+
+    @property
+    @labelled("v_a", "m/s", "peak velocity of the vibration", only="file")
+    def velocity_amplitude(self) -> float | None:
+        """Peak velocity of the vibration, m/s."""
+        return None if self.vibration is None else self.vibration.velocity
+
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""
-        answer: dict[str, Any] = {
-            "key": self.key,
-            "name": self.name,
-            "kind": self.kind,
-            "mu_0T": self.base_friction,
-            "mu_zm": self.friction,
-            "eta_z1_2": self.efficiency,
-            "eta_ges": self.total_efficiency,
-            "eta_z2_1": self.back_driving_efficiency,
-            "self_locking": self.locks,
+        answer = super().to_json() | {
             "gain_points": 100.0 * self.gain,
             "source": self.source.name,
             "confidence": self.source.confidence,
@@ -148,43 +161,8 @@ class Comparison(Result):
 
     def to_dataset(self) -> "xr.Dataset":
         """Return friction, efficiencies and vibrations over the methods."""
-        rows, over = self.rows, ("way",)
-
-        def column(get: Callable[["Compared"], float]) -> Any:
-            return np.array([get(row) for row in rows])
-
-        def imposed(get: Callable[["Shaken"], float]) -> Any:
-            return np.array([np.nan if r.vibration is None else get(r.vibration) for r in rows])
-
-        dataset = labelled(
-            f"Ways to less friction in {self.name or 'a worm gearset'}",
-            {"way": (over, words(r.key for r in rows), "1", "way to less friction")},
-            name=(over, words(r.name for r in rows), "1", "what it is"),
-            kind=(over, words(r.kind for r in rows), "1", "family"),
-            source=(over, words(str(r.source) for r in rows), "1", "who reports its friction"),
-            mu_0T=(over, column(lambda r: r.base_friction), "1", "base coefficient of friction"),
-            mu_zm=(over, column(lambda r: r.friction), "1", "mean coefficient of tooth friction"),
-            eta_z1_2=(over, column(lambda r: r.efficiency), "1", "efficiency of the teeth"),
-            eta_ges=(over, column(lambda r: r.total_efficiency), "1", "efficiency of the gearbox"),
-            eta_z2_1=(
-                over, column(lambda r: r.back_driving_efficiency), "1",
-                "efficiency of the teeth, wheel driving",
-            ),
-            velocity_ratio=(
-                over, imposed(lambda v: v.velocity_ratio), "1",
-                "peak velocity of the vibration over the sliding velocity",
-            ),
-            velocity_amplitude=(
-                over, imposed(lambda v: v.velocity), "m/s", "peak velocity of the vibration",
-            ),
-            vibration_power=(
-                over, column(lambda r: r.vibration_power), "W", "power of the vibration",
-            ),
-            eta_z1_2_with_power=(
-                over, column(lambda r: r.efficiency_with_vibration), "1",
-                "efficiency of the teeth with the power of the vibration counted",
-            ),
-        )  # fmt: skip
+        title = f"Ways to less friction in {self.name or 'a worm gearset'}"
+        dataset = described(title, **along("way", self.rows))
         dataset.attrs |= {
             "sliding_velocity_m_s": self.sliding_velocity,
             "output_power_W": self.output_power,
@@ -198,27 +176,24 @@ class Comparison(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return friction and efficiency with each method, with the sources and notes below."""
-        rows = [
-            [
-                row.name,
-                f"{row.base_friction:.4f}",
-                f"{row.friction:.4f}",
-                percent(row.efficiency),
-                points(row.gain),
-                percent(row.total_efficiency),
-                row.locks,
-            ]
-            for row in self.rows
-        ]
         assumed = [f"{what} is assumed: {text}" for what, text in self.assumed.items()]
         names: dict[str, list[str]] = {}
         for row in self.rows:
             names.setdefault(str(row.source), []).append(row.name)
         sources = [f"friction of {'; '.join(of)}: {source}" for source, of in names.items()]
         return (
-            Table.of(
-                ("", "mu_0T", "mu_zm", "eta_z", "points", "eta_ges", "locks"),
-                rows,
+            table_of_rows(
+                self.rows,
+                {
+                    "": "name",
+                    "mu_0T": Cell("base_friction", ".4f"),
+                    "mu_zm": Cell("friction", ".4f"),
+                    "eta_z": Cell("efficiency", ".1f", 100.0),
+                    "points": Cell(lambda row: points(row.gain), right=True),
+                    "eta_ges": Cell("total_efficiency", ".1f", 100.0),
+                    "locks": Cell("locks", right=True),
+                },
+                within="methods",
                 title="Efficiency of the teeth eta_z and of the gearbox eta_ges in percent",
                 remarks=(*self.notes, *assumed, *sources),
             ),

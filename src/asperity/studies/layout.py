@@ -1,26 +1,8 @@
-"""How studies lay out what they found: labelled datasets, efficiencies in percent."""
+"""How studies lay out what they found: texts of datasets, efficiencies in percent."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-Labelled = tuple[tuple[str, ...], Any, str, str]
-
-
-def labelled(title: str, coordinates: dict[str, Labelled], **variables: Labelled) -> "xr.Dataset":
-    """Return a dataset of variables given as (dimensions, values, units, long name)."""
-    import xarray as xr
-
-    def named(group: dict[str, Labelled]) -> dict[str, Any]:
-        return {
-            name: (dims, values, {"units": units, "long_name": long_name})
-            for name, (dims, values, units, long_name) in group.items()
-        }
-
-    return xr.Dataset(named(variables), named(coordinates), {"title": title})
 
 
 def words(values: Any) -> Any:

@@ -25,10 +25,11 @@ from asperity.rating.rate import rate
 from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
 from asperity.results import Result, quantity
+from asperity.results.dataset import described
 from asperity.results.table import Table
 from asperity.runs import Run
 from asperity.studies.gears import Gears
-from asperity.studies.layout import labelled, percent, points, words
+from asperity.studies.layout import percent, points, words
 from asperity.studies.quantities import Quantity, varied_quantity
 from asperity.studies.requirements import Requirements, broken_by
 
@@ -170,14 +171,12 @@ class Sensitivity(Result):
         found = self.influences
         both = ("input", "rise")
         ends = [np.nan if i.fails_above is None else 100.0 * i.fails_above for i in found]
-        dataset = labelled(
+        dataset = described(
             f"Sensitivity of the efficiency of {self.name or 'a worm gearset'}",
-            {
-                "input": (
-                    ("input",), words(i.quantity.name for i in found), "1", "input that is raised",
-                ),
-                "rise": (("rise",), 100.0 * self.rises, "percent", "rise of the input"),
-            },
+            input=(
+                ("input",), words(i.quantity.name for i in found), "1", "input that is raised",
+            ),
+            rise=(("rise",), 100.0 * self.rises, "percent", "rise of the input"),
             symbol=(
                 ("input",), words(i.quantity.symbol for i in found), "1", "symbol of the input",
             ),

@@ -17,10 +17,11 @@ from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.results import Result
+from asperity.results.dataset import described
 from asperity.results.table import Table
 from asperity.studies.climb import Hill, Top, climb, climb_together, spread
 from asperity.studies.design import VARIABLES, Bounds, Space
-from asperity.studies.layout import labelled, percent
+from asperity.studies.layout import percent
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.requirements import Requirements
 
@@ -80,9 +81,9 @@ class TradeOff(Result):
     def to_dataset(self) -> "xr.Dataset":
         """Return the designs over the permissible torque."""
         over = ("torque",)
-        dataset = labelled(
+        dataset = described(
             f"Efficiency and permissible torque of {self.name or 'a worm gearset'}",
-            {"torque": (over, self.torque, "N m", "permissible torque, by wear and strength")},
+            torque=(over, self.torque, "N m", "permissible torque, by wear and strength"),
             eta_z1_2=(over, self.efficiency, "1", "highest efficiency of the teeth"),
             h_star=(over, self.numbers["h_star"], "1", "parameter of the lubricant film"),
             M_w=(over, self.numbers["M_w_Nm"], "N m", "torque permitted by wear"),

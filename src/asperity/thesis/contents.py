@@ -1,6 +1,5 @@
 """All that is reproduced, chapter by chapter, and the module that makes each of it."""
 
-import dataclasses
 import functools
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
@@ -10,60 +9,9 @@ from asperity.thesis.contact import elastic
 from asperity.thesis.contact.elastic import LONGITUDINAL, TRANSVERSE
 from asperity.thesis.drive import simulations
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE, Exhibit, Part
+from asperity.thesis.said import chapters
 
-
-@dataclasses.dataclass(frozen=True)
-class Chapter:
-    """A chapter of the thesis: its number, what it is about here, and what a reader must know."""
-
-    number: str
-    title: str
-    text: str
-
-
-_SLIDING = (
-    "A body is pulled over a base that vibrates in the plane of contact; the ratio is the mean "
-    "drive force with vibration over the force without, mu F_N, and k is the vibration's peak "
-    "velocity over the drive velocity."
-)
-
-CHAPTERS = (
-    Chapter("1", "Introduction", "What a more efficient gearset is worth."),
-    Chapter("2", "Friction laws and gear flanks", f"Sections 2.2.2, 2.4, 2.6 and 2.7. {_SLIDING}"),
-    Chapter(
-        "3", "Efficiency and load capacity of worm gearsets",
-        "The thesis's calculation sheet (its Appendix C), its Tables 3.1 to 3.7 and the oil's "
-        "properties (Table 6.9) are lost but for the numbers in the text. Gearsets 2 and 3 are "
-        "reconstructed from these: what was inferred from a number cannot be tested by it, and "
-        "each claim and table says so. Gearsets 1 and 4 are lost and are not invented. The "
-        "centre distance a and the ratio u of ISO/TR 14521 are the thesis's c and U.",
-    ),
-    Chapter("4", "The sliding body", f"With Appendix A. {_SLIDING}"),
-    Chapter(
-        "5", "The elastic block",
-        "The sliding body of chapter 4 as a block of steel, meshed with hexahedra and condensed to "
-        "the nodes of its base, with its friction integrated over the contact.",
-    ),
-    Chapter(
-        "6", "The disc-on-disc rig",
-        "What survives of the measurements are Tables 6.1 and 6.3 and numbers in the text; the "
-        "pictures of results, 6.10 to 6.14 and 6.32 to 6.51, and most tables are lost. A simulated "
-        "rig stands beside them: what it was fitted to is called fitted and tests nothing, and of "
-        "its chain only the two velocities at 750 Hz are measured ones.",
-    ),
-    Chapter(
-        "7", "The worm gearset under vibration",
-        "Gearset 3, reconstructed, with a centre distance of 2.9 in and exact flanks; the worm's "
-        "shaft; and the block of chapter 5 shaken itself. The ratio is the worm's mean torque with "
-        "vibration over that without, k_w the vibration's peak velocity over the sliding velocity. "
-        "A ratio is only one of the gearset if the wheel's mean torque is that of its load: what "
-        "the thesis reads soon after the vibration begins stands beside what the gearset comes to.",
-    ),
-    Chapter(
-        "8", "Conclusions and future work",
-        "What chapter 8 says anew; what it repeats stands with the chapter that found it.",
-    ),
-)  # fmt: skip
+CHAPTERS = chapters()
 """Those of which something is reproduced."""
 
 _MADE_IN = {

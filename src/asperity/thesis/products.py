@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, get_args
 
 from asperity import __version__
 from asperity.files.store import write_atomically, write_dataset, write_text
+from asperity.thesis.said import listed
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -106,6 +107,13 @@ class Grid:
         )
         return cls(tuple(columns), rows, tuple(_lines(how)))
 
+    @classmethod
+    def listed(cls, number: str, *how: How) -> "Grid":
+        """Return a table of words alone, as it is listed by its number."""
+        found = listed(f"table {number}")
+        rows = tuple(map(tuple, found["rows"]))
+        return cls(tuple(found["columns"]), rows, tuple(_lines(how)))
+
     def to_csv(self) -> str:
         """As text, numbers to the last digit."""
         text = io.StringIO()
@@ -177,15 +185,3 @@ class Finding:
     def write(self, stem: Path, words: Mapping[str, Any]) -> tuple[Plain, list[Path]]:
         """Return what is shown; the ledger is written of all claims together."""
         return dataclasses.asdict(self), []
-
-
-def labelled(**variables: tuple[Sequence[str], Any, str, str]) -> "xr.Dataset":
-    """Variables given as (dimensions, values, units, long name); a dimension's own is a coord."""
-    import xarray as xr
-
-    named = {
-        name: (dims, values, {"units": units, "long_name": long_name})
-        for name, (dims, values, units, long_name) in variables.items()
-    }
-    dimensions = {dim for dims, *_ in variables.values() for dim in dims}
-    return xr.Dataset(named).set_coords(sorted(dimensions & set(named)))

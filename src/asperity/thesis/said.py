@@ -13,16 +13,6 @@ from typing import Any
 
 _SAID, _EXHIBITS = (Path(__file__).with_name(f"{name}.toml") for name in ("said", "exhibits"))
 
-READ_BY_A_MACHINE = (
-    "The text of the thesis that stands behind this page was read by a machine from the printed "
-    "one. "
-    "“Printed” means: as that text has it. Figures are gone but for their captions, most tables "
-    "have "
-    "lost their numbers, and signs may be lost, turned or doubled: what is more likely a slip of "
-    "the "
-    "reading than of the thesis is listed and charged to nobody. Lines are those of that text."
-)
-
 
 @dataclasses.dataclass(frozen=True)
 class Said:
@@ -44,6 +34,15 @@ class Said:
     fails_by: str = ""
     rests_on: tuple[str, ...] = ()
     see: tuple[str, ...] = ()
+
+
+@dataclasses.dataclass(frozen=True)
+class Chapter:
+    """A chapter of the thesis: its number, what it is about here, and what a reader must know."""
+
+    number: str
+    title: str
+    text: str
 
 
 @dataclasses.dataclass(frozen=True)
@@ -86,6 +85,13 @@ def _read() -> Mapping[str, Any]:
     return said | exhibits
 
 
+def listed(name: str) -> Mapping[str, Any]:
+    """Return what is listed of an exhibit, by its kind and number: ``figure 4.17``."""
+    kind, _, number = name.partition(" ")
+    found: Mapping[str, Any] = _read()[kind].get(number, {})
+    return found
+
+
 def words_of(name: str) -> Mapping[str, Any]:
     """Return what the page says beside an exhibit, by its kind and number: ``figure 4.17``.
 
@@ -93,23 +99,32 @@ def words_of(name: str) -> Mapping[str, Any]:
     thesis's own number or word, and what `said_of` has.
     """
     kind, _, number = name.partition(" ")
-    listed = _read()[kind].get(number, {})
+    found = listed(name)
     if kind != "claim":
-        return {"title": listed.get("title", ""), "caption": listed.get("caption", "")}
-    claimed = {key: listed.get(key, "") for key in ("section", "claim", "thesis")}
+        return {"title": found.get("title", ""), "caption": found.get("caption", "")}
+    claimed = {key: found.get(key, "") for key in ("section", "claim", "thesis")}
     return {"id": number, **claimed, **dataclasses.asdict(said_of(number))}
 
 
 def said_of(number: str) -> Said:
     """Return what is held of a claim; nothing for one that is not listed."""
-    listed = _read()["claim"].get(number, {})
-    words = tuple((int(line), str(text)) for line, text in listed.get("said", ()))
+    found = listed(f"claim {number}")
+    words = tuple((int(line), str(text)) for line, text in found.get("said", ()))
     return Said(
-        words,
-        listed.get("fails_by", ""),
-        tuple(listed.get("rests_on", ())),
-        tuple(listed.get("see", ())),
-    )
+        words, found.get("fails_by", ""), tuple(found.get("rests_on", ())),
+        tuple(found.get("see", ())),
+    )  # fmt: skip
+
+
+@functools.cache
+def chapters() -> tuple[Chapter, ...]:
+    """Return the chapters of which something is reproduced."""
+    return tuple(Chapter(**one) for one in _read()["chapter"])
+
+
+def read_by_a_machine() -> str:
+    """Return what a reader of the thesis's words must know of their text."""
+    return str(_read()["read"])
 
 
 @functools.cache

@@ -8,8 +8,8 @@ from asperity.commands import case_tables
 from asperity.commands.request import Body, CommandRequest, mapping, settings
 from asperity.errors import InputError
 from asperity.results import Result
+from asperity.results.dataset import variables
 from asperity.results.payload import as_payload
-from asperity.results.variables import variables
 from asperity.runs import Run
 from asperity.start.write import as_set, as_written
 from asperity.web.ask import case_of, confine, request_of

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.results.dataset import described
 from asperity.runs.workers import Task
 from asperity.thesis.cases import Shipped
 from asperity.thesis.kept import once
-from asperity.thesis.products import labelled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -88,7 +88,7 @@ class FromRest:
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the histories."""
-        return labelled(
+        return described(
             time=(("time",), self.time, "s", "time"),
             axis=(("axis",), np.array(["x", "y"], dtype=object), "1", "axis"),
             drive_force=(("time",), self.drive_force, "N", "drive force"),

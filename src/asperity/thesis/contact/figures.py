@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from asperity.contact.interface.normal import NormalLaw, pressure
+from asperity.results.dataset import described
 from asperity.thesis.contact import drawings, elastic, pressed
 from asperity.thesis.contact.blocks import problem_of
 from asperity.thesis.contact.claims import marched_and_slid
@@ -18,7 +19,6 @@ from asperity.thesis.contact.elastic import (
     TRANSVERSE,
 )
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.products import labelled
 from asperity.thesis.sliding import drawings as drawings_sliding
 from asperity.thesis.sliding.bodies import PERIODIC, Sweep
 from asperity.thesis.sliding.claims import PLOTTED
@@ -43,7 +43,7 @@ def _over_ratio(case: str, on_body: bool = False, *, full: bool = False) -> Comp
     sweeps = [Sweep(SLIDING[case], ((RATIO, _DENSE),), (PERIODIC, *mode)) for mode in modes]
     dense = sweeps[0].values()
     rigid, closed = CLOSED_FORMS[SLIDING[case]]
-    dataset = labelled(
+    dataset = described(
         k=(("k",), dense, "1", "velocity ratio v_a/v_d"),
         k_block=(("k_block",), np.array(over), "1", "velocity ratio v_a/v_d, blocks"),
         shaken=(("shaken",), _objects(["base", "body"][: len(groups)]), "1", "what is shaken"),
@@ -91,7 +91,7 @@ def _over_direction(*, full: bool = False) -> Computed:
     count = len(directions)
     groups = [solved[n : n + count] for n in range(0, len(solved), count)]
     settled = Sweep(SLIDING[TRANSVERSE], ((RATIO, PLOTTED), (DIRECTION, "0:360:3")), (PERIODIC,))
-    dataset = labelled(
+    dataset = described(
         k=(("k",), settled.values(), "1", "velocity ratio v_a/v_d"),
         theta=(("theta",), settled.values(1), "deg", "direction of vibration"),
         theta_block=(("theta_block",), np.array(directions), "deg", "direction, blocks"),
@@ -111,7 +111,7 @@ def _normal_laws() -> Computed:
     start, end = laws["two-stage"].start, laws["two-stage"].end
     over = np.linspace(-0.2 * end, 1.6 * end, 361)
     found = np.array([[pressure(x, 0.0, law.numbers) for x in over] for law in laws.values()])
-    dataset = labelled(
+    dataset = described(
         law=(("law",), _objects([*laws]), "1", "law of pressure"),
         overclosure=(("overclosure",), over, "m", "overclosure"),
         pressure=(("law", "overclosure"), found[..., 0], "Pa", "pressure"),
@@ -158,7 +158,7 @@ def _pressure() -> Computed:
         profiles[at] = ((at,), profile.x, "m", "distance from the middle of the cylinder")
         profiles[f"pressure_{kind}"] = ((at,), profile.pressure, "Pa", f"pressure, {kind}")
     x = np.linspace(-half, half, 201)
-    dataset = labelled(
+    dataset = described(
         shift=(("shift",), shifts, "1", "place of the cylinder in elements from a line of nodes"),
         kind=(("kind",), _objects(kinds), "1", "where the pressure acts"),
         greatest=(

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.results.dataset import described
 from asperity.slider.closed_forms import longitudinal_ratio, transverse_ratio
 from asperity.thesis.drive import drawings
 from asperity.thesis.drive.marches import Shaken
@@ -19,7 +20,6 @@ from asperity.thesis.drive.simulations import (
     simulation,
 )
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.products import labelled
 
 _CYCLES, _ROWS = 10, 120
 
@@ -59,7 +59,7 @@ def floor() -> float:
 
 
 def _read(groups: dict[str, Sequence[Simulation]]) -> Computed:
-    dataset = labelled(
+    dataset = described(
         **over_ratio(groups), floor=((), floor(), "1", "ratio with all friction reversed")
     )
     return dataset, [one for group in groups.values() for one in group]
@@ -68,7 +68,7 @@ def _read(groups: dict[str, Sequence[Simulation]]) -> Computed:
 @figure("7.12", drawings.ratios)
 def _meshes() -> Computed:
     dataset, how = _read({"sector of five": of_set(3), "tooth cut out": of_set(3, CUT_OUT)})
-    point = labelled(thesis=((), SHAKEN / UNSHAKEN, "1", "ratio of the thesis at k_w = 20"))
+    point = described(thesis=((), SHAKEN / UNSHAKEN, "1", "ratio of the thesis at k_w = 20"))
     return dataset.merge(point), how
 
 
@@ -82,7 +82,7 @@ def _laws() -> Computed:
     from asperity.thesis.drive.laws import HOW, at_ratios
 
     dataset, how = _read({"Dahl": of_set(3), "Coulomb": of_set(3, COULOMB)})
-    means = labelled(
+    means = described(
         law=(("law",), np.array(["Appendix E", "Dahl", "Coulomb"], dtype=object), "1", "law"),
         k=(("k",), np.array(RATIOS), "1", "velocity ratio v_a/v_g"),
         friction=(
@@ -103,7 +103,7 @@ def _over_time() -> Computed:
     found = from_start(last.case, last.settings, _CYCLES, _ROWS)
     whole = last.shaken()
     cycles = np.arange(1, whole.cycle_torque.size + 1)
-    dataset = labelled(
+    dataset = described(
         time=(("time",), found["time"], "s", "time from the start of the vibration"),
         torque=(("time",), found["torque"], "N m", "torque of the worm's shaft at B"),
         open=(("time",), found["open"], "1", "share of the time without contact"),
@@ -142,7 +142,7 @@ def _advantage() -> Computed:
     ratio = np.array([one.ratio for one in found])
     k = np.linspace(0.05, 20.0, 400)
     at = ("k",)
-    dataset = labelled(
+    dataset = described(
         k=(at, np.array(RATIOS), "1", "velocity ratio v_a/v_g"),
         ratio=(at, ratio, "1", "mean torque over that without vibration"),
         balance=(at, np.array([one.balance for one in found]), "1", "wheel torque over T_R less 1"),

@@ -11,13 +11,13 @@ from asperity.flanks.export.worm import mounted_worm
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.mesh import HexMesh
+from asperity.results.dataset import described
 from asperity.thesis.contact.derivatives import Before, scheme
 from asperity.thesis.drive import drawings_models as drawings
 from asperity.thesis.drive.claims import GEAR
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.flanks.meshing import pair_of
 from asperity.thesis.flanks.shapes import Shape, joined
-from asperity.thesis.products import labelled
 
 _INNER = ("inner",)
 _OTHERS = (
@@ -46,7 +46,7 @@ def _bore() -> Computed:
     angle = np.arctan2(inner[:, 0], inner[:, 1])
     linked = [int(np.argmin(np.abs(angle - a) + 0.05 * np.abs(inner[:, 2])))
               for a in np.linspace(-math.pi, math.pi, 24, endpoint=False)]  # fmt: skip
-    dataset = labelled(
+    dataset = described(
         **joined(parts).variables("ring"),
         linked=(("link", "xyz"), inner[linked], "mm", "some nodes that follow the centre point"),
         centre=(("xyz",), np.zeros(3), "mm", "the wheel's centre point"),
@@ -82,7 +82,7 @@ def _model() -> Computed:
     half = 0.5 * pair.geometry.worm_face_width
     middle = pair.mounting.origin
     a, b = middle + half * axis, middle + (half + 34.0) * axis
-    dataset = labelled(
+    dataset = described(
         **both.variables("gearset"),
         spring=(("along", "xyz"), _spring(a, b, across), "mm", "the shaft as a spring"),
         ends=(("end", "xyz"), np.array([a, b]), "mm", "A on the worm and B, which turns steadily"),
@@ -130,7 +130,7 @@ def increment(at: Before, x: float, y: float) -> Increment:
 def _increment() -> Computed:
     at = Before(0.0, 0.0, 0.3, 0.65, 1.0 - 0.71, 1.0)
     found = increment(at, 1.0, 0.85)
-    dataset = labelled(
+    dataset = described(
         axis=(("axis",), np.array(["x", "y"], dtype=object), "1", "axis"),
         body=(("place", "axis"), found.body, "1", "N', N'', N'_1 over s_max"),
         root=(("stop", "axis"), found.root, "1", "M, M'1, M'2, M_1 over s_max"),

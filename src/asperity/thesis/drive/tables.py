@@ -12,30 +12,10 @@ from asperity.thesis.products import Grid
 
 _RPM = 30.0 / math.pi
 
-_STEPS = (
-    ("1 to 3", "contact, load and rotation are brought on; their order is lost",
-     "the worm turns from the start; the load is in balance with it"),
-    ("4", "vibration of the worm along X is switched on (7.4.1)",
-     "the march begins here, in steady sliding; the amplitude grows over vibration.ramp"),
-    ("all", "bore of the wheel on its centre point, free about its axis, with a constant torque "
-     "(7.2.2, 7.2.4)", "the wheel with drive.load_inertia, which the thesis does not state"),
-    ("all", "the shaft's far end B turns steadily; a torsional spring to A (7.2.2)",
-     "operation.worm_speed behind shaft.torsional_stiffness"),
-    ("all", "the worm held across its axis (7.2.4)", "rigid where [shaft] has no bearings"),
-)  # fmt: skip
-
 
 @table("7.1")
 def _steps() -> Grid:
-    return Grid.of(
-        _STEPS,
-        {
-            "step": lambda row: row[0],
-            "thesis": lambda row: row[1],
-            "here": lambda row: row[2],
-        },
-        "asperity drive gearset-3b",
-    )
+    return Grid.listed("7.1", "asperity drive gearset-3b")
 
 
 @table("7.2")
@@ -58,31 +38,12 @@ def _conditions() -> Grid:
     )
 
 
-_VARIABLES = (
-    ("x", "(77)", "STATEV(1)", "way slid along the first axis"),
-    ("y", "(78)", "STATEV(2)", "way slid along the second axis"),
-    ("M_1x", "(34)", "STATEV(3)", "root of the asperity, first axis"),
-    ("M_1y", "(91)", "STATEV(4)", "root of the asperity, second axis"),
-    ("s_1", "(86)", "STATEV(5)", "deflection"),
-)
-
-
 @table("7.3")
 def _state() -> Grid:
-    return Grid.of(
-        _VARIABLES,
-        {
-            "variable": lambda row: row[0],
-            "by": lambda row: row[1],
-            "Appendix E": lambda row: row[2],
-            "what it is": lambda row: row[3],
-            "here": lambda row: (
-                "its vector: both parts of the deflection" if row[0] == "s_1" else "follows"
-            ),
-        },
-        "asperity.thesis.drive.appendix_e.advance",
+    return Grid.listed(
+        "7.3", "asperity.thesis.drive.appendix_e.advance",
         "asperity.friction.loaded.advance_loaded",
-    )
+    )  # fmt: skip
 
 
 @table("7.4")

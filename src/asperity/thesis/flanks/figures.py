@@ -9,11 +9,11 @@ import numpy as np
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.pattern.marking import MARKING, Pattern, pattern
 from asperity.flanks.wheel.flank import FlankGrid
+from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.flanks import drawings
 from asperity.thesis.flanks.meshing import Gear, Meshing, meshing, pair_of
 from asperity.thesis.flanks.shapes import Shape, joined
-from asperity.thesis.products import labelled
 
 if TYPE_CHECKING:
     pass
@@ -94,7 +94,7 @@ def _lines(gears: Mapping[str, Gear]) -> Computed:
                 "mean length of the lines that carry",
             ),
         }  # fmt: skip
-    return labelled(**variables), [
+    return described(**variables), [
         *gears.values(), "asperity.flanks.meshing.lubrication.loaded_lines"
     ]  # fmt: skip
 
@@ -125,7 +125,7 @@ def _formation() -> Computed:
     worm = meshing(HOBS["a"]).wheel.pair.worm
     flank = ("design", "row", "column")
     each = ("design", "time", "row", "column")
-    dataset = labelled(
+    dataset = described(
         design=(("design",), np.array(list(HOBS), dtype=object), "1", "design"),
         face=(flank, fields["face"], "mm", "distance from mid-face"),
         radius=(flank, fields["height"], "mm", "distance from the wheel's axis"),
@@ -156,7 +156,7 @@ def _dye() -> Computed:
         centres.append(marks.centre[0])
         variables |= _dyed(found, grid, marks).variables(f"teeth_{tilt:g}")
     flank = ("tilt", "row", "column")
-    dataset = labelled(
+    dataset = described(
         tilt=(("tilt",), list(TILTS), "deg", "tilt of the hob"),
         gap=(flank, gaps, "um", "smallest distance from the worm"),
         face=(flank, faces, "mm", "distance from mid-face"),
@@ -194,7 +194,7 @@ def _profile() -> Computed:
     height = np.linspace(plain.root_radius, end, 201)
     normal = math.cos(plain.lead_angle) * math.cos(plain.pressure_angle)
     relief = _MICROMETRES * normal * (modified.width(height)[0] - plain.width(height)[0])
-    dataset = labelled(
+    dataset = described(
         outline_radius=(("place",), radius, "mm", "the plain thread: distance from the axis"),
         outline_axial=(
             ("place",), plain.half_pitch - axial, "mm", "the plain thread: from its middle",

@@ -13,11 +13,11 @@ from asperity.flanks.wheel.enveloped import FlankGrid, Wheel, WheelFlank
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.mesh import HexMesh
+from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.flanks import drawings_solids as drawings
 from asperity.thesis.flanks.meshing import Gear, pair_of, stood
 from asperity.thesis.flanks.shapes import Shape, joined
-from asperity.thesis.products import labelled
 
 GEAR = Gear("gearset-3b")
 
@@ -77,7 +77,7 @@ def _gearset() -> Computed:
     height = facet_height(flank, grid, STEP)
     rest = Shape.of_mesh(_mesh("intermediate", 1), _NOT_FLANK)
     raised = grid.points + _ENLARGED * height[..., None] * grid.normals
-    dataset = labelled(
+    dataset = described(
         **whole.variables("gearset"),
         **joined([rest, Shape.of_grid(grid.points), Shape.of_grid(raised)]).variables("stepped"),
         **joined([rest, Shape.of_grid(grid.points)]).variables("exact"),
@@ -98,14 +98,14 @@ def _gearset() -> Computed:
 def _sector() -> Computed:
     teeth = _centred(Shape.of_mesh(_mesh("coarse", _SECTOR)), _SECTOR)
     both = joined([teeth, Shape.of_body(mounted_worm(_wheel().pair), 1, every=(2, 1))])
-    dataset = labelled(**both.variables("gearset"))
+    dataset = described(**both.variables("gearset"))
     return dataset, [f"{_FLANK} --out out/flank"]
 
 
 @figure("7.3", drawings.shell)
 def _shell() -> Computed:
     worm = Shape.of_body(worm_body(_wheel().pair), 1, every=(5, 1), ends=False)
-    dataset = labelled(**worm.variables("worm"))
+    dataset = described(**worm.variables("worm"))
     return dataset, [f"{_FLANK} --out out/flank"]
 
 
@@ -117,7 +117,7 @@ def _topology() -> Computed:
         ("flank_plus", "flank_minus"), ("fillet_plus", "fillet_minus"), ("tip",),
     )  # fmt: skip
     parts = [Shape.of_mesh(mesh, sets, part) for part, sets in enumerate(groups)]
-    dataset = labelled(
+    dataset = described(
         **joined(parts).variables("tooth"),
         **Shape.of_mesh(mesh).variables("mesh"),
         elements=((), len(mesh.cells), "1", "hexahedra"),
@@ -135,7 +135,7 @@ def _densities() -> Computed:
     size = [element_size(_wheel(), name) for name in DENSITIES]
     count = [len(mesh.cells) for mesh in meshes.values()]
     least = [float(mesh.scaled_jacobian().min()) for mesh in meshes.values()]
-    dataset = labelled(
+    dataset = described(
         density=(("density",), np.array(list(DENSITIES), dtype=object), "1", "mesh density"),
         element_size=(("density",), size, "mm", "element size on the flank"),
         elements=(("density",), count, "1", "hexahedra of a tooth"),

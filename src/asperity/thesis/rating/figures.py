@@ -3,9 +3,9 @@
 import numpy as np
 
 from asperity.rating.variants import variants
+from asperity.results.dataset import described
 from asperity.studies.plots import plot_comparison, plot_sensitivity
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.products import labelled
 from asperity.thesis.rating import drawings
 from asperity.thesis.rating.rated import GEARSET_2, GEARSETS, OPTIMISED
 
@@ -36,7 +36,7 @@ def _friction() -> Computed:
         base = found["iso14521.mu_0T"]
         at.append((own, gear.number("iso14521", "mu_zm"), gear.number("agma6034", "mu")))
     own, mean, mu_agma = np.array(at).T
-    dataset = labelled(
+    dataset = described(
         gearset=(("gearset",), np.array(list(GEARSETS), dtype=object), "1", "gearset"),
         velocity=(("velocity",), velocity, "m/s", "sliding velocity"),
         mu_0T=(("velocity",), base, "1", "base friction, ISO/TR 14521, mineral oil"),
@@ -79,7 +79,7 @@ def _optima(wanted: dict[str, tuple[str, str, str, str]]) -> Computed:
         name: (both, np.array([[one[by][key] for one in pair] for pair in rated]), unit, meaning)
         for name, (by, key, unit, meaning) in wanted.items()
     }
-    dataset = labelled(
+    dataset = described(
         gearset=(both[:1], np.array(list(GEARSETS), dtype=object), "1", "gearset"),
         design=(both[1:], np.array(["as it is", "optimum"], dtype=object), "1", "design"),
         **numbers,

@@ -8,7 +8,7 @@ from asperity.thesis.contents import chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE
 from asperity.thesis.products import DIFFERS, Plain
 from asperity.thesis.reproduce.files import Collection, Shown
-from asperity.thesis.said import READ_BY_A_MACHINE
+from asperity.thesis.said import read_by_a_machine
 
 
 def ledger(folder: Path) -> dict[str, Any]:
@@ -46,7 +46,7 @@ def ledger(folder: Path) -> dict[str, Any]:
             figures.append(told | {**words, "picture": picture, "how": how})
     chapters = [{"number": c.number, "title": c.title, "text": c.text} for c in contents.CHAPTERS]
     return {
-        "read": READ_BY_A_MACHINE,
+        "read": read_by_a_machine(),
         "chapters": chapters,
         "claims": claims,
         "figures": figures,

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any
 from asperity.results.page import environment
 from asperity.results.typeset import typeset
 from asperity.thesis import contents
-from asperity.thesis.contents import Chapter, chapter_of
+from asperity.thesis.contents import chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE
 from asperity.thesis.products import DIFFERS, VERDICTS, Cell
 from asperity.thesis.reproduce.files import Shown
-from asperity.thesis.said import READ_BY_A_MACHINE, disputed, findings, lost, slips
+from asperity.thesis.said import Chapter, disputed, findings, lost, read_by_a_machine, slips
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -90,7 +90,7 @@ def render(
         disputed=disputed(),
         slips=slips(),
         letters=sorted({slip.line for slip in slips() if not slip.why}),
-        read_by_a_machine=READ_BY_A_MACHINE,
+        read_by_a_machine=read_by_a_machine(),
         script=_SCRIPT.read_text("utf-8"),
         to_come=len(to_come),
         failed=len(failed),

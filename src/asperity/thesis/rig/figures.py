@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.products import labelled
 from asperity.thesis.rig import drawings
 from asperity.thesis.rig import measured as m
 from asperity.thesis.rig.readings import velocities
@@ -14,7 +14,7 @@ _LOADS = m.LOADS_LB * m.POUND_FORCE
 
 @figure("6.8", drawings.speeds)
 def _speeds() -> Computed:
-    dataset = labelled(
+    dataset = described(
         load=(("load",), _LOADS, "N", "normal load"),
         steel=(("load",), m.STEEL_RPM, "rpm", "speed of the steel disc"),
         bronze=(("load",), m.BRONZE_RPM, "rpm", "speed of the bronze disc"),
@@ -27,7 +27,7 @@ def _speeds() -> Computed:
 @figure("6.9", drawings.sliding)
 def _sliding() -> Computed:
     sliding, rolling, ratio = velocities()
-    dataset = labelled(
+    dataset = described(
         load=(("load",), _LOADS, "N", "normal load"),
         sliding=(("load",), sliding, "m/s", "sliding velocity"),
         rolling=(("load",), rolling, "m/s", "rolling velocity"),
@@ -50,7 +50,7 @@ def _waveforms() -> Computed:
         moved = np.concatenate(([0.0], np.cumsum(shape.increments(0.0, 2.0 / steps, steps))))
         curves.append(16e-6 * moved)
         speeds.append(np.gradient(16e-6 * moved, time))
-    dataset = labelled(
+    dataset = described(
         time=(("time",), time, "s", "time"),
         waveform=(("waveform",), np.array(["sine", "triangle"], dtype=object), "1", "waveform"),
         displacement=(("waveform", "time"), np.array(curves), "m", "displacement"),

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.results.dataset import described
 from asperity.slider import Model
 from asperity.slider.closed_forms import dahl_from_rest, longitudinal_ratio, transverse_ratio
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.products import labelled
 from asperity.thesis.sliding import drawings
 from asperity.thesis.sliding.bodies import DIRECTION, PERIODIC, RATIO, TWO_PHASE, Body, Sweep
 from asperity.thesis.sliding.claims import ALL_AROUND, LUGRE, MARKED, PLOTTED
@@ -68,7 +68,7 @@ def _dahl_from_rest() -> Computed:
     exponents = np.array([0.0, 0.5, 1.0, 1.5, 2.0])
     x = np.linspace(0.0, 4.0 * s_max, 401)
     values = dahl_from_rest(x, force, s_max, exponents[:, None])
-    dataset = labelled(
+    dataset = described(
         displacement=(("displacement",), x, "m", "displacement"),
         exponent=(("exponent",), exponents, "1", "Dahl's exponent"),
         force=(("exponent", "displacement"), values, "N", "friction force"),
@@ -112,7 +112,7 @@ def _transverse_cycle() -> Computed:
     body = Body("table-4.1-L2", (PERIODIC, f"{DIRECTION}=90 deg"))
     result, model, history = body.result, body.model, body.history
     time = history.time
-    dataset = labelled(
+    dataset = described(
         time=(("time",), time, "s", "time"),
         axis=(("axis",), np.array(["x", "y"], dtype=object), "1", "along and across the drive"),
         base_velocity=(
@@ -143,7 +143,7 @@ def _over_ratio(case: str, *laws: str) -> Computed:
     settled = [Sweep(case, ((RATIO, _DENSE),), (PERIODIC, f"friction.law={law}")) for law in laws]
     dense = settled[0].values()
     closed, name = CLOSED_FORMS[case]
-    dataset = labelled(
+    dataset = described(
         k=(("k",), dense, "1", "velocity ratio v_a/v_d"),
         k_marched=(("k_marched",), marched.values(), "1", "velocity ratio v_a/v_d, marched"),
         law=(("law",), np.array(laws, dtype=object), "1", "relaxation law"),
@@ -184,7 +184,7 @@ def _over_direction() -> Computed:
     marched = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, ALL_AROUND)))
     settled = Sweep("table-4.4", ((RATIO, PLOTTED), (DIRECTION, "0:360:3")), (PERIODIC,))
     lugre = Sweep("table-4.4", ((RATIO, "2,20"), (DIRECTION, ALL_AROUND)), LUGRE)
-    dataset = labelled(
+    dataset = described(
         k=(("k",), marched.values(), "1", "velocity ratio v_a/v_d"),
         theta=(("theta",), marched.values(1), "deg", "direction of vibration"),
         theta_dense=(("theta_dense",), settled.values(1), "deg", "direction of vibration, line"),

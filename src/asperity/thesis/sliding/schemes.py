@@ -10,9 +10,9 @@ import math
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.products import labelled
-from asperity.thesis.sliding import drawings_schemes as drawings
+from asperity.thesis.sliding import drawings
 
 _TRANSFER, _EXPONENT = 0.71, 1.0
 _HOW = "asperity.thesis.sliding.schemes.increment"
@@ -88,7 +88,7 @@ def _increment(base_x: float) -> Computed:
     own, base_y = np.array([0.55, -0.12]), 0.5
     moved = body + own - np.array([base_x, 0.0])
     found = increment(root, body, moved, base_y)
-    dataset = labelled(
+    dataset = described(
         axis=(("axis",), np.array(["x", "y"], dtype=object), "1", "axis"),
         body=(("place", "axis"), found.body, "1", "N', N'_1 over s_max"),
         own=(("axis",), own, "1", "the body's own motion over s_max"),
@@ -103,7 +103,7 @@ def _increment(base_x: float) -> Computed:
 @figure("4.14", drawings.base)
 def _base() -> Computed:
     theta, share = math.radians(35.0), 0.8
-    dataset = labelled(
+    dataset = described(
         theta=((), theta, "rad", "direction of vibration"),
         share=((), share, "1", "displacement over its amplitude"),
     )

@@ -33,23 +33,9 @@ def _basic() -> Grid:
     )
 
 
-_CARRIED = (
-    ("double integral of (F_d - F_x)/m", "(41)", "(41)", "speed and place of the body"),
-    ("x", "(42)", "(39), (42)", "place of the body, 1"),
-    ("y", "(43)", "(39)", "place of the body, 2"),
-    ("x_b", "(50)", "(53)", "place of the base, 1"),
-    ("y_b", "(51)", "(54)", "place of the base, 2"),
-    ("Delta x_b", "(53)", "(42)", "not kept: from the base's motion"),
-    ("s_1", "(33)", "(40), (44), (45)", "size of the deflection"),
-    ("M_1x", "(34)", "(38), (46), (48)", "body less deflection, 1"),
-    ("M_1y", "(35)", "(38), (46), (47)", "body less deflection, 2"),
-)
-
-
 @table("4.2")
 def _carried() -> Grid:
-    columns = ("variable", "computed by", "used in", "here")
-    return Grid(columns, _CARRIED, ("asperity.friction.two_phase",))
+    return Grid.listed("4.2", "asperity.friction.two_phase")
 
 
 @table("4.3", "table-4.3", (0.5, 4000.0, 55.0, 68.75, 80.0, 0.0))

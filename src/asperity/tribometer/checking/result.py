@@ -1,12 +1,13 @@
 """The answer of ``asperity rig check``: findings, each with its evidence and what to do."""
 
 import dataclasses
+import itertools
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray
 from asperity.results import Result, quantity
-from asperity.results.table import Table, table_of
+from asperity.results.table import Columns, Table, table_of, table_of_rows
 
 
 @dataclasses.dataclass(frozen=True)
@@ -92,14 +93,14 @@ class Checked(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return the counts, and a row a finding with what to do below."""
-        rows = [
-            (place, one.file, one.where, one.name, "not good" if one.spoils else "to know")
-            for place, one in enumerate(self.found, start=1)
-        ]
         told = [
             f"{place}: {one.evidence}; {one.remedy}"
             for place, one in enumerate(self.found, start=1)
         ]
-        listed = Table.of(("", "file", "vibration at", "finding", "numbers"), rows, left=5)
-        named = Table(listed.columns, listed.rows, remarks=(*told, *self.notes))
-        return table_of(self), named
+        number = itertools.count(1)
+        columns: Columns = {
+            "": lambda one: str(next(number)), "file": "file",
+            "vibration at": "where", "finding": "name",
+            "numbers": lambda one: "not good" if one.spoils else "to know",
+        }  # fmt: skip
+        return table_of(self), table_of_rows(self.found, columns, remarks=(*told, *self.notes))

@@ -68,8 +68,7 @@ class Looked(Result):
         ]  # fmt: skip
         firsts = [f"row {n + 1}" for n in range(self.first.shape[1])]
         heads = ("column", "unit", *firsts, "least", "mean", "largest", "missing")
-        listed = Table.of(heads, rows, left=2)
-        return table_of(self), Table(listed.columns, listed.rows, remarks=self.notes)
+        return table_of(self), Table.of(heads, rows, left=2, remarks=self.notes)
 
 
 def read(

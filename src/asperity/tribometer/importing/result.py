@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.results import Result, quantity
-from asperity.results.table import Table, table_of
+from asperity.results.table import Table, table_of, table_of_rows
 from asperity.tribometer.importing.columns import Sampled
 from asperity.tribometer.recording import Event, Recorder
 
@@ -54,13 +54,13 @@ class Imported(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return what was found, and a row a channel."""
-        rows = [(one.signal, one.units, one.scale) for one in self.sampled.sources]
-        listed = Table.of(("signal", "unit", "a count is worth"), rows, left=2)
+        columns = {"signal": "signal", "unit": "units", "a count is worth": "scale"}
         told = [
             one["flag"] if one["start_s"] is None else f"at {one['start_s']:.0f} s: {one['flag']}"
             for one in self.findings
         ]
-        return table_of(self), Table(listed.columns, listed.rows, remarks=(*self.notes, *told))
+        listed = table_of_rows(self.sampled.sources, columns, remarks=(*self.notes, *told))
+        return table_of(self), listed
 
     def save(self, path: str | os.PathLike[str]) -> Path:
         """Write the recording, whole or not at all."""

@@ -5,7 +5,7 @@ from typing import Any, ClassVar
 
 from asperity.arrays import FloatArray
 from asperity.results import Result, quantity
-from asperity.results.table import Table, table_of
+from asperity.results.table import Columns, Table, table_of, table_of_rows
 from asperity.tribometer.plan.matrix import PlannedFile
 
 
@@ -62,13 +62,10 @@ class PlanResult(Result):
 
     def tables(self) -> tuple[Table, ...]:
         """Return the plan in numbers and the files in their order."""
-        rows = [
-            (
-                one.name, one.mode, one.waveform, one.lubricant, f"{one.steel_supply:g}",
-                str(one.repeat), " ".join(f"{cell.frequency:g}" for cell in one.cells),
-            )
-            for one in self.planned
-        ]  # fmt: skip
-        headings = "file", "mode", "waveform", "lubricant", "V_ms V", "repeat", "frequencies Hz"
-        listed = Table.of(headings, rows, title=f"Files, in {self.order} order", left=7)
+        columns: Columns = {
+            "file": "name", "mode": "mode", "waveform": "waveform", "lubricant": "lubricant",
+            "V_ms V": lambda one: f"{one.steel_supply:g}", "repeat": lambda one: str(one.repeat),
+            "frequencies Hz": lambda one: " ".join(f"{cell.frequency:g}" for cell in one.cells),
+        }  # fmt: skip
+        listed = table_of_rows(self.planned, columns, title=f"Files, in {self.order} order")
         return table_of(self, remarks=self.notes), listed

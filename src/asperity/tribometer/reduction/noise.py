@@ -41,7 +41,7 @@ def share_of_state(memory: float, block: float) -> float:
     Examples
     --------
     >>> round(share_of_state(1.0, 1e-3), 6), round(share_of_state(1.0, 1.0), 6)
-    (1.000333, 1.476276)
+    (1.000333, 1.476246)
     """
     b = block / memory
     # Half its argument's hyperbolic sine squared is cosh b - 1 without a difference of near ones.

@@ -3,7 +3,7 @@
 from typing import Any
 
 from asperity.arrays import FloatArray
-from asperity.results.variables import rounded
+from asperity.results.dataset import rounded
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.reduction.blocks import Blocks, blocks_of
 from asperity.tribometer.reduction.drive_signal import Stretch

@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from asperity.files.store import write_text
-from asperity.results import Quantities, Result, quantity
+from asperity.files.store import harmless_cell, write_text
+from asperity.results import Quantities, Result, labelled, measured, quantity
+from asperity.results.dataset import along, described
 from asperity.results.interval import numbers_of, value_of
-from asperity.results.quantity import CI95, labelled, measured, plain
+from asperity.results.quantity import CI95, plain
 from asperity.results.table import Table
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budgets
-from asperity.tribometer.reduction.cells import cell, declared, rounded, variable
 from asperity.tribometer.uncertainty import Budget, Budgeted
 
 if TYPE_CHECKING:
@@ -147,8 +147,8 @@ class FileResult(Quantities):
     )
     wear_steel: float | None = quantity("K", "", "Archard's coefficient, steel", default=None)
     wear_bronze: float | None = quantity("K", "", "Archard's coefficient, bronze", default=None)
-    gaps: tuple[dict[str, Any], ...] = quantity("", "", "what is missing", default=())
-    findings: tuple[dict[str, Any], ...] = quantity("", "", "what was found", default=())
+    gaps: tuple[dict[str, Any], ...] = ()
+    findings: tuple[dict[str, Any], ...] = ()
 
     @property
     def everywhere(self) -> tuple[str, ...]:
@@ -225,13 +225,10 @@ class Reduced(Result):
     def to_dataset(self) -> "xr.Dataset":
         """Return the segments along a dimension, and the recordings along another."""
         dataset = super().to_dataset()
-        for dim, rows in (("segment", self.segments), ("recording", self.files)):
-            for place, entry in enumerate(declared(rows)):
-                values = [list(row.entries())[place].value for row in rows]
-                name = "recording" if entry.name == "file" and dim == "recording" else entry.name
-                if entry.label.only == "json" or entry.name in ("gaps", "findings"):
-                    continue
-                dataset[name] = variable(entry, values, dim)
+        files = along("recording", self.files)
+        if files:
+            files["recording"] = files.pop("file")
+        dataset = dataset.merge(described(**along("segment", self.segments), **files))
         each = [(one.file, one.start, one.budgets) for one in self.segments]
         return dataset.merge(budgets.variables(each))
 
@@ -240,10 +237,10 @@ class Reduced(Result):
         rows = [
             (
                 one.file, one.mode, one.lubricant, one.waveform, one.motor_voltage, one.commanded,
-                *(rounded(number, 4) for number in (
+                *(_rounded(number, 4) for number in (
                     value_of(one.torque_before), value_of(one.torque_with),
                     value_of(one.torque_change), one.low, one.high)),
-                rounded(value_of(one.k_v), 3), rounded(one.model_ratio, 3), one.quality,
+                _rounded(value_of(one.k_v), 3), _rounded(one.model_ratio, 3), one.quality,
             )
             for one in self.segments
         ]  # fmt: skip
@@ -271,7 +268,7 @@ class Reduced(Result):
         ]
         # As many digits as a part of a turn can tell.
         files = [
-            (one.file, *(rounded(number, 2) for number in (
+            (one.file, *(_rounded(number, 2) for number in (
                 one.runout_steel, one.runout_bronze, one.noise, one.drift)),
              one.distance, len(one.gaps))
             for one in self.files
@@ -306,7 +303,7 @@ class Reduced(Result):
             Table.of(
                 ("file", "f Hz", *(word for head in names.values() for word in (head, *_ENDS))),
                 [(one.file, one.commanded, *(
-                    rounded(value, 4) for name in names
+                    _rounded(value, 4) for name in names
                     for value in numbers_of(getattr(one, name)))) for one in used],
                 left=1, title=title,
             )
@@ -346,7 +343,8 @@ class Reduced(Result):
         """Return a row a segment; columns are named as in JSON, intervals by their ends."""
         text = io.StringIO()
         writer = csv.writer(text, lineterminator="\n")
-        entries = [entry for entry in declared(self.segments) if entry.label.only != "json"]
+        entries = [entry for entry in SegmentResult.declared() if entry.in_file]
+        entries = entries if self.segments else []
         names = ([entry.key.replace(CI95, f"_{end}") for end in _ENDS] if entry.label.is_ends
                  else [entry.key] for entry in entries)  # fmt: skip
         writer.writerow([name for one in names for name in one])
@@ -354,8 +352,19 @@ class Reduced(Result):
             found = {entry.name: entry.value for entry in one.entries()}
             cells = (found[entry.name] or (None, None) if entry.label.is_ends
                      else [found[entry.name]] for entry in entries)  # fmt: skip
-            writer.writerow([cell(one) for several in cells for one in several])
+            writer.writerow([_cell(one) for several in cells for one in several])
         return text.getvalue()
+
+
+def _rounded(value: float | None, digits: int) -> float | None:
+    return None if value is None else float(f"{value:.{digits}g}")
+
+
+def _cell(value: Any) -> Any:
+    """Return what a cell of CSV has of a value."""
+    if value is None:
+        return ""
+    return harmless_cell("; ".join(map(str, value)) if isinstance(value, tuple) else value)
 
 
 def _between(worn: Mapping[str, Any]) -> str:
