@@ -33,7 +33,7 @@ SCREENS = {
     "size": ({}, (), "least safety"),
     "flanks": ({"case": "worm-flanks"}, ("cut the wheel",), "numbers"),
     "drive": ({"case": "worm-shaken-as-a-screw"}, ("shake it",), "numbers"),
-    "rig": ({"case": "disc-on-disc"}, (), "segment"),
+    "rig": ({"case": "disc-on-disc"}, (), "What vibration did"),
     "sweep": ({"case": "body-shaken-along", "set.solve.method": "periodic"},
               ("solve the grid",), "399 of 399 points"),
     "thesis": ({}, (), "claims"),
