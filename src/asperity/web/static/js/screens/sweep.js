@@ -46,7 +46,8 @@ export function view() {
   const running = work.job?.state === "running";
   return html`<${Screen} title="Sweep" kinds=${["slide", "gear"]} first="body-shaken-along" start=${SLIDE.start}
     lead="A case at every point of a grid. What is solved is kept: stop when you like, and go on later."
-    answer=${{ ...one.data, notes: running ? work.job.notes : [], command: body && commandLine("sweep", body) }}
+    answer=${{ toml: one.data?.toml, ...(work.stale ? null : work.data), notes: running ? work.job.notes : [],
+      command: body && commandLine("sweep", body) }}
     error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}
     now=${one.now && !refused}>
     <div class="columns answer-first">
