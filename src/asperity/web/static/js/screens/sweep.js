@@ -151,7 +151,7 @@ function Least({ title, unit, values, loose, axes }) {
   const count = axes.at(-1).values.length;
   const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
   const where = axes.map(({ label, unit: of, values: all }, k) => `${label} ${digits(all[places[k]], 4)} ${of}`.trim());
-  return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}
+  return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}${" "}
     <span class="says">${inWords(title)}</span></p>`;
 }
 
