@@ -1,8 +1,10 @@
 """A screen as one file: without server and network it shows what it was made from, and the case."""
 
 import json
+import shlex
 from pathlib import Path
 
+import numpy as np
 import pytest
 from apparatus.browser import answered, settled
 from playwright.sync_api import expect
@@ -74,3 +76,32 @@ def test_a_shared_body_moves_without_a_server(shared):
     before = dot.get_attribute("cy")
     page.wait_for_timeout(400)
     assert dot.get_attribute("cy") != before
+
+
+@pytest.mark.campaign
+@pytest.mark.parametrize(
+    ("screen", "keys", "picture"),
+    [
+        ("flanks", ["pattern_area_fraction"], ".map svg"),
+        ("drive", ["torque_ratio", "power_actuator_W"], "svg.strips"),
+        ("block", ["ratio", "slider_ratio"], ".map-of"),
+        ("sweep", ["ratio"], ".heat svg"),
+    ],
+)
+def test_what_took_long_is_shared_with_its_pictures_and_its_command_gives_it_again(
+    shared, server, tmp_path, screen, keys, picture
+):
+    path, page = shared(screen)
+    assert path.stat().st_size < MOST_BYTES
+    expect(page.locator(picture).first).to_be_visible()
+    told = json.loads(page.locator("#answer").text_content())
+    case = tmp_path / "again.toml"
+    case.write_text(page.locator("#case").inner_text())
+    _, command, _, *rest = shlex.split(page.locator(".says code").first.inner_text())
+    # What was set stands in the case.
+    sets = {at for at, word in enumerate(rest) if word == "--set"}
+    rest = [word for at, word in enumerate(rest) if not {at, at - 1} & sets and word != "--json"]
+    again = answered(["asperity", command, str(case), *rest, "--json"], server.folder)
+    for key in keys:
+        np.testing.assert_allclose(again[key], told[key], rtol=1e-5)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360

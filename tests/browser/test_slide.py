@@ -78,7 +78,7 @@ def test_the_keyboard_alone_drags_pins_reads_the_table_and_opens_an_origin(slide
     tab_to(slide, "0.")
     slide.keyboard.press("Enter")
     origin = slide.get_by_role("dialog", name="where the number comes from")
-    expect(origin).to_contain_text(re.compile(r"equation\s*F_dv/F_ds = .*N / .*N"))
+    expect(origin).to_contain_text(re.compile(r"equation\s*Fdv/Fds = .*N / .*N"))
     slide.keyboard.press("Escape")
     expect(origin).to_be_hidden()
     tab_to(slide, "pin this curve")

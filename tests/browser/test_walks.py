@@ -82,6 +82,7 @@ def test_from_a_recording_to_a_fitted_law_takes_five_clicks(seen):
     walk.click("link", "What did my rig measure?")
     page.get_by_label("or drop a file here").set_input_files(RECORDING)
     walk.clicks += 1
+    expect(page.get_by_role("heading", name="rig.nc")).to_be_visible()
     expect(page.locator(".signals")).to_be_visible()
     walk.click("button", re.compile("^reduce$"))
     fit = page.get_by_role("button", name=re.compile("^fit$"))

@@ -9,8 +9,6 @@ const SCREENS = {
   block: ["block", ({ settings }) => `-${settings?.["solve.method"]}`],
   "rig reduce": ["rig"], "rig import": ["rig"], "rig run": ["rig"], fit: ["rig"],
 };
-/** What a screen sets by itself. */
-const BY_ITSELF = { block: ["solve.method"] };
 /** The case of a rig that a recording without one is seen with. */
 const RIG = "disc-on-disc";
 
@@ -23,7 +21,8 @@ export function belongsTo({ id, asked, files }, jobs) {
   const [screen, slot] = SCREENS[asked?.command] ?? [];
   if (!screen) return null;
   const { command, settings = {}, options = {}, arguments: given = {} } = asked;
-  const own = Object.entries(settings).filter(([path]) => !BY_ITSELF[command]?.includes(path));
+  // A block's method is set by its screen.
+  const own = Object.entries(settings).filter(([path]) => command !== "block" || path !== "solve.method");
   const params = {
     ...Object.fromEntries(own.map(([path, text]) => [`set.${path}`, text])),
     ...(asked.case && { case: asked.case }), [`job-${command}${slot?.(asked) ?? ""}`]: `${id}.${nameOf(asked)}`,

@@ -10,9 +10,6 @@ const rounded = new Intl.NumberFormat("en", { maximumSignificantDigits: 2 });
 /** Seen obliquely: how far a place behind the picture lies aside and up. */
 const [ASIDE, UP] = [0.42, 0.3];
 
-/** Paths of a map: as many as colours, and that of what has no value. */
-const LAYERS = LEVELS + 1;
-
 /** Where a point is seen, mm. */
 const seen = ([x, y, z]) => [1e3 * (x + ASIDE * y), 1e3 * (z + UP * y)];
 const pointOf = (values, at) => [values[3 * at], values[3 * at + 1], values[3 * at + 2]];
@@ -84,20 +81,17 @@ export function Deformed({ packed, contact }) {
       thin: (right - left) / 400 };
   };
   const [skin, under] = [view(rest.map(seen), 0.07), view(contact.x.map((x, at) => [x, contact.y[at]]), 0.03)];
-  const paths = (thin) => Array.from({ length: LAYERS }, () => html`<path stroke-width=${thin} />`);
+  const part = (name, { box: seenIn, thin }, ends, unit, label, title) => html`<figure><figcaption>${title}</figcaption>
+    <svg class="map-of" viewBox=${seenIn} role="img" aria-label=${`${title}: ${label}, ${digits(ends[0], 3)} to
+      ${digits(ends[1], 3)} ${unit}`}><g data-of=${name} class=${name}>
+      ${Array.from({ length: LEVELS + 1 }, () => html`<path stroke-width=${thin} />`)}</g></svg>
+    <${Legend} range=${ends} unit=${unit} label=${label} /></figure>`;
   return html`<div class="deformed" ref=${box}>
     <div class="grid">
-      <figure><figcaption>The block, deformed ${rounded.format(magnified)} times as much as it is</figcaption>
-        <svg class="map-of" viewBox=${skin.box} role="img" aria-label=${`the elastic block seen obliquely: it deforms
-          by ${digits(1e9 * range[0], 2)} to ${digits(1e9 * range[1], 3)} nm`}>
-          <g data-of="skin" class="skin">${paths(skin.thin)}</g></svg>
-        <${Legend} range=${range.map((each) => 1e9 * each)} unit="nm" label="deformation" /></figure>
-      <figure><figcaption>The pressure under it at that moment</figcaption>
-        <svg class="map-of" viewBox=${under.box} role="img" aria-label=${`pressure under the block: ${
-          digits(loads[0] / 1e3, 3)} to ${digits(loads[1] / 1e3, 3)} kPa`}>
-          <g data-of="under">${paths(under.thin)}</g></svg>
-        <${Legend} range=${loads.map((each) => each / 1e3)} unit="kPa" label="pressure at a node" /></figure>
-    </div>
+      ${part("skin", skin, range.map((each) => 1e9 * each), "nm", "deformation",
+        `The block, deformed ${rounded.format(magnified)} times as much as it is`)}
+      ${part("under", under, loads.map((each) => each / 1e3), "kPa", "pressure at a node",
+        "The pressure under it at that moment")}</div>
     <p class="row"><${Play} ...${playing} /> <span class="says" data-of="now" aria-hidden="true"></span></p>
     <p class="says">The last ${digits(1e3 * (times.at(-1) - times[0]), 3)} ms of the march, over and over, slowed
       ${" "}${rounded.format(SECONDS / (times.at(-1) - times[0]))} times; what the block moves

@@ -42,7 +42,8 @@ const aliasOf = (name) => about.value?.cases.find((each) => each.name === name)?
 function exampleOf(asked, slot, any) {
   if (!asked) return null;
   const named = (name) => about.value?.cases.find(({ alias }) => alias && alias === name)?.name ?? name;
-  const kind = ({ command, options }) => nameOf({ command, options });
+  // What was read from a file is an answer to no other.
+  const kind = ({ command, options, arguments: given }) => nameOf({ command, options, given });
   const alike = shipped.value.filter((each) => each.slot === slot && kind(each.asked) === kind(asked));
   const own = alike.find((each) => named(each.asked.case) === named(asked.case));
   const found = own ?? (any ? alike[0] : null);
@@ -73,8 +74,7 @@ const NOTHING = { job: null, data: null, error: null, asking: false };
  *
  * @typedef {{id: string, job: any, data: any, error: Error | null, asking: boolean, can: boolean,
  *   stale: boolean, from: string, files?: string[], start: () => Promise<void>, stop: () => void}} Job `asking`:
- *   begun, and not heard of yet; `can`: there is something to ask; `stale`: something was set since; `from`: of
- *   which job `data` is, or of which answer that ships
+ *   begun, not heard of yet; `stale`: something was set since; `from`: which job or shipped answer `data` is of
  *
  * @param {string} command
  * @param {object | null} body what a new one would be asked: case, settings, options

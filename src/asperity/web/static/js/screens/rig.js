@@ -215,7 +215,7 @@ function Law({ found }) {
   const ended = (end) => (end === null ? "open" : digits(end, 4));
   const sure = ({ identifiable, why }) => html`<span class=${identifiable ? "good" : "warn"}>
     ${identifiable ? "✓ both ends" : "~ an end is open"}</span> ${why}`;
-  return html`<${Table} region="the fitted law" rows=${found.parameters} columns=${[
+  return html`<${Table} region="parameters" rows=${found.parameters} columns=${[
       ["parameter", ({ key }) => key, "row"],
       ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
       ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],

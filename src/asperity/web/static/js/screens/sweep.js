@@ -46,7 +46,8 @@ export function view() {
   const running = work.job?.state === "running";
   return html`<${Screen} title="Sweep" kinds=${["slide", "gear"]} first="body-shaken-along" start=${SLIDE.start}
     lead="A case at every point of a grid. What is solved is kept: stop when you like, and go on later."
-    answer=${{ ...one.data, notes: running ? work.job.notes : [], command: body && commandLine("sweep", body) }}
+    answer=${{ toml: one.data?.toml, ...(work.stale ? null : work.data), notes: running ? work.job.notes : [],
+      command: body && commandLine("sweep", body) }}
     error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}
     now=${one.now && !refused}>
     <div class="columns answer-first">
@@ -150,7 +151,7 @@ function Least({ title, unit, values, loose, axes }) {
   const count = axes.at(-1).values.length;
   const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
   const where = axes.map(({ label, unit: of, values: all }, k) => `${label} ${digits(all[places[k]], 4)} ${of}`.trim());
-  return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}
+  return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}${" "}
     <span class="says">${inWords(title)}</span></p>`;
 }
 

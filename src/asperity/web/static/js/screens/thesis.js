@@ -16,10 +16,7 @@ const VERDICTS = {
   "not testable": ["?", "not testable", ""],
   "": ["–", "not made here", ""],
 };
-const CHOICES = {
-  all: "all", reproduced: "reproduced", differs: "differs", fitted: "fitted", arithmetic: "arithmetic",
-  "not testable": "not testable", "": "not made here",
-};
+const CHOICES = { all: "all", ...Object.fromEntries(Object.entries(VERDICTS).map(([key, [, word]]) => [key, word])) };
 
 export function view() {
   const { found: own, error } = useAsked("thesis", (leave) => get("/api/thesis", leave));
