@@ -11,6 +11,7 @@ _COLUMNS = (
     Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
     Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
 )
+_RECORDINGS = Argument("recordings", "REC...", "Recordings of a rig.", many=True)
 _RIG = Option("config", "The rig's configuration; left out: the one in each recording.", "CONFIG")
 
 COMMANDS = (
@@ -120,8 +121,7 @@ COMMANDS = (
     Command(
         "shafts",
         "Shafts and bearings of a worm gearset: reactions, deflection, strength, lives.",
-        "By DIN 743, ISO 281 and ISO 76. With --out also report.html, shafts.json, shafts.nc, "
-        "shafts.png and shafts.xlsx, a workbook of live formulas.",
+        "By DIN 743, ISO 281, ISO 76. --out: report.html and shafts.json, .nc, .png, .xlsx (live).",
         module="asperity.shafts.study",
         needs=("gearset", "operation"),
     ),
@@ -330,7 +330,7 @@ COMMANDS = (
         module="asperity.tribometer.checking.study",
         read="asperity.tribometer.checking.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
         options=(_RIG,),
     ),
@@ -342,7 +342,7 @@ COMMANDS = (
         module="asperity.tribometer.reduction.study",
         read="asperity.tribometer.reduction.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
         options=(
             _RIG,

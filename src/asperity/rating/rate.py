@@ -370,7 +370,20 @@ def rated_of(
 
 
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
-    """Rate the worm gearset of a case file; as `rate`."""
+    """Rate the worm gearset of a case file; as `rate`.
+
+    Parameters
+    ----------
+    case : Case
+        With ``[gearset]`` and ``[operation]``.
+    standards : sequence of str
+        Of `STANDARDS`.
+
+    Returns
+    -------
+    Rated
+        As of `rate`.
+    """
     options = case.get(RatingOptions)
     gearset, operation = case.require(Gearset), run_of(case)
     with naming_source(case):

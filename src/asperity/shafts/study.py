@@ -51,6 +51,16 @@ def given_shafts(case: Case) -> bool:
 def prepare(case: Case) -> Prepared:
     """Return the shafts of a case.
 
+    Parameters
+    ----------
+    case : Case
+        With ``[gearset]``, ``[operation]`` and one of ``[worm_shaft]`` and ``[wheel_shaft]``.
+
+    Returns
+    -------
+    Prepared
+        For `answer`.
+
     Raises
     ------
     InputError
@@ -77,7 +87,23 @@ def prepare(case: Case) -> Prepared:
 
 
 def answer(problem: Prepared, _: Run) -> ShaftStudy:
-    """Find what both shafts and their bearings come to."""
+    """Find what both shafts and their bearings come to.
+
+    Parameters
+    ----------
+    problem : Prepared
+        From `prepare`.
+
+    Returns
+    -------
+    ShaftStudy
+        Loads, deflection, safeties and lives.
+
+    Raises
+    ------
+    InputError
+        ISO/TR 14521 has no answer for the gearset, whose losses the loads follow from.
+    """
     iso = rate_by("iso14521", problem.given, problem.tables)
     return study(problem, loads_of(problem.given, iso), iso)
 
@@ -121,6 +147,16 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
 
 def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     """Return what adds shafts and bearings of a case to its rating: a row for each of them.
+
+    Parameters
+    ----------
+    case : Case
+        With at least one shaft.
+
+    Returns
+    -------
+    callable
+        Takes a rating and a run, and returns the rating with the rows.
 
     Raises
     ------

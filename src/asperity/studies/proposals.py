@@ -77,6 +77,11 @@ def propose(
     details : callable, optional
         What else a `Proposal` tells of a gearset with its keys; those that are shown are asked for.
 
+    Returns
+    -------
+    Proposals
+        The best first.
+
     Raises
     ------
     InputError
