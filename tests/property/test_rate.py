@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate, variants
-from asperity.rating.by_standard import judge_of
 from asperity.rating.demands import DEMANDS
 from asperity.rating.iso14521.efficiency import wheel_driving_efficiency
 from asperity.rating.self_locking import locking_friction
+from asperity.rating.standards import judge_of
 
 VARIED = {
     "diameter_factor": (6.0, 18.0),

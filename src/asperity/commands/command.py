@@ -5,7 +5,7 @@ import shlex
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from asperity.commands.place import loaded
+from asperity.commands.tables import loaded
 from asperity.errors import InputError, choices, nearest, plain, shown, suggestion
 
 if TYPE_CHECKING:

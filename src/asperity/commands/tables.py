@@ -1,9 +1,8 @@
 """The tables of a case file, whichever command reads them."""
 
+import importlib
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
-
-from asperity.commands.place import loaded
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from asperity.casefile import Table
@@ -55,6 +54,12 @@ _TABLES = {
     "shaft": "asperity.drive.parameters:Shaft",
     "actuator": "asperity.drive.parameters:Actuator",
 }
+
+
+def loaded(place: str) -> Any:
+    """Return what stands at ``"module:name"`` of another room, imported when it is used."""
+    module, _, name = place.partition(":")
+    return getattr(importlib.import_module(module), name)
 
 
 class _Tables(Mapping[str, "type[Table]"]):

@@ -5,7 +5,7 @@
 :Data: `[friction]` (`parameters`).
 :Where: a law a file: `coulomb`, `dahl`, `lugre`, `return_mapping`, `springs`, `two_phase` (the
     thesis's); `loaded` under a normal force that changes; `tangent` and its like for implicit
-    contact.
+    contact; `lanes` for many bodies side by side.
 :Tests: `unit/test_friction`, `unit/test_lugre_update`, `unit/test_loaded_friction`,
     `literature/test_friction`, `literature/test_lugre*`, `property/test_friction`.
 """

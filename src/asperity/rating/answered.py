@@ -11,15 +11,13 @@ from asperity.gearset.lubricants import Lubricant
 from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.table import Tolerances
-from asperity.rating.alternatives import Alternative, alternatives
-from asperity.rating.by_standard import judge_of
 from asperity.rating.changes import changed_words
 from asperity.rating.driven import given_of
 from asperity.rating.inputs import Inputs
-from asperity.rating.levers import levers
+from asperity.rating.levers import Alternative, alternatives, levers
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated, rate, rated_of, run_of
-from asperity.rating.standards import ALL, STANDARDS
+from asperity.rating.standards import ALL, STANDARDS, judge_of
 from asperity.runs import Run
 
 

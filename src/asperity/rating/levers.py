@@ -1,10 +1,13 @@
-"""What moves a safety most: how much it changes where one input is raised alone."""
+"""What moves a safety most: one input raised alone, or another oil or wheel material."""
 
 import math
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from asperity.errors import AsperityError
+from asperity.gearset.library import every
+from asperity.gearset.lubricants import Lubricant
+from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import DEFAULT_LIFE, Operation
 from asperity.results.words import Number, Sentence
@@ -14,6 +17,8 @@ _STEP = 1.01
 # oil: it dips sharply at 220.3 mm²/s, where the commonest oil of worm gears stands.
 _GRADE = 1.5
 _NOTHING = 0.05
+_LITTLE = 0.01  # of a safety
+_WORDS = {"operation.lubricant": "oil", "gearset.wheel_material": "wheel"}
 _OIL = "oil viscosity"
 
 Judge = Callable[[Gearset, Operation], float]
@@ -148,3 +153,70 @@ def _raised(gearset: Gearset, operation: Operation) -> Iterator[Raised]:
         else:
             raised = run(wheel_revolutions=turns * more)
             yield "life", ("operation.wheel_revolutions",), raised
+
+
+class Alternative(NamedTuple):
+    """Another choice from a table of things that have a name, all else as it is.
+
+    Attributes
+    ----------
+    key : str
+        What would be chosen otherwise, as ``table.key`` of a case.
+    value : str
+        The best choice.
+    safety : float
+        The safety with it.
+    changes : tuple of str
+        What else it changes in the words of the verdict.
+    """
+
+    key: str
+    value: str
+    safety: float
+    changes: tuple[str, ...] = ()
+
+    def told(self, asked: float, key: str = "") -> Sentence:
+        """In words, beside what is asked: beyond ten times that, how far says nothing."""
+        much, near = 10.0 * asked, Number.of(self.safety, ".3g", key and f"{key}.safety")
+        safety = near if self.safety < much else f"over {much:g}"
+        also = "".join(f"; {change}" for change in self.changes)
+        return Sentence(f"{_WORDS[self.key]} {self.value} (", safety, f"{also})")
+
+
+def alternatives(judge: Judge, gearset: Gearset, operation: Operation) -> tuple[Alternative, ...]:
+    """Return the best other oil and the best other wheel material, the better one first.
+
+    Parameters
+    ----------
+    judge, gearset, operation
+        As of `levers`.
+
+    Returns
+    -------
+    tuple of Alternative
+        Of each kind the best, where it brings at least a percent of the safety. Pairs that practice
+        avoids are left out.
+    """
+    now = judge(gearset, operation)
+    best: dict[str, Alternative] = {}
+    for key, name, changed in _others(gearset, operation):
+        try:
+            then = judge(*changed)
+        except AsperityError:
+            continue
+        if then > max(now * (1.0 + _LITTLE), best[key].safety if key in best else 0.0):
+            best[key] = Alternative(key, name, then)
+    return tuple(sorted(best.values(), key=lambda found: -found.safety))
+
+
+def _others(
+    gearset: Gearset, operation: Operation
+) -> Iterator[tuple[str, str, tuple[Gearset, Operation]]]:
+    for oil in every(Lubricant):
+        if not gearset.wheel_material.avoids(oil.base_oil):
+            changed: Any = operation.model_copy(update={"lubricant": oil})
+            yield "operation.lubricant", oil.name, (gearset, changed)
+    for material in every(WheelMaterial):
+        if not material.avoids(operation.lubricant.base_oil):
+            changed = gearset.model_copy(update={"wheel_material": material})
+            yield "gearset.wheel_material", material.name, (changed, operation)

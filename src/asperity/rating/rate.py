@@ -12,9 +12,7 @@ from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.table import Tolerances
-from asperity.rating.alternatives import Alternative
 from asperity.rating.bs721.tables import Tables
-from asperity.rating.by_standard import PROMISED, rate_by
 from asperity.rating.driven import given_of, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.duty_words import duty_lines, loads_line
@@ -23,13 +21,13 @@ from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs
-from asperity.rating.levers import Lever
+from asperity.rating.levers import Alternative, Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
 from asperity.rating.result import Rating
 from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking, self_locking
-from asperity.rating.standards import STANDARDS, known_standards, tables_of
+from asperity.rating.standards import PROMISED, STANDARDS, known_standards, rate_by, tables_of
 from asperity.rating.starting import Starting, starting, starting_table
 from asperity.rating.tables import operation_of
 from asperity.rating.verdict import Verdict, screen

@@ -5,9 +5,8 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-from asperity.rating.alternatives import Alternative
 from asperity.rating.demands import DEMANDS, Demand
-from asperity.rating.levers import Lever
+from asperity.rating.levers import Alternative, Lever
 from asperity.rating.regime import Film
 from asperity.rating.result import Rating
 from asperity.rating.rows import Row

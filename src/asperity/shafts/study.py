@@ -8,13 +8,12 @@ from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.bs721.tables import Tables
-from asperity.rating.by_standard import rate_by
 from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, inputs, scaled
 from asperity.rating.parameters import RatingOptions
 from asperity.rating.rate import Rated
 from asperity.rating.result import Rating
-from asperity.rating.standards import tables_of
+from asperity.rating.standards import rate_by, tables_of
 from asperity.rating.tables import operation_of
 from asperity.runs import Run
 from asperity.shafts.loads import (

@@ -5,10 +5,10 @@ from typing import Any, NamedTuple
 
 from asperity.arrays import FloatArray
 from asperity.rating.rate import Rated
-from asperity.studies.asked import LOCKING
 from asperity.studies.design import THREADS, VARIABLES, Space
 from asperity.studies.designs import SHOWN, free_numbers
 from asperity.studies.quantities import varied_quantity
+from asperity.studies.search import LOCKING
 
 TORQUES = {"M_w_Nm": "M_w", "M_s_Nm": "M_s"}
 """Torques that BS 721 permits for wear and strength, with their symbols."""

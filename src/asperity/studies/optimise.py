@@ -21,7 +21,6 @@ from asperity.rating.rate import Rated, rate
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
-from asperity.studies.asked import bounds_of, known_safeties, least_safeties
 from asperity.studies.climb import climb, spread
 from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
 from asperity.studies.designs import (
@@ -37,6 +36,7 @@ from asperity.studies.limits import TORQUES, Limit, limits_of, number_of
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.requirements import Requirements
 from asperity.studies.rounding import rounded
+from asperity.studies.search import bounds_of, known_safeties, least_safeties
 from asperity.studies.tradeoff import TradeOff, trade_off
 
 if TYPE_CHECKING:
@@ -221,7 +221,7 @@ def optimise(
         Designs to begin from as well, rows of the variables in SI.
     requirements : Requirements, optional
         What the design keeps beside its load capacity, even where the gearset does not as it is.
-        Its safety is part of ``least``, see `asperity.studies.asked.least_safeties`.
+        Its safety is part of ``least``, see `asperity.studies.search.least_safeties`.
 
     Returns
     -------
@@ -274,7 +274,7 @@ def optimise(
     )
 
 
-class Asked(NamedTuple):
+class Problem(NamedTuple):
     """What is asked of the command.
 
     Attributes
@@ -298,21 +298,21 @@ def prepare(
     free: str = "",
     bounds: Sequence[str] | None = None,
     keep: Sequence[str] | None = None,
-) -> Asked:
+) -> Problem:
     """Return the gearset of a case, how it runs, and what is asked of its best design."""
     gears = Gears.of(case)
     for name in keep or ():
         known_safeties(name)
-    return Asked(gears, bounds_of(gears.gearset, free, bounds or ()), tuple(keep or ()))
+    return Problem(gears, bounds_of(gears.gearset, free, bounds or ()), tuple(keep or ()))
 
 
-def answer(asked: Asked, _: Run) -> Optimum:
+def answer(problem: Problem, _: Run) -> Optimum:
     """Return the best design of a case's gearset, with the trade-off it lies on."""
-    gears = asked.gears
-    tables = gears.gearset, gears.operation, gears.options, asked.bounds
+    gears = problem.gears
+    tables = gears.gearset, gears.operation, gears.options, problem.bounds
     now = rate(*tables[:3], folder=gears.folder)
     kept = gears.requirements
-    least = least_safeties(now, asked.keep, kept.safety)
+    least = least_safeties(now, problem.keep, kept.safety)
     curve = trade_off(*tables, folder=gears.folder, least=least, requirements=kept)
     begin = np.stack(
         [

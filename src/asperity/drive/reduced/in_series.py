@@ -3,7 +3,8 @@ r"""Asperities in series with teeth that bend along the flank, over one step.
 The slip at the asperities is what the teeth's bending leaves of the way. Both are solved for
 together, in closed form where the asperities are brittle (exponent 0: of two springs in series and
 one limit), else by Newton's method; friction keeps its stiffness while the load changes
-(`asperity.friction.loaded`). Deflections and ways are in units of the one at full friction.
+(`asperity.friction.loaded`). Deflections and ways are in units of the one at full friction, and the
+teeth's compliance is over that of the asperities.
 """
 
 import math
@@ -32,12 +33,12 @@ def _brittle(sx, sy, dx, dy, limit):
 
 @uncounted
 @kernel(inline="always")
-def _correction(more, xx, xy, yx, yy, ex, ey):
-    """Newton's step of a deflection whose error is ``e``, the teeth bending by ``more`` of it."""
-    a = 1.0 + more * xx
-    b = more * xy
-    c = more * yx
-    d = 1.0 + more * yy
+def _correction(compliance, xx, xy, yx, yy, ex, ey):
+    """Newton's step of a deflection whose error is ``e``, teeth bending by ``compliance`` of it."""
+    a = 1.0 + compliance * xx
+    b = compliance * xy
+    c = compliance * yx
+    d = 1.0 + compliance * yy
     over = 1.0 / (a * d - b * c)
     return over * (d * ex - b * ey), over * (a * ey - c * ex)
 
@@ -49,9 +50,9 @@ def _relaxed(decay, before, gone):
 
     Of near ones by a series, to 4e-14.
     """
-    more = decay - before
-    if abs(more) < 1e-3:
-        return gone + (1.0 - gone) * more * (1.0 - more * (1.0 / 2.0 - more * (1.0 / 6.0)))
+    change = decay - before
+    if abs(change) < 1e-3:
+        return gone + (1.0 - gone) * change * (1.0 - change * (1.0 / 2.0 - change * (1.0 / 6.0)))
     return 1.0 - math.exp(-decay)
 
 
@@ -65,16 +66,16 @@ def _above(sx, sy, limit):
 
 @uncounted
 @kernel
-def _springing_back(ax, ay, bx, by, more):
+def _springing_back(ax, ay, bx, by, compliance):
     """As `ductile` has it, the relaxation of a deflection above the limit: within bounds."""
     low = 0.0
-    high = math.sqrt(bx * bx + by * by) + more * math.sqrt(ax * ax + ay * ay)
+    high = math.sqrt(bx * bx + by * by) + compliance * math.sqrt(ax * ax + ay * ay)
     decay = high
     gone = 1.0
     off = math.inf
     for _ in range(_ITERATIONS):
         gone = -math.expm1(-decay)
-        bent = more * gone
+        bent = compliance * gone
         tx = bx + bent * ax
         ty = by + bent * ay
         way = math.sqrt(tx * tx + ty * ty)
@@ -85,7 +86,7 @@ def _springing_back(ax, ay, bx, by, more):
             low = decay
         else:
             high = decay
-        slope = 1.0 + more * (1.0 - gone) * (1.0 - (ax * tx + ay * ty) / (way + TINY))
+        slope = 1.0 + compliance * (1.0 - gone) * (1.0 - (ax * tx + ay * ty) / (way + TINY))
         decay = decay + off / slope if slope != 0.0 else high
         if not low < decay < high:
             decay = 0.5 * (low + high)
@@ -94,8 +95,8 @@ def _springing_back(ax, ay, bx, by, more):
 
 @uncounted
 @kernel
-def ductile(sx, sy, dx, dy, limit_0, limit_1, more):
-    r"""Asperities of exponent 1 on teeth that bend by ``more`` of their deflection; what is left.
+def ductile(sx, sy, dx, dy, limit_0, limit_1, compliance):
+    r"""Asperities of exponent 1 on teeth that bend by ``compliance`` of their deflection.
 
     Unless the limit falls below what comes out, it is one equation, for the relaxation
     :math:`A = |t|/m` over the slip :math:`t = d - b(w - s)` that the teeth, by the part :math:`b`,
@@ -103,7 +104,7 @@ def ductile(sx, sy, dx, dy, limit_0, limit_1, more):
 
     .. math:: A + b y = |d + b y s|/m ,
 
-    which steps by Newton and Halley from below rise to.
+    which steps by Newton and Halley from below rise to. Also returns what is left.
     """
     over = 2.0 / (limit_0 + limit_1)
     ax = over * sx
@@ -112,28 +113,28 @@ def ductile(sx, sy, dx, dy, limit_0, limit_1, more):
     by = over * dy
     slip = math.sqrt(bx * bx + by * by)
     # Both from below: the first step from rest, and asperities that have relaxed.
-    soft = slip + more * (slip - ax * bx - ay * by)
-    far = math.sqrt((bx + more * ax) ** 2 + (by + more * ay) ** 2) - more
+    soft = slip + compliance * (slip - ax * bx - ay * by)
+    far = math.sqrt((bx + compliance * ax) ** 2 + (by + compliance * ay) ** 2) - compliance
     decay = max(far, slip * slip / soft if soft > 0.0 else 0.0)
     gone = _relaxed(decay, 0.0, 0.0)
     off = math.inf
     if _above(sx, sy, limit_0) > 1.0:
-        decay, gone, off = _springing_back(ax, ay, bx, by, more)
+        decay, gone, off = _springing_back(ax, ay, bx, by, compliance)
     for _ in range(_ITERATIONS):
-        bent = more * gone
+        bent = compliance * gone
         tx = bx + bent * ax
         ty = by + bent * ay
         way = math.sqrt(tx * tx + ty * ty)
         off = way - decay - bent
         if abs(off) <= _CLOSE * (1.0 + decay):
             break
-        bends = more * (1.0 - gone) * (1.0 - (ax * tx + ay * ty) / way)
+        bends = compliance * (1.0 - gone) * (1.0 - (ax * tx + ay * ty) / way)
         step = off / (1.0 + bends)
         step *= 1.0 + 0.5 * step * bends / (1.0 + bends)
         before = decay
         decay = max(decay + step, 0.0)
         gone = _relaxed(decay, before, gone)
-    share = gone / (decay + more * gone + TINY)
+    share = gone / (decay + compliance * gone + TINY)
     wx = sx + share * (dx - decay * sx)
     wy = sy + share * (dy - decay * sy)
     size = math.sqrt(wx * wx + wy * wy)
@@ -143,14 +144,14 @@ def ductile(sx, sy, dx, dy, limit_0, limit_1, more):
             return wx, wy, abs(off) / (1.0 + decay)
         back = above * limit_1 / size
         return _slipping_back(
-            sx, sy, back * wx, back * wy, dx, dy, limit_0, limit_1, above, more, decay, gone
+            sx, sy, back * wx, back * wy, dx, dy, limit_0, limit_1, above, compliance, decay, gone
         )
     return wx, wy, abs(off) / (1.0 + decay)
 
 
 @uncounted
 @kernel
-def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, above, more, decay, gone):
+def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, above, compliance, decay, gone):
     """As `ductile`, where the limit falls below the deflection (`friction.loaded.slip_back`).
 
     Newton's steps from ``w``, their tangent without how far it is turned on. Where it kinks they
@@ -163,8 +164,8 @@ def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, above, more, decay,
     stepx = 0.0
     stepy = 0.0
     for _ in range(_ITERATIONS):
-        tx = dx - more * (wx - sx)
-        ty = dy - more * (wy - sy)
+        tx = dx - compliance * (wx - sx)
+        ty = dy - compliance * (wy - sy)
         way = math.sqrt(tx * tx + ty * ty) + 1e-280
         before = decay
         decay = over * way
@@ -209,7 +210,7 @@ def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, above, more, decay,
             px = back * (nx * xx + ny * yx)
             py = back * (nx * xy + ny * yy)
             xx, xy, yx, yy = nx * px, nx * py, ny * px, ny * py
-        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
+        stepx, stepy = _correction(compliance, xx, xy, yx, yy, ex, ey)
         wx += stepx
         wy += stepy
     return wx, wy, off
@@ -217,12 +218,12 @@ def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, above, more, decay,
 
 @uncounted
 @kernel
-def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
-    """Asperities of any exponent on teeth that bend by ``more`` of their deflection.
+def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, compliance):
+    """Asperities of any exponent on teeth that bend by ``compliance`` of their deflection.
 
     Where the tangent has a kink, as brittle asperities at their limit, steps are halved.
     """
-    one = 1.0 / (1.0 + more)
+    one = 1.0 / (1.0 + compliance)
     wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
     last = math.inf
     off = 0.0
@@ -230,7 +231,7 @@ def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
     stepy = 0.0
     for _ in range(_ITERATIONS):
         (ux, uy), _, _, ((xx, xy, yx, yy), _), _ = update_loaded(
-            (sx, sy), (dx - more * (wx - sx), dy - more * (wy - sy)), (0.0, 0.0),
+            (sx, sy), (dx - compliance * (wx - sx), dy - compliance * (wy - sy)), (0.0, 0.0),
             limit_0, limit_1, exponent, VECTOR, STIFFNESS,
         )  # fmt: skip
         ex = ux - wx
@@ -245,7 +246,7 @@ def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
             wy -= stepy
             continue
         last = off
-        stepx, stepy = _correction(more, xx, xy, yx, yy, ex, ey)
+        stepx, stepy = _correction(compliance, xx, xy, yx, yy, ex, ey)
         wx += stepx
         wy += stepy
     return wx, wy, off
@@ -253,18 +254,18 @@ def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more):
 
 @uncounted
 @kernel(inline="always")
-def deflect(exponent, more, sx, sy, dx, dy, limit_0, limit_1):
+def deflect(exponent, compliance, sx, sy, dx, dy, limit_0, limit_1):
     """Deflection of the asperities after a way, the teeth bending with them; and what is left."""
     off = 0.0
     if limit_1 <= TINY:
         wx, wy = 0.0, 0.0
     elif exponent == 0.0:
-        one = 1.0 / (1.0 + more)
+        one = 1.0 / (1.0 + compliance)
         wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
-    elif exponent == 1.0 and more == 0.0:
+    elif exponent == 1.0 and compliance == 0.0:
         wx, wy = relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1)
     elif exponent == 1.0:
-        wx, wy, off = ductile(sx, sy, dx, dy, limit_0, limit_1, more)
+        wx, wy, off = ductile(sx, sy, dx, dy, limit_0, limit_1, compliance)
     else:
-        wx, wy, off = _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, more)
+        wx, wy, off = _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, compliance)
     return wx, wy, off

@@ -59,22 +59,22 @@ def _share(law, unit, tx, ty):
 
 @uncounted
 @kernel
-def _at(share, more, sx, sy, dx, dy, limit_0, limit_1):
+def _at(share, compliance, sx, sy, dx, dy, limit_0, limit_1):
     """Deflection, slip and what is left for a limit that is a share of the kinetic one."""
-    wx, wy, off = ductile(sx, sy, dx, dy, share * limit_0, share * limit_1, more)
-    return wx, wy, dx - more * (wx - sx), dy - more * (wy - sy), off
+    wx, wy, off = ductile(sx, sy, dx, dy, share * limit_0, share * limit_1, compliance)
+    return wx, wy, dx - compliance * (wx - sx), dy - compliance * (wy - sy), off
 
 
 @uncounted
 @kernel
 def _deflect(
-    law, more, sx, sy, rx, ry, dx, dy, limit_0, limit_1, share, unit, rate, slip
+    law, compliance, sx, sy, rx, ry, dx, dy, limit_0, limit_1, share, unit, rate, slip
 ):  # fmt: skip
     """As `deflect_damped`, with the dampings over the step; without what they add."""
-    slower = 1.0 / (1.0 + more * slip)
-    ax = slower * (dx + more * rx)
-    ay = slower * (dy + more * ry)
-    bend = more * (1.0 + rate) * slower
+    slower = 1.0 / (1.0 + compliance * slip)
+    ax = slower * (dx + compliance * rx)
+    ay = slower * (dy + compliance * ry)
+    bend = compliance * (1.0 + rate) * slower
     here = max(share, 1.0)
     wx, wy, tx, ty, off = _at(here, bend, sx, sy, ax, ay, limit_0, limit_1)
     miss = _share(law, unit, tx, ty) - here
@@ -112,14 +112,16 @@ def _deflect(
 
 @uncounted
 @kernel
-def deflect_damped(law, more, sx, sy, rx, ry, dx, dy, limit_0, limit_1, load, share, unit, dt):
+def deflect_damped(
+    law, compliance, sx, sy, rx, ry, dx, dy, limit_0, limit_1, load, share, unit, dt
+):
     """Deflection of the asperities after a way, their dampings' friction and the slip.
 
     Parameters
     ----------
     law : LuGre
         Its numbers.
-    more : float
+    compliance : float
         What the teeth bend over what the asperities do.
     sx, sy, rx, ry : float
         Deflection and the dampings' part of the friction before.
@@ -141,10 +143,19 @@ def deflect_damped(law, more, sx, sy, rx, ry, dx, dy, limit_0, limit_1, load, sh
     wx, wy, rx, ry, tx, ty, share, off : float
     """
     if limit_1 <= TINY:
-        return 0.0, 0.0, 0.0, 0.0, dx + more * (sx + rx), dy + more * (sy + ry), share, 0.0
+        return (
+            0.0,
+            0.0,
+            0.0,
+            0.0,
+            dx + compliance * (sx + rx),
+            dy + compliance * (sy + ry),
+            share,
+            0.0,
+        )
     rate = load * law.rate_time / dt
     slip = load * law.slip_time / dt
-    given = (law, more, sx, sy, rx, ry, dx, dy, limit_0, limit_1, share, unit)
+    given = (law, compliance, sx, sy, rx, ry, dx, dy, limit_0, limit_1, share, unit)
     wx, wy, tx, ty, found, off = _deflect(*given, rate, slip)
     mx = wx - sx
     my = wy - sy

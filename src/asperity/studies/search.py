@@ -1,4 +1,4 @@
-"""What is asked of an optimum on the command line: what is free, how far, what may not fall."""
+"""What a search for an optimum may change, how far, and what may not fall, as text has it."""
 
 import dataclasses
 import math
