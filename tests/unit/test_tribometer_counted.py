@@ -80,7 +80,7 @@ def test_a_speed_gives_way_to_swings_that_are_as_much_earlier_as_it_is_late():
 def test_the_weights_of_the_levels_are_those_of_their_covariance():
     rng = np.random.default_rng(5)
     swings = rng.normal(0.0, 0.5, window.size)
-    shown = 30.0 + 0.5 * rng.standard_normal(window.size)
+    shown = 30.0 - 5.0 * swings + 0.5 * rng.standard_normal(window.size)
     found = estimate_counted(TIMES, shown, window, SHAKEN, swings, LEFT_OUT, STEP, 1.0)
     # But for what is expected of the give, all of the covariance is that of noise made white.
     assert found.weights @ found.weights.T == pytest.approx(

@@ -1,14 +1,11 @@
 """A gearset by one standard, named by a word, and what a rating by it always has."""
 
-from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rate as rate_agma6034
 from asperity.rating.bs721.rating import rate as rate_bs721
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import Demand
 from asperity.rating.inputs import Inputs, inputs
-from asperity.rating.iso14521.calculation import film_parameter_of
-from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.iso14521.rating import rate as rate_iso14521
 from asperity.rating.levers import Judge
 from asperity.rating.parameters import Operation, RatingOptions
@@ -47,19 +44,3 @@ def rate_by(name: str, given: Inputs, tables: Tables) -> Rating:
     if name == "bs721":
         return rate_bs721(given, tables)
     return rate_agma6034(given)
-
-
-def require_consistent(given: Inputs, by_iso: bool) -> None:
-    """Raise InputError where the gearset's numbers do not belong together."""
-    try:
-        given.gearset.require_consistent()
-    except InputError as error:
-        # The end of h* tells more about a ratio or module that is too large.
-        try:
-            if by_iso:
-                film_parameter_of(given)
-        except FilmParameterError as film:
-            raise FilmParameterError(
-                f"{film}; {error}", film.value, film.driver, film.limits
-            ) from None
-        raise

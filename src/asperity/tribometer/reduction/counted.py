@@ -22,12 +22,11 @@ falls with the time; and a motor that gives way to the torque a second later see
 at all.
 
 Counts end where what is shown changes least between two ends. How late the speed is, by a count or
-more if it is counted, is what makes the signal likeliest.
+more if it is counted, is not known: all delays count by how likely they make the signal.
 """
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
@@ -45,6 +44,7 @@ from asperity.tribometer.reduction.noise import share_of_state
 _FEWEST = 3  # blocks of a window, of which a level and parts of a pulse are told
 _FLOOR = 1e-4  # of the variance of a block's noise, over that which steps leave there
 _MOST_MEMORY = 50.0  # blocks, and least, as a share of one
+_ROUNDS = 2
 _EVERY = 2  # short blocks between two delays that are tried
 
 
@@ -78,6 +78,11 @@ class _Fit:
         most = math.log(_MOST_MEMORY)
         memory = self.length * math.exp(min(max(given[1], -most), most))
         return math.exp(max(given[0], self.least)), memory, math.exp(min(max(given[2], -6.0), 6.0))
+
+    def with_swings(self, swings: FloatArray) -> "_Fit":
+        """Take swings that the signal gives way to."""
+        self.swings = swings
+        return self
 
     def root(self, given: FloatArray) -> FloatArray:
         """Return the Cholesky factors of the covariances of all windows."""
@@ -114,6 +119,33 @@ class _Fit:
             + max(self.least - given[0], 0.0)
         )
         return likelihood, estimate, information
+
+    def told(
+        self, given: FloatArray
+    ) -> tuple[float, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+        """Return what the signal says, and where from.
+
+        Returns
+        -------
+        likelihood, estimate, covariance
+            As from `solve`.
+        steps : ndarray, shape (windows, windows)
+            Of the covariance of levels, what steps leave.
+        weights : ndarray, shape (windows, windows, blocks)
+            Of white noise of size one in each block, what comes into the levels.
+        white : ndarray, shape (windows, blocks)
+            What is left of the signal, made white.
+        """
+        likelihood, estimate, information = self.solve(given)
+        covariance: FloatArray = np.asarray(np.linalg.inv(information), dtype=np.float64)
+        root = self.root(given)
+        ones, swings, rest = self.white(root)
+        weights = covariance[:-1, :-1, None] * ones + covariance[:-1, -1, None, None] * swings
+        on_means = np.linalg.solve(np.swapaxes(root, 1, 2), weights[..., None])[..., 0]
+        steps = np.einsum("kwm,wmn,lwn->kl", on_means, self.steps, on_means)
+        white = rest - estimate[:-1, None] * ones - estimate[-1] * swings
+        made: tuple[FloatArray, FloatArray, FloatArray] = (steps, weights, white)
+        return likelihood, estimate, covariance, *made
 
 
 def estimate_counted(
@@ -169,28 +201,26 @@ def estimate_counted(
         there, _means(signal / size, places, there), np.asarray(shaken), length, step / size,
         behind / each,
     )  # fmt: skip
-    free = 3 if any(shaken) and not all(shaken) else 2
+    levels, free = len(shaken), 3 if any(shaken) and not all(shaken) else 2
     variance = float((fit.rest**2).sum()) / float(there.sum() - len(places))
     given = np.array([math.log(max(variance, math.exp(fit.least))), math.log(0.3 / length), 0.0])
-    late = 0
-    for _ in range(2):
-        tried = []
-        for many in range(0, int((begins - first).min()) + 1, _EVERY):
-            fit.swings = _counted(swings, places, there, first, behind, many)
-            tried.append((fit.solve(given)[0], many))
-        late = min(tried)[1]
-        fit.swings = _counted(swings, places, there, first, behind, late)
+    delays = range(0, int((begins - first).min()) + 1, _EVERY)
+    shown = [_counted(swings, places, there, first, behind, late) for late in delays]
+    for _ in range(_ROUNDS):
+        likelihoods = [fit.with_swings(one).solve(given)[0] for one in shown]
+        fit.with_swings(shown[int(np.argmin(likelihoods))])
         given = likeliest(lambda trial: fit.solve(trial)[0], given, free)
-    slopes, spread = doubt(fit.solve, given, len(shaken), range(free))
-    _, estimate, information = fit.solve(given)
-    levels, covariance = len(shaken), np.linalg.inv(information)
-    root = fit.root(given)
-    ones, swung, rest = fit.white(root)
-    weights = covariance[:levels, :levels, None] * ones
-    weights += covariance[:levels, -1, None, None] * swung
-    on_means = np.linalg.solve(np.swapaxes(root, 1, 2), weights[..., None])[..., 0]
-    steps = np.einsum("kwm,wmn,lwn->kl", on_means, fit.steps, on_means)
-    white = rest - estimate[:levels, None] * ones - estimate[-1] * swung
+    slopes, spread = doubt(fit.solve, given, levels, range(free))
+    found = [fit.with_swings(one).told(given) for one in shown]
+    # The likeliest delay alone would be that of the largest give, wherever little tells of it.
+    likelihoods = [one[0] for one in found]
+    likely = np.exp(0.5 * (min(likelihoods) - np.array(likelihoods)))
+    likely /= likely.sum()
+    estimate, covariance, steps, weights, white = (
+        np.tensordot(likely, np.array([one[part] for one in found]), 1) for part in range(1, 6)
+    )
+    apart = np.array([one[1] for one in found]) - estimate
+    covariance += (likely * apart.T) @ apart
     variance, memory, _ = fit.noise(given)
     # White noise of a block is the sum of that of its shorter ones, over the root of their number.
     short = np.zeros((levels + 1, window.size))
@@ -207,7 +237,7 @@ def estimate_counted(
 
 
 def _behind(
-    times: FloatArray, signal: FloatArray, window: Any, here: BoolArray, each: int
+    times: FloatArray, signal: FloatArray, window: FloatArray, here: BoolArray, each: int
 ) -> IntArray:
     """Return how many short blocks each one begins behind the end of a count."""
     number = np.round((times - times[0]) / np.median(np.diff(times))).astype(np.int64)
@@ -248,5 +278,5 @@ def _counted(
         return earlier(np.full(len(places), late))
     share = (behind / each)[:, None]
     made: FloatArray = (1.0 - share) * earlier(behind + late)
-    made = made + share * earlier(behind + late - each)
+    made += share * earlier(behind + late - each)
     return made
