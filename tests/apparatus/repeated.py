@@ -1,9 +1,9 @@
 """Runs of lines of the package that stand twice: to the letter, or alike but for names and numbers.
 
 ``python tests/apparatus/repeated.py`` prints them with their lines. What counts are lines of code:
-no docstrings, comments, imports, blank lines, nor lines of punctuation and keywords alone. For a
-shape only what is done counts, in lines of three names or values: declared fields, symbols,
-decorators, signatures and lists of names are alike everywhere, and say another thing each time.
+no docstrings, comments, imports, heads of functions, blank lines, nor lines of punctuation and
+keywords alone. For a shape only what is done counts, in lines of three names or values: declared
+fields, symbols and lists of names are alike everywhere, and say another thing each time.
 """
 
 import ast
@@ -73,14 +73,14 @@ def _no_code(tree: ast.Module) -> Iterator[tuple[int, int]]:
         text = isinstance(alone, ast.Constant) and isinstance(alone.value, str)
         if text or isinstance(node, ast.Import | ast.ImportFrom):
             yield node.lineno, node.end_lineno or node.lineno
-
-
-def _declared(tree: ast.Module) -> Iterator[tuple[int, int]]:
-    """Yield the lines of what is said, not done: fields, names of a module, heads of functions."""
-    for node in ast.walk(tree):
         if isinstance(node, ast.FunctionDef | ast.ClassDef):
             first = min(part.lineno for part in (node, *node.decorator_list))
             yield first, node.body[0].lineno - 1
+
+
+def _declared(tree: ast.Module) -> Iterator[tuple[int, int]]:
+    """Yield the lines of what is said, not done: fields of a class, names of a module."""
+    for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef):
             for own in node.body:
                 if isinstance(own, ast.Assign | ast.AnnAssign):

@@ -210,7 +210,7 @@ def test_a_body_that_just_touches_is_an_ordinary_increment(seed, normal):
 
 
 def test_a_flexibility_of_a_folded_body_need_not_be_symmetric():
-    """A quarter of a body stands for all four: a force on its edge is there once, others are not."""
+    """A quarter of a body stands for all four: a force on its edge is there once, others not."""
     problem = problem_of(friction="none")
     folded = np.repeat(np.where(FACE.positions[:, 0] == 0.0, 1.0, 2.0), 3)
     problem = dataclasses.replace(problem, flexibility=problem.flexibility * folded)

@@ -121,8 +121,7 @@ COMMANDS = (
     Command(
         "shafts",
         "Shafts and bearings of a worm gearset: reactions, deflection, strength, lives.",
-        "By DIN 743, ISO 281 and ISO 76. With --out also report.html, shafts.json, shafts.nc, "
-        "shafts.png and shafts.xlsx, a workbook of live formulas.",
+        "By DIN 743, ISO 281, ISO 76. --out: report.html and shafts.json, .nc, .png, .xlsx (live).",
         module="asperity.shafts.study",
         needs=("gearset", "operation"),
     ),
