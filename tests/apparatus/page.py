@@ -125,7 +125,7 @@ class Served:
                 words = Path(f"/proc/{pid}/cmdline").read_bytes().decode().split("\0")
                 if "-m" in words:
                     what, first = words[words.index("-m") + 1 :][:2]
-                    found[pid] = "desk" if first == "desk" else what.rpartition(".")[2]
+                    found[pid] = "lookup" if first == "lookup" else what.rpartition(".")[2]
         return found
 
     def child(self, kind):

@@ -1,9 +1,9 @@
 """Runs of lines of the package that stand twice: to the letter, or alike but for names and numbers.
 
 ``python tests/apparatus/repeated.py`` prints them with their lines. What counts are lines of code:
-no docstrings, comments, imports, blank lines, nor lines of punctuation and keywords alone. For a
-shape a line counts that has three names or values: fields, lists of names and calls by keyword are
-alike everywhere.
+no docstrings, comments, imports, heads of functions, blank lines, nor lines of punctuation and
+keywords alone. For a shape only what is done counts, in lines of three names or values: declared
+fields, symbols and lists of names are alike everywhere, and say another thing each time.
 """
 
 import ast
@@ -25,7 +25,7 @@ COMMON = 8
 
 
 class Line(NamedTuple):
-    """A line of code: its number, its text, and its shape, the text without names and values."""
+    """A line of code: its text, its shape without names and values, whether that counts."""
 
     number: int
     text: str
@@ -48,7 +48,9 @@ class Pair(NamedTuple):
 
 def lines_of(text: str) -> list[Line]:
     """Return the lines of a module that count."""
-    left_out = {n for node in _no_code(ast.parse(text)) for n in range(node[0], node[1] + 1)}
+    tree = ast.parse(text)
+    left_out = {n for first, last in _no_code(tree) for n in range(first, last + 1)}
+    declared = {n for first, last in _declared(tree) for n in range(first, last + 1)}
     parts: dict[int, list[tokenize.TokenInfo]] = defaultdict(list)
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type in (tokenize.NAME, tokenize.NUMBER, tokenize.STRING, tokenize.OP):
@@ -58,7 +60,7 @@ def lines_of(text: str) -> list[Line]:
             number,
             " ".join(t.string for t in tokens),
             " ".join(map(_shape, tokens)),
-            sum(not _thin(t) for t in tokens) >= TELLING,
+            number not in declared and sum(not _thin(t) for t in tokens) >= TELLING,
         )
         for number, tokens in sorted(parts.items())
         if number not in left_out and not all(map(_thin, tokens))
@@ -71,6 +73,18 @@ def _no_code(tree: ast.Module) -> Iterator[tuple[int, int]]:
         text = isinstance(alone, ast.Constant) and isinstance(alone.value, str)
         if text or isinstance(node, ast.Import | ast.ImportFrom):
             yield node.lineno, node.end_lineno or node.lineno
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            first = min(part.lineno for part in (node, *node.decorator_list))
+            yield first, node.body[0].lineno - 1
+
+
+def _declared(tree: ast.Module) -> Iterator[tuple[int, int]]:
+    """Yield the lines of what is said, not done: fields of a class, names of a module."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Module | ast.ClassDef):
+            for own in node.body:
+                if isinstance(own, ast.Assign | ast.AnnAssign):
+                    yield own.lineno, own.end_lineno or own.lineno
 
 
 def _thin(token: tokenize.TokenInfo) -> bool:

@@ -67,14 +67,14 @@ def test_a_worker_that_could_not_begin_is_begun_at_the_next_question(tmp_path, m
         return False
 
     async def asked_twice():
-        desk = live.Live("desk", tmp_path)
+        lookup = live.Live("lookup", tmp_path)
         with monkeypatch.context() as patched:
             patched.setattr(sessions, "begun", cannot)
-            first = await desk.ask("forms", b"{}", nobody)
+            first = await lookup.ask("forms", b"{}", nobody)
         try:
-            return first, await asyncio.wait_for(desk.ask("forms", b"{}", nobody), 60.0)
+            return first, await asyncio.wait_for(lookup.ask("forms", b"{}", nobody), 60.0)
         finally:
-            await desk.stop()
+            await lookup.stop()
 
     (status, line), (then, _) = asyncio.run(asked_twice())
     assert status == 500

@@ -165,7 +165,7 @@ class Case:
         Returns
         -------
         Case
-            Another one; this one stays as it is.
+            As of `replace`.
 
         Raises
         ------

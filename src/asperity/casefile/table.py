@@ -255,10 +255,8 @@ def same_thing(model: type[Table], key: str) -> set[str]:
 
     Parameters
     ----------
-    model : type of Table
-        The table.
-    key : str
-        Of the table.
+    model, key : type of Table, str
+        The table and one of its keys.
 
     Returns
     -------

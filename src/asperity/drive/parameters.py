@@ -256,7 +256,7 @@ class Shaft(Table):
         Parameters
         ----------
         thread_diameter, thread_length : float
-            Of the cylinder that stands for the worm's thread, m.
+            As of `inertia`, m.
 
         Returns
         -------

@@ -195,7 +195,7 @@ class Friction(Table):
         Parameters
         ----------
         normal_force : float
-            :math:`F_N`, N.
+            :math:`F_N` of the contact, N.
 
         Returns
         -------

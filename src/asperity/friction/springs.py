@@ -191,7 +191,7 @@ def advance_springs_along(s, slip, indentation_0, indentation_1, heights, weight
     indentation_0, indentation_1 : float
         Before and after, over N_ref/k; finite.
     heights, weights : ndarray, shape (n,)
-        As from `spring_profile`.
+        As of `advance_springs`.
 
     Returns
     -------

@@ -150,11 +150,11 @@ class Lubricant(Sourced):
         Parameters
         ----------
         temperature : array_like
-            K.
+            Of the oil, K.
 
         Returns
         -------
-        float or ndarray, shape of ``temperature``
+        float or ndarray, same shape
             kg/m3.
         """
         own = self.base.density_15 if self.density_15 is None else self.density_15
@@ -166,7 +166,7 @@ class Lubricant(Sourced):
         Parameters
         ----------
         temperature : array_like
-            K.
+            As of both.
 
         Returns
         -------

@@ -271,7 +271,7 @@ class Result(Quantities):
         Parameters
         ----------
         path : path
-            A netCDF file.
+            As of :func:`read`.
 
         Returns
         -------

@@ -151,12 +151,12 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     Parameters
     ----------
     case : Case
-        With at least one shaft.
+        With ``[worm_shaft]``, ``[wheel_shaft]`` or both.
 
     Returns
     -------
     callable
-        Takes a rating and a run, and returns the rating with the rows.
+        Takes the rating and a run, and returns the rating with the rows.
 
     Raises
     ------

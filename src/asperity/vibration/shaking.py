@@ -293,10 +293,8 @@ class Vibration(Table):
 
         Parameters
         ----------
-        shape : Shape
-            The waveform, as of `shape`.
-        drive_velocity : float
-            That a velocity ratio refers to, m/s.
+        shape, drive_velocity : Shape, float
+            As of `displacement`.
 
         Returns
         -------

@@ -44,7 +44,7 @@ class Page:
 
     def __init__(self, folder: Folder) -> None:
         self.folder = folder
-        self.workers = {kind: Live(kind, folder.path) for kind in ("live", "desk")}
+        self.workers = {kind: Live(kind, folder.path) for kind in ("solver", "lookup")}
         self.jobs = Jobs(folder)
 
     def application(self) -> Starlette:
@@ -88,7 +88,7 @@ class Page:
         told = {
             "version": __version__,
             "folder": str(self.folder.path),
-            "ready": self.workers["live"].ready.is_set(),
+            "ready": self.workers["solver"].ready.is_set(),
             "cases": [case._asdict() for case in listed(own)],
             "files": names,
         }
@@ -110,7 +110,7 @@ class Page:
         return await self._ask(verb, request, await body_of(request))
 
     async def _ask(self, verb: str, request: Request, asked: bytes) -> Response:
-        worker = self.workers["live" if verb in LIVE else "desk"]
+        worker = self.workers["solver" if verb in LIVE else "lookup"]
         status, answer = await worker.ask(verb, asked, request.is_disconnected)
         return Response(answer, status, media_type="application/json")
 

@@ -26,7 +26,7 @@ class Live:
 
     Parameters
     ----------
-    kind : {'live', 'desk'}
+    kind : {'solver', 'lookup'}
         Whether it solves, or looks things up.
     folder : path
         The folder of the page.

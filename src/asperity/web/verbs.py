@@ -35,10 +35,10 @@ LIVE = {
 }
 """Those that are asked at ``/api/do/``, of the worker that solves."""
 
-DESK = dict.fromkeys(("forms", "opened", "named", "received", "thesis", "data"), Verb(60.0))
+LOOKUP = dict.fromkeys(("forms", "opened", "named", "received", "thesis", "data"), Verb(60.0))
 """Those that look something up, of a worker that never waits for one that solves."""
 
-VERBS = LIVE | DESK
+VERBS = LIVE | LOOKUP
 
 
 def told(line: str, exit_code: int, reached: object = None) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""A process that answers: ``python -m asperity.web.worker live FOLDER``, or ``desk``.
+"""A process that answers: ``python -m asperity.web.worker solver FOLDER``, or ``lookup``.
 
 It reads requests from standard input, a line of JSON and a body each, and writes answers to what
 was its standard output in the same way; what else is printed goes to standard error. It ends with
@@ -46,7 +46,7 @@ def main(kind: str, folder: str) -> None:
     # A name of a file in a setting begins here, as on the command line.
     os.chdir(place.path)
     importlib.import_module("asperity.web.answer")
-    if kind == "live":
+    if kind == "solver":
         threading.Thread(target=warm, args=(_load(),), daemon=True).start()
     send({"up": True})
     while True:

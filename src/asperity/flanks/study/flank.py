@@ -130,7 +130,7 @@ def prepare(
     Returns
     -------
     Prepared
-        Wheel and mesh, for `study`.
+        As of `prepare_gearset`.
 
     Raises
     ------

@@ -215,7 +215,7 @@ class Backlash(NamedTuple):
         Parameters
         ----------
         key : str
-            Where it stands in an answer's JSON.
+            As of `sentence`.
 
         Returns
         -------

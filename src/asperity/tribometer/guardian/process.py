@@ -22,7 +22,7 @@ SIGNALS = tuple(
 """That end a run."""
 
 
-class _Ears:
+class _HeldSignals:
     """Takes signals from the first moment on; the guardian hears of them when it is there."""
 
     def __init__(self) -> None:
@@ -65,7 +65,7 @@ def _clock() -> float:
 
 def main() -> int:
     """Guard until the procedure has ended; returns 0, or 4 where something may be on."""
-    ears = _Ears()
+    held = _HeldSignals()
     wire = Wire(os.fdopen(os.dup(0), "rb", 0), os.fdopen(os.dup(1), "wb", 0))
     # What a driver prints is nobody's answer.
     os.dup2(2, 1)
@@ -100,9 +100,9 @@ def main() -> int:
         deadline=deadline_of(case, simulated=simulated), say=words.say, relay=relay,
         now=_clock, trouble=trouble,
     )  # fmt: skip
-    for number in ears.early:
+    for number in held.early:
         guardian.signal(number)
-    ears.tell = guardian.signal
+    held.tell = guardian.signal
     if told["signals"] is not None:
         threading.Thread(target=_watch, args=(told["signals"], guardian), daemon=True).start()
     threading.Thread(target=_hear, args=(wire, guardian), daemon=True).start()

@@ -84,7 +84,7 @@ class TwinFit:
         Parameters
         ----------
         case : Case
-            A configuration with ``[twin]``.
+            The configuration of the rig.
 
         Returns
         -------

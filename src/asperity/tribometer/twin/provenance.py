@@ -90,7 +90,7 @@ def standing(case: Case) -> list[str]:
     Parameters
     ----------
     case : Case
-        A configuration with ``[twin]``.
+        As of `parameters`.
 
     Returns
     -------
