@@ -28,9 +28,10 @@ slow: export PYTEST_XDIST_AUTO_NUM_WORKERS = $(shell $(PYTHON) -c 'import os; pr
 slow: .venv/.dev  ## prove the rest of it
 	$(BIN)/python -m pytest -m slow --share $(SHARE) $(PYTEST_OPTIONS)
 
-lint: .venv/.dev  ## look at format and style
+lint: .venv/.dev  ## look at format, style and docstrings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	$(BIN)/python docs/docstrings.py
 
 types: .venv/.dev  ## check the types
 	$(BIN)/mypy

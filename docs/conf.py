@@ -7,8 +7,10 @@ import asperity
 
 sys.path.insert(0, str(Path(__file__).parent))
 from draw_tower import draw
+from draw_walks import draw_all
 
 draw(Path(__file__).parent / "_static" / "tower.png")
+draw_all()
 
 project = "asperity"
 author = "the asperity authors"

@@ -27,7 +27,8 @@ REFERENCE = Path(__file__).parent / "reference"
 # A parameter: PR01 is not said, PR02 is said and not there, PR03 stands in another order, PR04 has
 # no type, PR05 a type with a period, PR07 no meaning, PR10 no space before its colon. RT01 no
 # Returns, RT03 without meaning, YD01 no Yields. GL06 an unknown section, GL07 sections in another
-# order, GL08 nothing at all, SS01 no summary. RS01, of this check, an error raised and not named.
+# order, GL08 nothing at all, SS01 no summary. Of this check: RS01 an error is raised and not named,
+# SH01 an array has no shape.
 CODES = {
     *("PR01", "PR02", "PR03", "PR04", "PR05", "PR07", "PR10"),
     *("RT01", "RT03", "YD01", "GL06", "GL07", "GL08", "SS01"),
@@ -151,9 +152,12 @@ class Docstring(Validator):
                 if not field.exclude or key in self._doc_parameters(["Parameters"])
             )
         if dataclasses.is_dataclass(self.obj):
-            said = getattr(self.obj, "_labels", {})
+            said = {
+                *getattr(self.obj, "_labels", ()),
+                *(field.name for field in dataclasses.fields(self.obj) if field.metadata),
+            }
             fields = (field.name for field in dataclasses.fields(self.obj) if field.init)
-            hidden = {"notes", *(name for name in said)}
+            hidden = said | ({"notes"} if issubclass(self.obj, Quantities) else set())
             return tuple(n for n in fields if n not in hidden and not n.startswith("_"))
         return super().signature_parameters
 
@@ -198,6 +202,17 @@ class Docstring(Validator):
         }
         return sorted(name for name in raised if name not in self.raw_doc)
 
+    @property
+    def shapeless(self) -> list[str]:
+        """Types of arrays that are taken or returned and said without their shape."""
+        types = [type_ for type_, _ in self.doc_all_parameters.values()]
+        types += [returned.type for returned in (*self.returns, *self.yields)]
+        return [
+            type_
+            for type_ in types
+            if re.search(r"\bndarray\b", type_) and not re.search("shape|Masked", type_)
+        ]
+
 
 def faults(name: str) -> list[str]:
     """Return what is wrong with the docstring of a public name, a line each."""
@@ -212,7 +227,8 @@ def faults(name: str) -> list[str]:
         for code, said in validate(name, Docstring)["errors"]
         if code in CODES - left_out
     ]
-    return found + [f"RS01 {error} is raised and not said" for error in docstring.unsaid_errors]
+    found += [f"RS01 {error} is raised and not said" for error in docstring.unsaid_errors]
+    return found + [f"SH01 {type_} has no shape" for type_ in docstring.shapeless]
 
 
 def main() -> int:

@@ -22,7 +22,7 @@ from asperity.slider.closed_forms import (
     transverse_ratio,
 )
 from asperity.slider.periodic import solve_periodic
-from asperity.slider.plots import shade_flight
+from asperity.slider.plots import flight_of
 from asperity.sweep.branches import answer, prepare
 from asperity.thesis.contents import FIGURES
 
@@ -229,7 +229,8 @@ def plot_two_cycles(
     scale, unit = (1e3, "ms") if time[-1] - time[0] > 1e-3 else (1e6, "µs")
     at = scale * (time - time[0])
     for axes in (upper, lower):
-        shade_flight(axes, at, load, label="in flight" if axes is upper else None)
+        for mark in flight_of(at, load, "in flight" if axes is upper else None):
+            mark.put(axes)
         axes.margins(x=0.0)
     upper.plot(at, load, color=BLUE, label="normal force")
     upper.axhline(static_load, color=BLACK, dashes=(4, 3), linewidth=1.0, label="at rest")

@@ -107,7 +107,9 @@ def thesis(served, seen):
     command = [sys.executable, "-m", "asperity", "thesis", "--out", str(folder)]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     ledger = served.get("/api/thesis").json
-    kept = {"folder": "", "figures": [], "chapters": []}
+    # Its pictures are many, and drawn where it is made.
+    unmade = {"kept": False, "picture": "", "how": []}
+    kept = {"folder": "", "figures": [one | unmade for one in ledger["figures"]]}
     told = {
         "answer": ledger | kept,
         "entries": [],

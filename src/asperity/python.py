@@ -343,11 +343,6 @@ def read(path: str | os.PathLike[str], settings: Sequence[str] = ()) -> "Case | 
     -------
     Case or Result
         By the ending of the file.
-
-    Raises
-    ------
-    InputError, StorageError
-        It cannot be read, or is not what its ending says.
     """
     if Path(path).suffix == ".nc":
         from asperity.results import read as read_answer
@@ -383,10 +378,7 @@ def _tables(what: Sequence[What]) -> "list[Any]":
     """Return the tables given, with those that models of sliding bodies hold."""
     from asperity.slider.model import Model
 
-    found: list[Any] = []
-    for given in what:
-        found += given.tables if isinstance(given, Model) else [given]
-    return found
+    return [t for given in what for t in (given.tables if isinstance(given, Model) else [given])]
 
 
 def _answer(name: str, what: Sequence[What], settings: Sequence[str], **options: Any) -> "Result":

@@ -49,6 +49,23 @@ def test_a_job_is_the_answer_of_the_command_line_with_its_data(page, asperity):
     assert sweep(page, 0, 40).json == {"id": job["id"], "state": "done"}
 
 
+def test_what_a_job_was_asked_is_listed_as_text_and_no_link_is_followed(tmp_path):
+    from asperity.web.record import Job
+
+    job = Job("0" * 32, "sweep", "table-4.3", "asperity sweep table-4.3")
+    job.home = tmp_path
+    assert job.asked is None
+    request = tmp_path / "request.json"
+    request.write_text('{"command": "sweep", "options": {"points": NaN}}')
+    assert job.asked == {"command": "sweep", "options": {"points": "NaN"}}
+    request.write_text("{")
+    assert job.asked is None
+    request.unlink()
+    (tmp_path / "private.json").write_text('{"secret": 1}')
+    request.symlink_to(tmp_path / "private.json")
+    assert job.asked is None
+
+
 def test_a_job_that_has_ended_is_removed_with_its_files_and_nothing_else(page):
     kept = page.job("static", "table-4.4", {"friction.mu": "0.3"}).json["id"]
     identity = page.job("static", "table-4.3", {"friction.mu": "0.3"}).json["id"]

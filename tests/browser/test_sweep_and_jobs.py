@@ -116,6 +116,31 @@ def test_a_click_is_seen_at_once_and_what_was_solved_when_it_was_stopped_is_show
     expect(page.locator("figcaption").first).to_have_text(shown_then)
 
 
+LEFT = """async (jobs) => {
+  const { left } = await import("/js/work.js");
+  return jobs.map((job) => left({ state: "running", answered: false, ...job }));
+}"""
+
+
+def test_a_wait_tells_what_has_passed_and_the_rest_at_the_pace_so_far(seen):
+    page = seen.open("jobs")
+    jobs = [
+        {"done": 10, "total": 100, "seconds": 10},
+        # It has become slower: so has the rest.
+        {"done": 20, "total": 100, "seconds": 60},
+        {"done": 0, "total": 0, "seconds": 42},
+        {"done": 1, "total": 100, "seconds": 1},
+        {"state": "done", "done": 1, "total": 1, "seconds": 540},
+    ]
+    assert page.evaluate(LEFT, jobs) == [
+        "running, 10 of 100, for 10 s, about 90 s left",
+        "running, 20 of 100, for 60 s, about 4 min left",
+        "running for 42 s",
+        "running, 1 of 100, for 1 s",
+        "done after 9 min",
+    ]
+
+
 def test_a_job_is_deleted_with_its_files_once_that_is_confirmed(seen):
     page = seen.open(
         "sweep", case="body-shaken-along", x="vibration.velocity_ratio~3~9~2~log",

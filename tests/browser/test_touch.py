@@ -1,5 +1,7 @@
 """Fingers: what scrolls changes nothing, what drags scrolls nothing."""
 
+import re
+
 import pytest
 from apparatus.browser import settled
 from playwright.sync_api import expect
@@ -61,3 +63,53 @@ def test_a_finger_that_goes_along_a_slider_drags_it_and_scrolls_nothing(phone):
     # What stands above may have become longer: the slider stays under the finger.
     assert abs(middle(slider)[1] - y) < 8
     assert "set.slider.mass" in phone.url
+
+
+HANDLES = "input[type=range]:visible, [role=slider]:visible"
+
+
+@pytest.mark.parametrize("screen", ["drive", "flanks", "block", "rig"])
+def test_no_handle_of_another_screen_is_moved_by_a_finger_that_scrolls(seen_as, screen):
+    page = seen_as(**PHONE).open(screen)
+    handles = page.locator(HANDLES)
+    expect(handles.first).to_be_visible()
+    expect(page.get_by_text("an answer that ships").first).to_be_visible()
+    settled(page)
+    # What plays moves by itself.
+    for button in page.get_by_role("button", name=re.compile("pause|stop the motion")).all():
+        button.click()
+    address = page.url
+    for handle in handles.all():
+        handle.evaluate("each => each.scrollIntoView({block: 'center', inline: 'center'})")
+        values = [stands_at(each) for each in handles.all()]
+        x, y = middle(handle, 0.3)
+        swipe(page, (x, y), (x + 14, y - 200))
+        settled(page)
+        assert [stands_at(each) for each in handles.all()] == values
+    assert page.url == address
+
+
+def stands_at(handle):
+    return handle.evaluate("each => each.value ?? each.getAttribute('aria-valuenow')")
+
+
+def test_a_finger_along_the_edge_of_a_window_moves_it(seen_as):
+    page = seen_as(**PHONE).open("rig")
+    grip = page.get_by_role("slider", name="settling, at segment 1")
+    grip.evaluate("each => each.scrollIntoView({block: 'center', inline: 'center'})")
+    before = float(stands_at(grip))
+    x, y = middle(grip)
+    swipe(page, (x, y), (x + 30, y + 5))
+    settled(page)
+    assert float(stands_at(grip)) > before
+
+
+def test_a_finger_on_the_round_handle_turns_the_direction_and_scrolls_nothing(phone):
+    grip = phone.locator(".stage .grip")
+    grip.evaluate("each => each.scrollIntoView({block: 'center'})")
+    x, y = middle(grip)
+    before = phone.evaluate("scrollY")
+    swipe(phone, (x, y), (x + 25, y - 45))
+    settled(phone)
+    assert phone.evaluate("scrollY") == before
+    assert "set.vibration.direction" in phone.url

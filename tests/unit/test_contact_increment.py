@@ -207,3 +207,17 @@ def test_a_body_that_just_touches_is_an_ordinary_increment(seed, normal):
         u.ravel() + np.tile(1e-7 * normals, problem.nodes), SurfaceMotion(pose), pressed.state
     )
     assert (lifted.active, lifted.residual) == (0, 0.0)
+
+
+def test_a_flexibility_of_a_folded_body_need_not_be_symmetric():
+    """A quarter of a body stands for all four: a force on its edge is there once, others not."""
+    problem = problem_of(friction="none")
+    folded = np.repeat(np.where(FACE.positions[:, 0] == 0.0, 1.0, 2.0), 3)
+    problem = dataclasses.replace(problem, flexibility=problem.flexibility * folded)
+    tilted = pushed(-2e-7).reshape(-1, 3) * (1.0 + FACE.positions[:, :1] / 4e-3)
+    found = IncrementSolver(problem).solve(
+        tilted.ravel(), SurfaceMotion(), ContactState.rest(problem)
+    )
+    assert 0.0 < found.residual <= problem.tolerance
+    answered = tilted.ravel() + problem.flexibility @ found.force
+    assert found.state.displacement == pytest.approx(answered, rel=1e-9, abs=1e-15)

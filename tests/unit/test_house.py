@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import asperity
+from asperity.commands import case_tables
 
 SOURCES = Path(asperity.__file__).parent
 TESTS = Path(__file__).parents[1]
@@ -73,6 +74,22 @@ def stands(room, name):
     return True
 
 
+def is_data(room, name):
+    """Whether a name is a table of a case, a file of a room or of the checkout, or a module."""
+    if name.startswith("["):
+        return name.strip("[]") in case_tables()
+    folders = SOURCES / room, SOURCES.parents[1]
+    return stands(room, name) or any([*folder.glob(name)] for folder in folders)
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_a_room_says_it_in_ten_lines(room):
+    text = ast.get_docstring(ast.parse((SOURCES / room / "__init__.py").read_text("utf-8")))
+    listed = text[text.index(":Entry:") :].partition("\n\n")[0]
+    assert len(listed.splitlines()) < 10
+    assert text.splitlines()[1] == ""  # below the line that says what it is for
+
+
 @pytest.mark.parametrize("room", ROOMS)
 def test_a_room_says_at_its_door_what_stands_where(room):
     said = door(room)
@@ -80,6 +97,7 @@ def test_a_room_says_at_its_door_what_stands_where(room):
     names = {*said["Entry"], *said["Where"]}
     wrong = [n for n in names if not re.match(r"asperity( |$)", n) and not stands(room, n)]
     assert not wrong
+    assert not [name for name in said["Data"] if not is_data(room, name)]
     for pattern in said["Tests"]:
         found = pattern.rstrip("/") if pattern.endswith("/") else f"{pattern}.py"
         assert [*TESTS.glob(found)], pattern

@@ -349,9 +349,6 @@ def test_a_table_that_cannot_be_fitted_is_refused_with_its_row(tmp_path, name):
         ({"free": "vibration.velocity_ratio"}, "column"),
         ({"free": "friction.tangential_stiffness"}, "start from"),
         ({"free": f"{LIMIT},{LIMIT}"}, "twice"),
-        ({"free": LIMIT, "law": "all of them"}, "'all' or one of"),
-        ({"free": LIMIT, "next": "-1"}, "whole number"),
-        ({"free": LIMIT, "model": "slid"}, "slide"),
     ],
 )
 def test_what_is_asked_of_a_fit_is_checked(tmp_path, options, part):

@@ -118,7 +118,18 @@ class Block(Table):
         return math.prod(self.size)
 
     def density(self, mass: float) -> float:
-        """Density that gives the block a mass in kg, kg/m^3."""
+        """Density that gives the block a mass in kg, kg/m^3.
+
+        Parameters
+        ----------
+        mass : float
+            Of the block, kg.
+
+        Returns
+        -------
+        float
+            Mass over volume, kg/m3.
+        """
         return mass / self.volume
 
     @property
@@ -195,8 +206,22 @@ class Contact(Table):
     def normal_stiffness(self, youngs_modulus: float, element_height: float) -> float:
         """Pressure per overclosure, Pa/m: as given, or 10 E/h of the elements in contact.
 
-        The modulus, Pa, is the softer body's, the height, m, that of its elements normal to the
-        contact.
+        Parameters
+        ----------
+        youngs_modulus : float
+            Of the softer body, Pa.
+        element_height : float
+            Of that body's elements normal to the contact, m.
+
+        Returns
+        -------
+        float
+            Pa/m.
+
+        Raises
+        ------
+        InputError
+            A number that is not positive, where it is needed.
         """
         if self.stiffness is not None:
             return self.stiffness

@@ -3,11 +3,13 @@
 Forces in time are the slider's.
 """
 
+import dataclasses
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, panels
+from asperity.results.panels import Panel, drawn, level, line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -64,25 +66,28 @@ def plot_settled(dataset: "xr.Dataset") -> "Figure":
     full, mean = float(dataset["static_drive_force"]), float(dataset["mean_drive_force"])
     largest = abs(dataset["friction"]).max("phase")
     axes_shown = [axis for axis in ("x", "y") if largest.sel(axis=axis) > _SHOWN * full]
-    figure, panes = panels(len(axes_shown), height=2.2 + 2.0 * len(axes_shown))
     phase = np.concatenate([[0.0], dataset["phase"].values])
-    for axes, axis in zip(panes, axes_shown, strict=True):
-        for name, label, style in (
-            ("slider_friction", "sliding body", {"color": BLACK, "dashes": (5, 2)}),
-            ("friction", "elastic block", {"color": BLUE if axis == "x" else VERMILION}),
-        ):
-            force = dataset[name].sel(axis=axis).values
-            # A cycle begins where the one before it ended.
-            axes.plot(phase, [force[-1], *force], label=label, **style)
-        axes.set_ylabel("friction (N)")
-        axes.margins(x=0.0)
-    panes[-1].set_xlabel("time over the period of the vibration")
-    panes[0].axhline(mean, color=BLUE, linewidth=1.0, dashes=(1, 1), label="mean drive force")
-    panes[0].set_title(rf"Along the drive, mean {mean / full:.4g} $\mu F_N$", loc="left")
-    if len(panes) > 1:
-        panes[1].set_title("Across it", loc="left")
-    legend(panes[0], loc="best")
-    return figure
+    panels = []
+    for axis in axes_shown:
+        # A cycle begins where the one before it ended.
+        rigid, elastic = (
+            [force[-1], *force]
+            for force in (dataset[f"{of}friction"].sel(axis=axis).values for of in ("slider_", ""))
+        )
+        marks = [
+            line(0, phase, rigid, "sliding body", color=BLACK, dashes=(5, 2)),
+            line(0 if axis == "x" else 1, phase, elastic, "elastic block", dashes=()),
+        ]
+        panels.append(Panel(y="friction (N)", marks=marks))
+    among = level(mean, "mean drive force", color=BLUE, dashes=(1, 1))
+    title = rf"Along the drive, mean {mean / full:.4g} $\mu F_N$"
+    panels[0] = dataclasses.replace(
+        panels[0], marks=[*panels[0].marks, among], title=title, legend={"loc": "best"}
+    )
+    if len(panels) > 1:
+        panels[1] = dataclasses.replace(panels[1], title="Across it")
+    panels[-1] = dataclasses.replace(panels[-1], x="time over the period of the vibration")
+    return drawn(panels, height=2.2 + 2.0 * len(panels))
 
 
 def face_triangles(faces: "np.ndarray[tuple[int, int], np.dtype[np.int64]]") -> np.ndarray:

@@ -111,7 +111,23 @@ class BlockProblem:
 
     @classmethod
     def from_case(cls, case: Case) -> Self:
-        """Gather the tables of a case; [contact] may be missing."""
+        """Gather the tables of a case; [contact] may be missing.
+
+        Parameters
+        ----------
+        case : Case
+            With the tables of a sliding body and ``[block]``.
+
+        Returns
+        -------
+        BlockProblem
+            Checked, and not yet meshed.
+
+        Raises
+        ------
+        InputError
+            A table is missing, two do not go together, or a block cannot be solved this way.
+        """
         contact = case.get(Contact, Contact())
         vibration = case.get(Vibration)
         elevation = vibration.elevation if vibration else 0.0
@@ -130,7 +146,18 @@ class BlockProblem:
         return Timetable(self.model)
 
     def lasting(self, duration: float) -> Self:
-        """Return the same block marched for a duration in s, with what has been made of it."""
+        """Return the same block marched for a duration in s, with what has been made of it.
+
+        Parameters
+        ----------
+        duration : float
+            s, from the start of the march.
+
+        Returns
+        -------
+        BlockProblem
+            Another one, which shares meshes and condensed bodies with this one.
+        """
         made = {name: value for name, value in vars(self).items() if name != "timetable"}
         longer = dataclasses.replace(self, model=lasting(self.model, duration))
         vars(longer).update({**made, "model": longer.model})

@@ -16,7 +16,21 @@ from asperity.slider.result import inputs as slider_inputs
 
 
 class BlockResult(SlideResult):
-    """The answer for one elastic block: that of a sliding body, and what only a contact has."""
+    """The answer for one elastic block: that of a sliding body, and what only a contact has.
+
+    Attributes
+    ----------
+    problem : BlockProblem
+        What was asked.
+    march_seconds : float
+        That the increments of the march took, s.
+    timed : int
+        Increments that took them.
+    point_pressure : ndarray, shape (q,)
+        Mean in the window at the integration points of the contact, Pa.
+    frames : tuple of Frame
+        Of the last cycles, for the VTU files.
+    """
 
     title: ClassVar[str] = "Elastic block"
     stem: ClassVar[str] = "block"

@@ -2,7 +2,7 @@
 
 :Entry: `read_case`, which gives a `Case`; `Case.require` hands out a table, `Table` is what one
     derives from.
-:Data: the tables that stand in the `tables` of each room, gathered by `asperity.commands.tables`.
+:Data: the tables of each room, gathered by `asperity.commands.tables`.
 :Where: `check` (all mistakes at once), `schema` and `forms` (what may be said), `columns` (CSV),
     `written` (a case as text).
 :Tests: `unit/test_casefile*`, `property/test_casefile_schema`.

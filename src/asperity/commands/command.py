@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from asperity.commands.place import loaded
-from asperity.errors import InputError, nearest, shown
+from asperity.errors import InputError, choices, nearest, plain, shown, suggestion
 
 if TYPE_CHECKING:
     from asperity.casefile import Case
@@ -34,6 +34,10 @@ class Option:
         A name that it has in common with others of which one at least must be given.
     elsewhere : tuple of str, optional
         What of it may be asked from anywhere but a terminal, which has all; None: anything.
+    choices : tuple of str
+        What its text must be, where it is not left out; empty: anything.
+    most : int
+        The greatest whole number that it takes; 0: it takes a text.
     """
 
     name: str
@@ -43,6 +47,31 @@ class Option:
     many: bool = False
     one_of: str = ""
     elsewhere: tuple[str, ...] | None = None
+    choices: tuple[str, ...] = ()
+    most: int = 0
+
+    def read(self, value: Any) -> Any:
+        """Return what a command is given for a text: of its choices, or a number.
+
+        Raises
+        ------
+        InputError
+            It is neither.
+        """
+        if self.most:
+            text = str(value)
+            digits = text.isascii() and text.isdecimal() and len(text) < 10
+            if not (digits and int(text) <= self.most):
+                raise InputError(
+                    f"--{self.name} {plain(text)}: it must be a whole number, at most {self.most}"
+                )
+            return int(text)
+        if self.choices and value not in (self.default, *self.choices):
+            raise InputError(
+                f"--{self.name} {plain(str(value))}: it must be one of {choices(self.choices)}"
+                f"{suggestion(str(value), self.choices)}"
+            )
+        return value
 
     def allowed(self, value: object) -> None:
         """Refuse what may not be asked but from a terminal."""
@@ -74,6 +103,30 @@ class Argument:
     metavar: str
     help: str
     many: bool = False
+
+
+@dataclasses.dataclass(frozen=True)
+class Addition:
+    """What a room above a command's adds to its answer.
+
+    Attributes
+    ----------
+    place : str
+        ``"module:name"`` of a function of the case, which refuses at no cost and returns what is
+        called with answer and run, and returns the answer with what is added.
+    tables : tuple of str
+        Tables of which one asks for it.
+    option : str
+        The switch that asks for it.
+    """
+
+    place: str
+    tables: tuple[str, ...] = ()
+    option: str = ""
+
+    def is_asked(self, case: "Case", options: Mapping[str, Any]) -> bool:
+        """Whether a case or the options ask for it."""
+        return any(name in case for name in self.tables) or bool(options.get(self.option))
 
 
 @dataclasses.dataclass(frozen=True)
@@ -111,6 +164,8 @@ class Command:
         The argument that names the folder its files go to where ``--out`` is left out.
     draws : bool
         Whether pictures are among its files, so that ``--format`` says what they are.
+    additions : tuple of Addition
+        What rooms above add to its answer.
     """
 
     name: str
@@ -128,6 +183,12 @@ class Command:
     out: str = "DIR"
     into: str = ""
     draws: bool = True
+    additions: tuple[Addition, ...] = ()
+
+    @property
+    def modules(self) -> tuple[str, ...]:
+        """All that its answer comes from: its module, and those of what is added."""
+        return self.module, *(each.place.partition(":")[0] for each in self.additions)
 
     @property
     def stem(self) -> str:
@@ -147,7 +208,7 @@ class Command:
         Returns
         -------
         object
-            What the command's ``prepare`` makes of it, for `solved`.
+            For `solved`: what the command's ``prepare`` makes of it, and what adds to the answer.
 
         Raises
         ------
@@ -161,7 +222,11 @@ class Command:
                 f"{case.source}: it is a case of another kind, without {tables}, which asperity "
                 f"{self.name} needs; asperity check {case.source} tells which commands take it"
             )
-        return loaded(f"{self.module}:prepare")(case, **options)
+        switches = {each.option for each in self.additions}
+        own = {n: value for n, value in self._read(options).items() if n not in switches}
+        problem = loaded(f"{self.module}:prepare")(case, **own)
+        asked = [each for each in self.additions if each.is_asked(case, options)]
+        return problem, [loaded(each.place)(case) for each in asked]
 
     def solved(self, problem: Any, run: "Run") -> "Result":
         """Return the answer to a problem.
@@ -178,7 +243,10 @@ class Command:
         Result
             Of the command's class.
         """
+        problem, additions = problem
         answer: Result = loaded(f"{self.module}:answer")(problem, run)
+        for add in additions:
+            answer = add(answer, run)
         return answer
 
     @property
@@ -207,7 +275,13 @@ class Command:
         from asperity.commands.tables import case_tables
 
         read: Callable[..., Case] = loaded(self.read) if self.read else read_case
-        return read(name, case_tables(), settings, **(options if self.read else {}))
+        own = self._read(options)
+        return read(name, case_tables(), settings, **(own if self.read else {}))
+
+    def _read(self, options: Mapping[str, Any]) -> dict[str, Any]:
+        """Return options and arguments as ``read`` and ``prepare`` take them."""
+        known = {each.name: each for each in self.options}
+        return {n: known[n].read(value) if n in known else value for n, value in options.items()}
 
     def given(self, arguments: Mapping[str, Any], options: Mapping[str, Any]) -> dict[str, Any]:
         """Return what is given beside a case from a page, as the command line would have read it.

@@ -1,9 +1,18 @@
 """The commands, in the order of the help."""
 
-from asperity.commands.command import Argument, Command, Option
+from asperity.commands.command import Addition, Argument, Command, Option
 
 GROUPS = {"rig": "A disc-on-disc tribometer: plan, procedure, recordings and their reduction."}
 """Commands that have a name in common, and what they are about."""
+
+_ASTM = ("G99", "G133")
+_COLUMNS = (
+    Option("rate", "Samples a second, where the file tells no times: 20 kHz.", "RATE"),
+    Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
+    Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
+)
+_RECORDINGS = Argument("recordings", "REC...", "Recordings of a rig.", many=True)
+_RIG = Option("config", "The rig's configuration; left out: the one in each recording.", "CONFIG")
 
 COMMANDS = (
     Command(
@@ -86,12 +95,22 @@ COMMANDS = (
         "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
         "With --out also report.html, rate.json, rate.nc, rate.csv and rate.xlsx, a workbook of "
         "live formulas.",
-        module="asperity.flanks.study.rated",
+        module="asperity.rating.answered",
+        additions=(
+            Addition("asperity.shafts.study:beside_rating", tables=("worm_shaft", "wheel_shaft")),
+            Addition("asperity.flanks.study.pattern:beside_rating", option="pattern"),
+        ),
         brief=True,
         needs=("gearset", "operation"),
         draws=False,
         options=(
-            Option("standard", "iso14521, bs721, agma6034 or all.", "NAME", default="all"),
+            Option(
+                "standard",
+                "iso14521, bs721, agma6034 or all.",
+                "NAME",
+                default="all",
+                choices=("iso14521", "bs721", "agma6034", "all"),
+            ),
             Option(
                 "pattern",
                 "Show contact pattern and lines in the report of --out: cuts the flanks.",
@@ -102,8 +121,7 @@ COMMANDS = (
     Command(
         "shafts",
         "Shafts and bearings of a worm gearset: reactions, deflection, strength, lives.",
-        "By DIN 743, ISO 281 and ISO 76. With --out also report.html, shafts.json, shafts.nc, "
-        "shafts.png and shafts.xlsx, a workbook of live formulas.",
+        "By DIN 743, ISO 281, ISO 76. --out: report.html and shafts.json, .nc, .png, .xlsx (live).",
         module="asperity.shafts.study",
         needs=("gearset", "operation"),
     ),
@@ -225,9 +243,20 @@ COMMANDS = (
         ),
         options=(
             Option("free", "Keys to fit, separated by commas.", "KEYS", default=None),
-            Option("law", "split, unsplit, vector or all; left out: the case's.", "LAW"),
-            Option("next", "Also name so many measurements to make.", "N", default="0"),
-            Option("model", "slide, block or drive: whose answer it is.", "NAME", default="slide"),
+            Option(
+                "law",
+                "split, unsplit, vector or all; left out: the case's.",
+                "LAW",
+                choices=("split", "unsplit", "vector", "all"),
+            ),
+            Option("next", "Also name so many measurements to make.", "N", default="0", most=100),
+            Option(
+                "model",
+                "slide, block or drive: whose answer it is.",
+                "NAME",
+                default="slide",
+                choices=("slide", "block", "drive"),
+            ),
         ),
     ),
     Command(
@@ -255,6 +284,7 @@ COMMANDS = (
                 "NAME",
                 default="sim",
                 elsewhere=("sim", "replay"),
+                choices=("sim", "replay", "hardware", "manual"),
             ),
             Option("recordings", "The folder of the run that a replay plays.", "DIR"),
             Option("resume", "Go on with the run in --out, at its cell.", default=False),
@@ -274,11 +304,7 @@ COMMANDS = (
         read="asperity.tribometer.importing.look:read",
         arguments=(Argument("files", "FILE...", "Of one recording.", many=True),),
         case="",
-        options=(
-            Option("rate", "Samples a second, where the file tells no times: 20 kHz.", "RATE"),
-            Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
-            Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
-        ),
+        options=_COLUMNS,
     ),
     Command(
         "rig import",
@@ -290,9 +316,7 @@ COMMANDS = (
             Option(
                 "join", "Another file of the same recording; again for each.", "FILE", many=True
             ),
-            Option("rate", "Samples a second, where the file tells no times: 20 kHz.", "RATE"),
-            Option("columns", "Headings of all columns, where it has none: time,A,B.", "NAMES"),
-            Option("units", "Units of all columns, where it tells none: s,V,mV.", "UNITS"),
+            *_COLUMNS,
         ),
         needs=("rig", "steel_disc", "bronze_disc", "drives", "channels"),
         case="CONFIG",
@@ -306,13 +330,9 @@ COMMANDS = (
         module="asperity.tribometer.checking.study",
         read="asperity.tribometer.checking.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
-        options=(
-            Option(
-                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
-            ),
-        ),
+        options=(_RIG,),
     ),
     Command(
         "rig reduce",
@@ -322,12 +342,10 @@ COMMANDS = (
         module="asperity.tribometer.reduction.study",
         read="asperity.tribometer.reduction.study:read",
         counts="recordings",
-        arguments=(Argument("recordings", "REC...", "Recordings of a rig.", many=True),),
+        arguments=(_RECORDINGS,),
         case="",
         options=(
-            Option(
-                "config", "The rig's configuration; left out: the one in each recording.", "CONFIG"
-            ),
+            _RIG,
             Option("budget", "Tell what every number is uncertain by (GUM).", default=False),
         ),
     ),
@@ -341,7 +359,12 @@ COMMANDS = (
         arguments=(Argument("folder", "DIR", "A folder of recordings."),),
         case="",
         options=(
-            Option("standard", "With the headings of ASTM G99 or G133 as well: G99, G133.", "NAME"),
+            Option(
+                "standard",
+                "With the headings of ASTM G99 or G133 as well: G99, G133.",
+                "NAME",
+                choices=_ASTM,
+            ),
             Option("config", "A case with [conditions], in place of the recordings'.", "CASE"),
         ),
         draws=False,
@@ -363,7 +386,12 @@ COMMANDS = (
                 "A case with [package] (title, authors, licence) and [conditions].",
                 "CASE",
             ),
-            Option("standard", "Report with the headings of ASTM G99 or G133.", "NAME"),
+            Option(
+                "standard",
+                "Report with the headings of ASTM G99 or G133.",
+                "NAME",
+                choices=_ASTM,
+            ),
             Option("archive", "Write one file, package.zip, in place of many.", default=False),
         ),
         draws=False,

@@ -94,7 +94,7 @@ class CommandRequest(NamedTuple):
             "files": dict(_contents((*self.texts(), *own_files()))),
             "project": case.raw.get("project") if case else None,
         }
-        code = code_key(self.command.module)
+        code = code_key(*self.command.modules)
         return key(code, case.canonical() if case else "", repr(sorted(parts.items())))
 
 

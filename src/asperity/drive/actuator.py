@@ -92,6 +92,11 @@ def demand(
     frequency_ratio : float
         Frequency over that of the series resonance: 1 tuned to it, 0 far below.
 
+    Returns
+    -------
+    Demand
+        Powers, W and VA.
+
     Raises
     ------
     InputError

@@ -81,8 +81,8 @@ def tooth_friction(
 
     Returns
     -------
-    ndarray
-        Of the shape of ``speed``; at most the standard's cap, which holds at rest.
+    ndarray, shape of ``speed``
+        At most the standard's cap, which holds at rest.
     """
     rated = rated_efficiency(given)
     factors = rated["Y_S"] * rated["Y_G"] * rated["Y_W"] * rated["Y_R"] * given.friction_factor

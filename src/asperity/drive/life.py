@@ -69,6 +69,11 @@ def life(
     other_heat : float
         Of damping and of what the actuator loses within the housing while it shakes, W.
 
+    Returns
+    -------
+    Life
+        Wear, temperatures and hours, with the safeties of ISO/TR 14521.
+
     Raises
     ------
     InputError

@@ -36,6 +36,8 @@ class Motor(Sourced):
 
     Parameters
     ----------
+    name : str
+        As a data file has it.
     power : float or str
         Rated power, W, continuous.
     speed : float or str
@@ -72,7 +74,18 @@ class Motor(Sourced):
         return PRICE_PER_MASS * self.mass if self.price is None else self.price
 
     def greatest_torque(self, voltage: float = LOWEST_VOLTAGE) -> float:
-        """Return the torque beyond which it stalls at a voltage over the rated one, N m."""
+        """Return the torque beyond which it stalls at a voltage over the rated one, N m.
+
+        Parameters
+        ----------
+        voltage : float
+            Over the rated one; the torque goes by its square.
+
+        Returns
+        -------
+        float
+            N m.
+        """
         return self.breakdown * self.torque * voltage**2
 
 
@@ -136,6 +149,11 @@ def lightest(
         To choose from; all that are known if left out.
     voltage : float
         The lowest of the supply over the rated one.
+
+    Returns
+    -------
+    Motor
+        Of those that do.
 
     Raises
     ------

@@ -236,11 +236,33 @@ class Shaft(Table):
         )
 
     def inertia(self, thread_diameter: float, thread_length: float) -> float | None:
-        """Moment of inertia of worm and shaft as steel cylinders, kg m2; None without its size."""
+        """Moment of inertia of worm and shaft as steel cylinders, kg m2; None without its size.
+
+        Parameters
+        ----------
+        thread_diameter, thread_length : float
+            Of the cylinder that stands for the worm's thread, m.
+
+        Returns
+        -------
+        float or None
+            kg m2, by the density of steel.
+        """
         return self._cylinders(thread_diameter, thread_length, math.pi / 32.0, 4)
 
     def mass(self, thread_diameter: float, thread_length: float) -> float | None:
-        """Mass of worm and shaft as steel cylinders, kg; None without its size."""
+        """Mass of worm and shaft as steel cylinders, kg; None without its size.
+
+        Parameters
+        ----------
+        thread_diameter, thread_length : float
+            Of the cylinder that stands for the worm's thread, m.
+
+        Returns
+        -------
+        float or None
+            kg, by the density of steel.
+        """
         return self._cylinders(thread_diameter, thread_length, math.pi / 4.0, 2)
 
     def _cylinders(self, diameter: float, length: float, share: float, power: int) -> float | None:

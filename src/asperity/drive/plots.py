@@ -17,9 +17,9 @@ from asperity.results.figures import (
     SKY,
     VERMILION,
     draw,
-    legend,
     panels,
 )
+from asperity.results.panels import BELOW, Panel, band, drawn, level, line, shade
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LOST = "#BBBBBB"
+_BELOW = {**BELOW, "ncols": 3}
 _RESOLVED = 1e-5  # of a balance
 _KILO = 1e3
 _POWERS = (
@@ -66,57 +67,35 @@ def plot_torque(dataset: "xr.Dataset") -> "Figure":
     if "cycle_end" not in dataset.coords:
         return draw(dataset)
     banded = "time" in dataset.coords
-    figure, axes = panels(2 if banded else 1, height=6.4 if banded else 3.6)
-    if banded:
-        _last_cycles(axes[0], dataset)
-    course = axes[-1]
-    ends = 1e3 * dataset["cycle_end"].values
-    static = float(dataset["torque_static"])
-    course.plot(ends, dataset["cycle_torque"] / static, color=BLUE, label="worm, over static")
+    ends, static = 1e3 * dataset["cycle_end"].values, float(dataset["torque_static"])
     load = dataset.attrs["operation.output_torque"]
-    course.plot(
-        ends, dataset["cycle_wheel"] / load, color=GREEN, dashes=(5, 2), label="wheel, over load"
-    )
-    floor = float(dataset["floor_reversed"])
-    course.axhline(floor, color=BLACK, dashes=(2, 2), linewidth=1.0, label="friction reversed")
-    course.set_xlabel("time (ms)")
-    course.set_ylabel("mean of a cycle,\ntorque over static or load")
     title = "From the start of the vibration on"
     if not banded and "torque_ratio" in dataset:
         title += f"; {_ratio(dataset)}"
-    course.set_title(title, loc="left", fontsize="medium")
-    course.margins(x=0.0)
-    _legend_below(course)
-    return figure
-
-
-def _legend_below(axes: "Axes") -> None:
-    """Name the curves below their axes, where they cover none."""
-    legend(axes, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)
-
-
-def _last_cycles(axes: "Axes", dataset: "xr.Dataset") -> None:
-    time = 1e3 * (dataset["time"].values - dataset["time"].values[0])
-    axes.fill_between(
-        time, dataset["torque_min"], dataset["torque_max"], color=BLUE, alpha=0.25, linewidth=0.0
-    )
-    axes.plot(time, dataset["torque"], color=BLUE, label="torque of the worm's shaft")
-    axes.axhline(
-        float(dataset["torque_static"]), color=BLACK, dashes=(4, 3), linewidth=1.0,
-        label="without vibration",
+    course = Panel(
+        "time (ms)", "mean of a cycle,\ntorque over static or load",
+        [
+            line(0, ends, dataset["cycle_torque"] / static, "worm, over static"),
+            line(2, ends, dataset["cycle_wheel"] / load, "wheel, over load", dashes=(5, 2)),
+            level(float(dataset["floor_reversed"]), "friction reversed", dashes=(2, 2)),
+        ],
+        legend=_BELOW, more=lambda axes: axes.set_title(title, loc="left", fontsize="medium"),
     )  # fmt: skip
-    lost = dataset["open"].values
+    return drawn([_last_cycles(dataset), course] if banded else [course],
+                 height=6.4 if banded else 3.6)  # fmt: skip
+
+
+def _last_cycles(dataset: "xr.Dataset") -> Panel:
+    time, lost = 1e3 * (dataset["time"].values - dataset["time"].values[0]), dataset["open"].values
+    marks = [
+        band(time, dataset["torque_min"], dataset["torque_max"], BLUE),
+        line(0, time, dataset["torque"], "torque of the worm's shaft"),
+        level(float(dataset["torque_static"]), "without vibration", dashes=(4, 3)),
+    ]
     if lost.any():
-        axes.fill_between(
-            time, 0.0, 1.0, where=lost > 0.5, transform=axes.get_xaxis_transform(), color=_LOST,
-            alpha=0.6, linewidth=0.0, step="mid", label="contact lost",
-        )  # fmt: skip
-    if "torque_ratio" in dataset:
-        axes.set_title(_ratio(dataset), loc="left")
-    axes.set_xlabel("time in the last cycles (ms)")
-    axes.set_ylabel("torque (N m)")
-    axes.margins(x=0.0)
-    _legend_below(axes)
+        marks.append(shade(time, lost > 0.5, "contact lost", color=_LOST, alpha=0.6, step="mid"))
+    title = _ratio(dataset) if "torque_ratio" in dataset else ""
+    return Panel("time in the last cycles (ms)", "torque (N m)", marks, title, _BELOW)
 
 
 def plot_powers(dataset: "xr.Dataset") -> "Figure":
@@ -175,36 +154,34 @@ def plot_directions(dataset: "xr.Dataset") -> "Figure":
 
 def plot_locking(dataset: "xr.Dataset") -> "Figure":
     """Draw the creep over the amplitude, the threshold, and what both are by closed forms."""
-    figure, (axes,) = panels(height=4.0)
     amplitude = 1e6 * dataset["amplitude"].values
-    axes.plot(
-        amplitude, dataset["creep_over"], color=BLUE, marker="o", markersize=4, label="marched"
-    )
-    axes.plot(
-        amplitude, dataset["creep_limit"], color=BLACK, dashes=(4, 3), linewidth=1.0,
-        label=r"$v_a\,\sin(\pi\varphi/2)$, far beyond the threshold",
-    )  # fmt: skip
-    for name, colour, words in (
-        ("threshold", BLUE, "threshold, marched"),
-        ("threshold_closed_form", BLACK, r"threshold, $s_{eff}(1 - \varphi)$"),
-    ):
-        if name in dataset and float(dataset[name]) > 0.0:
-            axes.axvline(
-                1e6 * float(dataset[name]), color=colour, dashes=(2, 2), linewidth=1.2, label=words
+    marks = [
+        line(0, amplitude, dataset["creep_over"], "marched", marker="o", markersize=4),
+        line(0, amplitude, dataset["creep_limit"],
+             r"$v_a\,\sin(\pi\varphi/2)$, far beyond the threshold",
+             color=BLACK, dashes=(4, 3), linewidth=1.0),
+        *(
+            level(1e6 * float(dataset[name]), words, upright=True, color=colour, dashes=(2, 2),
+                  linewidth=1.2)
+            for name, colour, words in (
+                ("threshold", BLUE, "threshold, marched"),
+                ("threshold_closed_form", BLACK, r"threshold, $s_{eff}(1 - \varphi)$"),
             )
-    axes.set_xscale("log")
+            if name in dataset and float(dataset[name]) > 0.0
+        ),
+    ]  # fmt: skip
     fastest = float(np.abs(dataset["creep_over"]).max())
     linear = max(1e-3 * fastest, 1e-9)
-    axes.set_yscale("symlog", linthresh=linear)
-    if dataset["creep_over"].min() >= -linear:
-        axes.set_ylim(-0.3 * linear, 2.0 * max(fastest, float(dataset["creep_limit"].max())))
-    axes.set_xlabel("amplitude of the vibration (µm)")
-    axes.set_ylabel("creep of the wheel (rad/s)")
+
+    def scaled(axes: "Axes") -> None:
+        axes.set_xscale("log")
+        axes.set_yscale("symlog", linthresh=linear)
+        if dataset["creep_over"].min() >= -linear:
+            axes.set_ylim(-0.3 * linear, 2.0 * max(fastest, float(dataset["creep_limit"].max())))
+
     word = "holds" if dataset.attrs["locked"] else "does not hold"
     share = float(dataset["holding_share"])
-    axes.set_title(
-        rf"Without vibration it {word} its load, by $\varphi$ = {share:.3g} of full friction",
-        loc="left",
-    )
-    legend(axes)
-    return figure
+    title = rf"Without vibration it {word} its load, by $\varphi$ = {share:.3g} of full friction"
+    panel = Panel("amplitude of the vibration (µm)", "creep of the wheel (rad/s)", marks, title,
+                  legend={}, tight=False, more=scaled)  # fmt: skip
+    return drawn([panel], height=4.0)

@@ -206,7 +206,7 @@ class DriveProblem:
             )
         return found
 
-    @property
+    @functools.cached_property
     def vibrated(self) -> tuple[Vibration, Shape]:
         """Vibration and waveform; raises InputError where nothing is shaken."""
         if self.vibration is None or self.shape is None:
@@ -215,12 +215,12 @@ class DriveProblem:
             )
         return self.vibration, self.shape
 
-    @property
+    @functools.cached_property
     def mode(self) -> str:
         """Which way it is shaken."""
         return str(self.vibrated[0].mode)
 
-    @property
+    @functools.cached_property
     def reference_speed(self) -> float:
         """Speed that the vibration's is a ratio of, m/s.
 
@@ -231,13 +231,13 @@ class DriveProblem:
             return self.worm_speed * self.reference_radius
         return self.sliding_speed
 
-    @property
+    @functools.cached_property
     def amplitude(self) -> float:
         """Of the vibration's displacement, m; of a turning motion that of the reference circle."""
         vibration, shape = self.vibrated
         return vibration.displacement(shape, self.reference_speed)
 
-    @property
+    @functools.cached_property
     def velocity(self) -> float:
         """Peak velocity of the vibration, m/s."""
         vibration, shape = self.vibrated

@@ -84,6 +84,11 @@ class DriveResult(Drawn):
 
     A torque ratio means nothing without ``torque_balance`` and ``settled``: while the wheel coasts
     or speeds up, the worm may carry any torque.
+
+    Attributes
+    ----------
+    problem : DriveProblem
+        What was asked.
     """
 
     title: ClassVar[str] = "Worm gearset under vibration"

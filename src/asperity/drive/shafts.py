@@ -179,6 +179,12 @@ def compliances(
     mapping of str to ndarray, shape (4, 4)
         By contributor, of those that are given; what is left out is rigid. Rows and columns as
         `COORDINATES`; symmetric.
+
+    Raises
+    ------
+    InputError
+        A stiffness that is not positive, no span where it is needed, or a place beyond the
+        bearings.
     """
     found: dict[str, FloatArray] = {}
 
@@ -217,6 +223,23 @@ def compliances_of(shaft: Shaft, radius: float) -> Mapping[str, FloatArray]:
 
     The wheel stands in the middle between the bearings, the shaft is of steel, and the stiffness of
     its radial bearings is with their seats.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        Its table; what it leaves out is rigid.
+    radius : float
+        Of the point of contact from the worm's axis, m.
+
+    Returns
+    -------
+    mapping of str to ndarray, shape (4, 4)
+        By contributor, as of `compliances`.
+
+    Raises
+    ------
+    InputError
+        As of `compliances`.
     """
     thick = None
     if shaft.diameter is not None and shaft.span is not None:
@@ -292,5 +315,18 @@ def _positive(name: str, stiffness: float) -> float:
 
 
 def wheel_compliances(action: MeshAction, parts: Mapping[str, FloatArray]) -> Mapping[str, float]:
-    """Return the turn that the wheel loses per its torque by each part, rad/(N m)."""
+    """Return the turn that the wheel loses per its torque by each part, rad/(N m).
+
+    Parameters
+    ----------
+    action : MeshAction
+        What the worm does to the wheel.
+    parts : mapping of str to ndarray, shape (4, 4)
+        As from `compliances`.
+
+    Returns
+    -------
+    mapping of str to float
+        By the same names.
+    """
     return {name: action.at_wheel(part) for name, part in parts.items()}

@@ -20,6 +20,11 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
         What is asked.
     static : bool
         Whether its vibration is left out.
+
+    Returns
+    -------
+    DriveProblem
+        Checked.
     """
     problem = DriveProblem.from_case(case, shaken=not static)
     if problem.vibration is not None and problem.drive.deflection is not None:
@@ -29,7 +34,25 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
 
 
 def answer(problem: DriveProblem, run: Run) -> Result:
-    """Solve a drive: its loaded teeth without vibration, its protocol with one."""
+    """Solve a drive: its loaded teeth without vibration, its protocol with one.
+
+    Parameters
+    ----------
+    problem : DriveProblem
+        From `prepare`.
+    run : Run
+        Where its state is kept and who is told how far it is.
+
+    Returns
+    -------
+    Result
+        Of the loaded teeth, of the drive under vibration, or of vibration on demand.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        The teeth cannot carry the torque, or no balance is found.
+    """
     if problem.vibration is None:
         from asperity.drive.static.solve import solve_static
 

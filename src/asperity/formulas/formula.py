@@ -134,6 +134,7 @@ class _Made:
         self.body, self.undefined, self.error = body, undefined, error
         self.symbols: dict[str, Symbol] = {}
         self.words: dict[str, tuple[str, ...]] = {}
+        self.meanings: dict[str, str] = {}
         self.needed: list[str] = []
         for name, annotation in inspect.get_annotations(body, eval_str=True).items():
             if name == "return":
@@ -143,6 +144,8 @@ class _Made:
                 for about in getattr(part, "__metadata__", ()):
                     if isinstance(about, Symbol):
                         self.symbols[name] = about
+                    elif isinstance(about, str):
+                        self.meanings[name] = about
             if name in self.symbols and type(None) not in get_args(annotation):
                 self.needed.append(name)
             origin: Any = get_origin(annotation)
@@ -289,6 +292,9 @@ class _Made:
                 lines[-1] += f" {symbol.allowed.removeprefix('it must be ')}."
             elif name in self.words:
                 lines += [f"{name} : {{{', '.join(map(repr, self.words[name]))}}}", ""]
+            elif name in self.meanings:
+                lines += [f"{name} : {type(parameter.default).__name__}", ""]
+                lines[-1] = f"    {self.meanings[name]}."
         if self.own:
             lines += ["units : {'si', " + ", ".join(map(repr, sorted(self.own))) + "}"]
             lines += ["    Of arguments and result; the second in brackets."]

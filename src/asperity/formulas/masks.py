@@ -23,9 +23,9 @@ class Masked(NamedTuple):
 
     Attributes
     ----------
-    values : ndarray of float
+    values : ndarray of float, shape of the arguments
         The results; NaN where there is none.
-    reason : ndarray of int
+    reason : ndarray of int, the same shape
         0 where there is a result, else the code of the reason.
     legend : mapping of int to str
         The codes as sentences.

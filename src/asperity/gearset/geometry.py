@@ -106,6 +106,11 @@ class Geometry:
         rim_thickness : float, optional
             mm. Left out: :math:`2 m_{x1}`, from where ISO/TR 14521 counts the rim as rigid.
 
+        Returns
+        -------
+        Geometry
+            Lengths in mm, angles in rad.
+
         Raises
         ------
         InputError

@@ -93,6 +93,18 @@ _Library = Mapping[tuple[str, str], _Entry]
 def find(model: type[T], name: str) -> T:
     """Return a thing by the name it has in a data file.
 
+    Parameters
+    ----------
+    model : type
+        Such as `WheelMaterial`, a table of data files.
+    name : str
+        As the data file has it.
+
+    Returns
+    -------
+    table
+        Of that class.
+
     Raises
     ------
     InputError
@@ -104,7 +116,18 @@ def find(model: type[T], name: str) -> T:
 
 
 def every(model: type[T]) -> tuple[T, ...]:
-    """Return all things of a kind, in the order of the data files; raises InputError as `find`."""
+    """Return all things of a kind, in the order of the data files; raises InputError as `find`.
+
+    Parameters
+    ----------
+    model : type
+        Such as `WheelMaterial`, a table of data files.
+
+    Returns
+    -------
+    tuple of table
+        Of that class.
+    """
     library = _library(_stamps())
     return tuple(find(model, name) for section, name in library if section == model.section)
 

@@ -125,9 +125,19 @@ class Lubricant(Sourced):
         return assumed
 
     def kinematic_viscosity(self, temperature: Any) -> Any:
-        """Kinematic viscosity in m²/s at a temperature in K; a number or an array.
+        """Kinematic viscosity: lg lg(nu + 0.7) linear in lg T through those at 40 and 100 degC.
 
         `asperity.gearset.oil` has the formulas, for arrays that may hold nonsense too.
+
+        Parameters
+        ----------
+        temperature : array_like
+            K.
+
+        Returns
+        -------
+        float or ndarray, shape of ``temperature``
+            m2/s.
         """
         nu = oil.kinematic_viscosity(
             temperature - _ZERO_CELSIUS, self.viscosity_40 / _MM2, self.viscosity_100 / _MM2
@@ -135,16 +145,49 @@ class Lubricant(Sourced):
         return nu * _MM2
 
     def density(self, temperature: Any) -> Any:
-        """Density in kg/m³ at a temperature in K; a number or an array."""
+        r"""Density :math:`\rho_{15}/(1 + k_\rho(\theta - 15))`, :math:`\theta` in degC.
+
+        Parameters
+        ----------
+        temperature : array_like
+            K.
+
+        Returns
+        -------
+        float or ndarray, shape of ``temperature``
+            kg/m3.
+        """
         own = self.base.density_15 if self.density_15 is None else self.density_15
         return oil.density(temperature - _ZERO_CELSIUS, own, self.base.density_coefficient)
 
     def dynamic_viscosity(self, temperature: Any) -> Any:
-        """Dynamic viscosity in Pa s at a temperature in K; a number or an array."""
+        """Dynamic viscosity: kinematic viscosity times density.
+
+        Parameters
+        ----------
+        temperature : array_like
+            K.
+
+        Returns
+        -------
+        float or ndarray, shape of ``temperature``
+            Pa s.
+        """
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def violations(self, temperature: float) -> list[str]:
-        """Return how a temperature in K lies outside what the formulas are valid for."""
+        """Return how a temperature in K lies outside what the formulas are valid for.
+
+        Parameters
+        ----------
+        temperature : float
+            K.
+
+        Returns
+        -------
+        list of str
+            A sentence each; empty within.
+        """
         nu = self.kinematic_viscosity(temperature) / _MM2
         found = (
             oil.TEMPERATURE.violation(temperature - _ZERO_CELSIUS),

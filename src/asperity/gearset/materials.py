@@ -89,7 +89,18 @@ class WheelMaterial(Material):
         return None if self.brinell_hardness is None else _BRINELL * self.brinell_hardness
 
     def avoids(self, base_oil: str) -> bool:
-        """Whether practice avoids the pair of it and a base oil, for its wear."""
+        """Whether practice avoids the pair of it and a base oil, for its wear.
+
+        Parameters
+        ----------
+        base_oil : str
+            As of the lubricant.
+
+        Returns
+        -------
+        bool
+            True of aluminium bronze in polyglycol.
+        """
         return self.family == "aluminium bronze" and base_oil == "polyglycol"
 
 

@@ -3,48 +3,50 @@
 import dataclasses
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from asperity.casefile import Case, naming_source
-from asperity.errors import InputError, choices, suggestion
 from asperity.gearset.library import find
 from asperity.gearset.lubricants import Lubricant
 from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
+from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.alternatives import Alternative, alternatives
 from asperity.rating.by_standard import judge_of
 from asperity.rating.changes import changed_words
-from asperity.rating.driven import driven
-from asperity.rating.inputs import inputs
+from asperity.rating.driven import given_of
+from asperity.rating.inputs import Inputs
 from asperity.rating.levers import levers
-from asperity.rating.parameters import RatingOptions
-from asperity.rating.rate import Rated, rate, rate_case, require_consistent, run_of
+from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.rate import Rated, rate, rated_of, run_of
 from asperity.rating.standards import ALL, STANDARDS
 from asperity.runs import Run
 
 
-def prepare(case: Case, *, standard: str = ALL) -> tuple[Case, tuple[str, ...]]:
-    """Return what the command rates; raises InputError for a standard that is not known."""
-    allowed = (*STANDARDS, ALL)
-    if standard not in allowed:
-        raise InputError(
-            f"--standard {standard}: it must be one of {choices(allowed)}"
-            f"{suggestion(standard, allowed)}"
-        )
+class Problem(NamedTuple):
+    """What the command rates: the operation as it is asked for, and what formulas start from."""
+
+    case: Case
+    standards: tuple[str, ...]
+    operation: Operation
+    given: Inputs
+
+
+def prepare(case: Case, *, standard: str = ALL) -> Problem:
+    """Return what the command rates, by a standard or by `ALL`; refuses what cannot be."""
     gearset, operation = case.require(Gearset), run_of(case)
     options = case.get(RatingOptions, RatingOptions())
     wanted = STANDARDS if standard == ALL else (standard,)
     with naming_source(case):
-        operation = driven(gearset, operation, options)
-    require_consistent(inputs(gearset, operation, options), "iso14521" in wanted)
-    return case, wanted
+        return Problem(case, wanted, operation, given_of(gearset, operation, options, wanted))
 
 
-def answer(problem: tuple[Case, tuple[str, ...]], _: Run) -> Rated:
+def answer(problem: Problem, _: Run) -> Rated:
     """Rate the gearset of a case, and find what moves the least safety."""
-    case, standards = problem
-    rated = rate_case(case, standards)
-    first, given = rated.verdict.first, rated.given
+    case, standards, operation, given = problem
+    with naming_source(case):
+        rated = rated_of(given, operation, standards, case.folder, case.get(Tolerances))
+    first = rated.verdict.first
     if first is None:
         return rated
     judge = judge_of(first.demand, given.options, rated.tables_bs721)

@@ -1,11 +1,13 @@
-"""The torque of the wheel where power or torque of the worm is given in its place."""
+"""What a rating starts from; power or torque of the worm may be given in place of the wheel's."""
 
 import math
+from collections.abc import Sequence
 
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
-from asperity.rating.inputs import inputs
-from asperity.rating.iso14521.calculation import rated_efficiency
+from asperity.rating.inputs import Inputs, inputs
+from asperity.rating.iso14521.calculation import film_parameter_of, rated_efficiency
+from asperity.rating.iso14521.film_failure import FilmParameterError
 from asperity.rating.load_steps import LOADS
 from asperity.rating.parameters import Operation, RatingOptions
 
@@ -24,6 +26,15 @@ def driven(
         What drives does not even turn the gearbox without load, or the standard has no answer.
     """
     return _steps_driven(gearset, _driven(gearset, operation, options), options)
+
+
+def given_of(
+    gearset: Gearset, operation: Operation, options: RatingOptions, wanted: Sequence[str]
+) -> Inputs:
+    """Return what a rating starts from, refused where the gearset's numbers do not go together."""
+    given = inputs(gearset, driven(gearset, operation, options), options)
+    _require_consistent(given, "iso14521" in wanted)
+    return given
 
 
 def _driven(gearset: Gearset, operation: Operation, options: RatingOptions | None) -> Operation:
@@ -100,3 +111,19 @@ def told_of(operation: Operation, driven_by: Operation) -> tuple[str, ...]:
     key = operation.driven_by
     followed = f"T_R = {driven_by.output_torque:.4g} N m follows from operation.{key}"
     return (f"{followed}, by the losses of ISO/TR 14521",) if key else ()
+
+
+def _require_consistent(given: Inputs, by_iso: bool) -> None:
+    """Raise InputError where the gearset's numbers do not belong together."""
+    try:
+        given.gearset.require_consistent()
+    except InputError as error:
+        # The end of h* tells more about a ratio or module that is too large.
+        try:
+            if by_iso:
+                film_parameter_of(given)
+        except FilmParameterError as film:
+            raise FilmParameterError(
+                f"{film}; {error}", film.value, film.driver, film.limits
+            ) from None
+        raise

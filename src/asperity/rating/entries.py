@@ -20,10 +20,10 @@ from asperity.gearset.proportions import SOURCES as PROPORTIONS
 from asperity.rating.inputs import Inputs, scaled
 from asperity.rating.result import Entry
 from asperity.sources import Source, weakest
+from asperity.units.standards import FROM_SI
 
 DEFINITION = Source("definition", "verified")
 
-_FROM_SI = {"MPa": 1e-6, "mm2/s": 1e6}
 _FILE = Path(__file__).parent / "data" / "entries.toml"
 _SYMBOL = re.compile(r"(?<![\w.])[A-Za-z]\w*\*?")
 
@@ -169,8 +169,8 @@ def _given_entries(given: Inputs, section: str) -> list[Entry]:
         value: Any = _at(given, fact.of)
         if fact.unit == "deg":
             value = math.degrees(value)
-        elif fact.unit in _FROM_SI:
-            value = scaled(value, _FROM_SI[fact.unit])
+        elif "." in fact.of and fact.unit in FROM_SI:
+            value = scaled(value, FROM_SI[fact.unit])
         if isinstance(value, float) and not math.isfinite(value):
             raise InputError(
                 f"the {fact.meaning} cannot be calculated ({key} is {value}): the numbers of this "

@@ -17,15 +17,13 @@ from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
 from asperity.rating.load_steps import LoadStep
 from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
+from asperity.units.standards import FROM_SI, RPM
 
 Values = dict[str, Real]
 """What a standard's calculation found, by the keys of a rating; NaN where there is no answer."""
 
 _HOUR = 3600.0
 _ZERO_CELSIUS = 273.15
-RPM = 60.0 / (2.0 * math.pi)
-"""Turns a minute in a radian a second."""
-
 _SPAN = 1.5
 _STRENGTH_SHARE = 0.1
 
@@ -240,7 +238,7 @@ class Inputs:
     def bearing_span(self) -> Real:
         """Distance between the worm's bearings, mm."""
         given = self.operation.bearing_span
-        return _SPAN * self.centre_distance if given is None else scaled(given, 1e3)
+        return _SPAN * self.centre_distance if given is None else scaled(given, FROM_SI["mm"])
 
     @property
     def ambient_temperature(self) -> float:
@@ -318,7 +316,7 @@ def inputs(gearset: Gearset, operation: Operation, options: RatingOptions) -> In
         effective_face_width=face_width_that_carries(
             gearset, options, g.axial_module, g.diameter_factor
         ),
-        worm_roughness=scaled(gearset.worm_roughness, 1e6),
+        worm_roughness=scaled(gearset.worm_roughness, FROM_SI["um"]),
         worm_speed=scaled(operation.worm_speed, RPM),
         output_torque=operation.output_torque,
         through_travel_torque=operation.travel_torque,

@@ -73,7 +73,7 @@ class SpectrumStep(LoadStep):
         0 to 1.
     output_torque, input_power, input_torque : float or str
         As in a duty cycle, exactly one of them.
-    worm_speed, rotation, drives, starts_per_hour
+    worm_speed, rotation, drives, starts_per_hour : float or str
         As in a duty cycle.
     """
 

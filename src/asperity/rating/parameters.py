@@ -224,7 +224,18 @@ class Operation(Table):
     def with_tables(
         self, spectrum: Spectrum | None = None, housing: Housing | None = None
     ) -> "Operation":
-        """Return it with what the tables ``[spectrum]`` and ``[housing]`` say of the same run."""
+        """Return it with what the tables ``[spectrum]`` and ``[housing]`` say of the same run.
+
+        Parameters
+        ----------
+        spectrum, housing : Spectrum, Housing, optional
+            Left out: as it has them.
+
+        Returns
+        -------
+        Operation
+            Another one, or the same where nothing is said.
+        """
         given = {"spectrum": spectrum, "housing": housing}
         update = {key: table for key, table in given.items() if table is not None}
         return self.model_copy(update=update) if update else self

@@ -15,16 +15,14 @@ from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.alternatives import Alternative
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.by_standard import PROMISED, rate_by
-from asperity.rating.driven import driven, told_of
+from asperity.rating.driven import given_of, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
 from asperity.rating.duty_words import duty_lines, loads_line
 from asperity.rating.endurance import Endurance, endurance, endurance_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
-from asperity.rating.inputs import Inputs, inputs
-from asperity.rating.iso14521.calculation import film_parameter_of
-from asperity.rating.iso14521.film_failure import FilmParameterError
+from asperity.rating.inputs import Inputs
 from asperity.rating.levers import Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
@@ -323,12 +321,20 @@ def rate(
         options=(options, RatingOptions | None),
         tolerances=(tolerances, Tolerances | None),
     )
-    options = options or RatingOptions()
     wanted = known_standards(standards)
-    asked = operation
-    operation = driven(gearset, operation, options)
-    given = inputs(gearset, operation, options)
-    require_consistent(given, "iso14521" in wanted)
+    given = given_of(gearset, operation, options or RatingOptions(), wanted)
+    return rated_of(given, operation, wanted, folder, tolerances)
+
+
+def rated_of(
+    given: Inputs,
+    asked: Operation,
+    wanted: Sequence[str],
+    folder: Path | None,
+    tolerances: Tolerances | None,
+) -> Rated:
+    """Return the rating that `rate` describes, of what is given; ``asked`` as it was operated."""
+    gearset = given.gearset
     tables = tables_of(given.options, folder)
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
@@ -360,13 +366,26 @@ def rate(
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
         self_locking=self_locking(given, found, tables),
-        notes=(*told_of(asked, operation), *notes),
+        notes=(*told_of(asked, given.operation), *notes),
         assumed=assumptions(given),
     )
 
 
 def rate_case(case: Case, standards: Sequence[str] = STANDARDS) -> Rated:
-    """Rate the worm gearset of a case file; as `rate`."""
+    """Rate the worm gearset of a case file; as `rate`.
+
+    Parameters
+    ----------
+    case : Case
+        With ``[gearset]`` and ``[operation]``.
+    standards : sequence of str
+        Of `STANDARDS`.
+
+    Returns
+    -------
+    Rated
+        As of `rate`.
+    """
     options = case.get(RatingOptions)
     gearset, operation = case.require(Gearset), run_of(case)
     with naming_source(case):
@@ -378,19 +397,3 @@ def run_of(case: Case) -> Operation:
     """Return how the gearset of a case is run; what is refused names the case."""
     with naming_source(case):
         return operation_of(case)
-
-
-def require_consistent(given: Inputs, by_iso: bool) -> None:
-    """Raise InputError where the gearset's numbers do not belong together."""
-    try:
-        given.gearset.require_consistent()
-    except InputError as error:
-        # The end of h* tells more about a ratio or module that is too large.
-        try:
-            if by_iso:
-                film_parameter_of(given)
-        except FilmParameterError as film:
-            raise FilmParameterError(
-                f"{film}; {error}", film.value, film.driver, film.limits
-            ) from None
-        raise

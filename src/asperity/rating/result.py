@@ -157,6 +157,16 @@ class Rating:
     def entry(self, key: str) -> Entry:
         """Return the entry with a key, or with a symbol as it is printed.
 
+        Parameters
+        ----------
+        key : str
+            Of an entry, or its symbol.
+
+        Returns
+        -------
+        Entry
+            Value, unit, equation and source.
+
         Raises
         ------
         InputError
@@ -218,6 +228,11 @@ class Rating:
         sources : bool
             Whether each number's source and its note are columns; else one tells how far to trust
             it, which a terminal has room for.
+
+        Returns
+        -------
+        Table
+            A row an entry.
         """
         if sources:
             columns = tuple(Column(name, right=name == "value") for name in COLUMNS)

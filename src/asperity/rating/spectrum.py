@@ -220,7 +220,23 @@ class Spectrum(Table):
         )
 
     def steps(self, rated_torque: float | None) -> tuple[LoadStep, ...]:
-        """Return the steps, those of a class by the rated torque of the wheel, N m."""
+        """Return the steps, those of a class by the rated torque of the wheel, N m.
+
+        Parameters
+        ----------
+        rated_torque : float or None
+            Of the wheel, N m, of which a duty class has shares.
+
+        Returns
+        -------
+        tuple of LoadStep
+            In the order of the table; times in s, torques in N m.
+
+        Raises
+        ------
+        InputError
+            A duty class without a rated torque.
+        """
         if self.step is not None:
             return self.step if self.life is None else tuple(map(self._timed, self.step))
         assert self.duty_class is not None
@@ -240,7 +256,18 @@ class Spectrum(Table):
         return copy
 
     def service_factor(self, starts_per_hour: float) -> float | None:
-        """Return AGMA's, by the hours a day, shocks and starts; None where no hours are given."""
+        """Return AGMA's, by the hours a day, shocks and starts; None where no hours are given.
+
+        Parameters
+        ----------
+        starts_per_hour : float
+            Of the operation.
+
+        Returns
+        -------
+        float or None
+            AGMA 6034-A87, by NORD's catalogue (one source).
+        """
         if self.hours_per_day is None:
             return None
         row = next(place for place, most in enumerate(_HOURS) if self.hours_per_day <= most)

@@ -72,13 +72,29 @@ class Variants:
         key : str
             Of an array, or the name of a standard: then it is 0 where none of its formulas failed.
             The reason is the first formula of the standard that failed for a variant.
+
+        Returns
+        -------
+        ndarray of int16, shape of the variants
+            Codes of `legend`.
         """
         standard, _, number = key.partition(".")
         reason = self._mask(standard).reason.reshape(self.shape)
         return np.where(np.isnan(self[key]), reason, 0).astype(np.int16) if number else reason
 
     def legend(self, standard: str) -> Mapping[int, str]:
-        """Return the codes of a standard as sentences."""
+        """Return the codes of a standard as sentences.
+
+        Parameters
+        ----------
+        standard : str
+            Its key, such as ``iso14521``.
+
+        Returns
+        -------
+        mapping of int to str
+            A sentence by code.
+        """
         return MappingProxyType(self._mask(standard).legend)
 
     def _mask(self, standard: str) -> Mask:

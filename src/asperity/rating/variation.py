@@ -31,15 +31,14 @@ from asperity.gearset.parameters import Gearset
 from asperity.gearset.proportions import RULES, Heights
 from asperity.rating.inputs import (
     GEOMETRY,
-    RPM,
     Inputs,
     face_width_that_carries,
     inputs,
 )
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.units.standards import FROM_SI
 
 _ROUNDING = 1e-12
-_FROM_SI = {"mm": 1e3, "um": 1e6, "rpm": RPM}
 
 BLOCK = 32768
 """How many variants go through the formulas together: their arrays stay in a processor's cache."""
@@ -125,7 +124,7 @@ def varied(
 def _array(name: str, value: Any) -> FloatArray:
     if name not in VARIED:
         raise InputError(f"{name} cannot be varied{nearest(name, VARIED)}")
-    return np.asarray(real(name, value)) * _FROM_SI.get(str(VARIED[name].unit), 1.0)
+    return np.asarray(real(name, value)) * FROM_SI.get(str(VARIED[name].unit), 1.0)
 
 
 def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Real]:

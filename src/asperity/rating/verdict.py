@@ -103,7 +103,28 @@ class Verdict(NamedTuple):
         unanswered: Mapping[str, str] | None = None,
         rows: tuple[Row, ...] = (),
     ) -> "Verdict":
-        """Return the verdict of ratings by standard; why others have no answer, likewise."""
+        """Return the verdict of ratings by standard; why others have no answer, likewise.
+
+        Parameters
+        ----------
+        found : mapping of str to Rating
+            By standard.
+        levers : tuple of Lever
+            What raises a safety, and how much.
+        alternatives : tuple of Alternative
+            What would hold in the place of what is asked.
+        wear_assumed : str
+            What was assumed of the torque that wears; empty for nothing.
+        unanswered : mapping of str to str, optional
+            Why a standard has no answer.
+        rows : tuple of Row
+            Of what is not of the standards, such as bearings.
+
+        Returns
+        -------
+        Verdict
+            Safeties, and where each standard stands.
+        """
         asked = [demand for demand in DEMANDS if demand.standard in found]
         rated = {d: found[d.standard][d.key] for d in asked if d.key in found[d.standard]}
         return cls(
@@ -152,7 +173,18 @@ class Verdict(NamedTuple):
         }
 
     def stands(self, whole: bool = False) -> Iterator[str]:
-        """Yield by which standards it holds, which have no answer, and which rate outside."""
+        """Yield by which standards it holds, which have no answer, and which rate outside.
+
+        Parameters
+        ----------
+        whole : bool
+            Whether reasons are told in full.
+
+        Yields
+        ------
+        str
+            One of each kind that there is.
+        """
         yield from Standing.sentences(self.standing, whole)
         failing = [f"{row.name} by {row.standard}" for row in self.rows if not row.holds]
         if failing:

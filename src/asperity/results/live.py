@@ -13,14 +13,13 @@ import numpy as np
 
 from asperity.formulas.traced import Traced
 from asperity.results.xlsx import Formula, Input, Sheet, in_shown_units, place, write_workbook
+from asperity.units.standards import FROM_SI
 
 _INPUTS = "inputs"
 _VALUE = 1  # column
 _GIVEN_WIDTHS = (12, 24, 10, 44, 44)
 _FOUND_WIDTHS = (12, 24, 10, 44, 60, 44, 10, 10)
 _SHOWN_WIDTHS = (14, 10)
-# Numbers of a case that are in SI, where the sheet has the standards' units.
-_FROM_SI = {"MPa": 1e-6, "mm2/s": 1e6}
 _HEADING = ("symbol", "value", "unit", "meaning", "equation", "source", "asked", "holds")
 
 
@@ -71,7 +70,8 @@ class Cells:
         if path not in self._known:
             fact = self._about(path)
             self._units[path] = unit = fact.unit if fact else unit
-            size = _FROM_SI.get(unit, 1.0) if "." in path else 1.0
+            # Tables are in SI.
+            size = FROM_SI.get(unit, 1.0) if "." in path else 1.0
             shown = Traced(math.degrees(value) if unit == "deg" else value * size)
             number = np.radians(shown) if unit == "deg" else shown if size == 1.0 else shown / size
             self._known[path] = shown, number

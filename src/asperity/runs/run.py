@@ -141,7 +141,7 @@ class Run:
 
         Returns
         -------
-        tree of ndarray or None
+        tree of ndarray of any shape, or None
             As `checkpoint` was given it.
         """
         if self._path is None:

@@ -1,6 +1,6 @@
 """The shafts of a worm gearset and their rolling bearings: loads, deflection, strength, life.
 
-:Entry: `study`, the command `asperity shafts`; `study.shaft_rows` for a rating.
+:Entry: `study`, the command `asperity shafts`; `study.beside_rating` adds to a rating.
 :Data: `[worm_shaft]`, `[wheel_shaft]`, `[bearings]` (`parameters`, `options`); bearings and steels
     of data files.
 :Where: `statics` (reactions), `beam` (deflection), `strength` (DIN 743, Goodman, Gerber), `rolling`

@@ -57,7 +57,22 @@ class Deflection(NamedTuple):
 def places_of(
     stretches: Sequence[Stretch], others: Sequence[float], between: int = 0
 ) -> FloatArray:
-    """Return where something changes, and so many places between any two, mm."""
+    """Return where something changes, and so many places between any two, mm.
+
+    Parameters
+    ----------
+    stretches : sequence of Stretch
+        In their order, without gaps, from 0 on.
+    others : sequence of float
+        Further positions, of bearings and loads, mm.
+    between : int
+        Places between any two of them.
+
+    Returns
+    -------
+    ndarray, shape (places,)
+        Rising, mm.
+    """
     length = stretches[-1].end
     marks = {0.0, length, *(each.start for each in stretches), *others}
     places = np.array(sorted(marks))
@@ -95,6 +110,11 @@ def deflection(
         Places between any two where something changes.
     carried : Reactions, optional
         What the bearings carry, where it is known.
+
+    Returns
+    -------
+    Deflection
+        By bending, what shear adds, and slope.
     """
     found = carried or reactions(loads, *bearings)
     at = places_of(stretches, [*bearings, *(load.at for load in loads)], between)
@@ -127,7 +147,20 @@ def deflection(
 
 
 def at_place(found: Deflection, place: float) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return bending, shear and slope at a place where something changes, by y and z."""
+    """Return bending, shear and slope at a place where something changes, by y and z.
+
+    Parameters
+    ----------
+    found : Deflection
+        Of the shaft.
+    place : float
+        One of its positions, mm.
+
+    Returns
+    -------
+    bent, sheared, slope : ndarray, shape (2,)
+        By y and z; mm, mm and rad.
+    """
     index = int(np.argmin(np.abs(found.at - place)))
     return found.bent[index], found.sheared[index], found.slope[index]
 
@@ -141,6 +174,17 @@ def mesh_compliance(
     """Return deflection and slope in one plane under a unit force and couple at the mesh.
 
     By bending; the deflection under the force has that of shear too.
+
+    Parameters
+    ----------
+    stretches : sequence of Stretch
+        In their order, without gaps, from 0 on.
+    bearings : tuple of float
+        Positions, mm, of bearings that do not give way.
+    mesh : float
+        Position of the mesh, mm.
+    modulus : float
+        Young's modulus, MPa.
 
     Returns
     -------

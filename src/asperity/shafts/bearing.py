@@ -158,7 +158,18 @@ class RollingBearing(Sourced):
         return self.kind != "cylindrical"
 
     def ratings(self, *, pair: bool) -> tuple[float, float]:
-        """Return C and C_0 of one bearing or of two side by side, N."""
+        """Return C and C_0 of one bearing or of two side by side, N.
+
+        Parameters
+        ----------
+        pair : bool
+            Whether two stand side by side.
+
+        Returns
+        -------
+        dynamic, static : float
+            C and C_0, N.
+        """
         c, c0 = self.dynamic_rating, self.static_rating
         if not pair:
             return c, c0
@@ -168,6 +179,18 @@ class RollingBearing(Sourced):
         """Return the factors of its equivalent loads under an axial load, N.
 
         A pair that is ``opposed`` stands back to back or face to face.
+
+        Parameters
+        ----------
+        axial : float
+            Axial load, N, on which those of a deep groove ball bearing depend.
+        opposed : bool
+            Whether a pair stands back to back or face to face.
+
+        Returns
+        -------
+        Factors
+            e, X and Y, X_0 and Y_0.
         """
         if self.kind == "deep groove":
             return equivalent.deep_groove(self.f0 or 1.0, axial, self.static_rating)
@@ -180,7 +203,18 @@ class RollingBearing(Sourced):
         return equivalent.CYLINDRICAL
 
     def induced(self, radial: Any) -> Any:
-        """Return the axial force that it makes of its radial load, N; adjusted bearings only."""
+        """Return the axial force that it makes of its radial load, N; adjusted bearings only.
+
+        Parameters
+        ----------
+        radial : array_like
+            F_r, N.
+
+        Returns
+        -------
+        float or ndarray, shape of ``radial``
+            N.
+        """
         if self.kind == "taper":
             return number(equivalent.induced_of_taper(radial, self.Y or 1.0))
         return equivalent.induced_of_angular(self.angle)(radial)

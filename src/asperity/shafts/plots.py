@@ -1,10 +1,12 @@
 """Pictures of shafts: to scale with their bearings and loads, moments, deflection."""
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, GREEN, ORANGE, SKY, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, DASHES, SKY, VERMILION, panels
+from asperity.results.panels import Mark, Panel, line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -12,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ENDS = ("A", "B")
+_POSITION = "position from the end (mm)"
 _HIGH = 0.62  # of the drawing's panel, over its width
 
 
@@ -22,12 +25,12 @@ def plot_shafts(dataset: "xr.Dataset") -> "Figure":
     for column, name in enumerate(names):
         own = axes[column :: len(names)]
         _loads(own[0], dataset, name)
-        _moments(own[1], dataset, name)
-        _deflection(own[2], dataset, name)
+        _moments(dataset, name).put(own[1])
+        _deflection(dataset, name).put(own[2])
         length = float(dataset[f"{name}_stretch"].values.max())
         for panel in own:
             panel.set_xlim(-0.05 * length, 1.05 * length)
-            panel.set_xlabel("position from the end (mm)")
+            panel.set_xlabel(_POSITION)
     return figure
 
 
@@ -124,27 +127,41 @@ def _bore(stretches: Any, diameters: Any, place: float) -> float:
     return float(diameters[-1])
 
 
-def _moments(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
+def _moments(dataset: "xr.Dataset", name: str) -> Panel:
     at, moment = dataset[f"{name}_at"].values, dataset[f"{name}_moment"].values
-    axes.plot(at, np.hypot(*moment.T), color=BLUE, label="bending, resultant")
-    axes.plot(at, moment[:, 0], color=GREEN, dashes=(5, 2), label="bending by y")
-    axes.plot(at, moment[:, 1], color=ORANGE, dashes=(2, 2), label="bending by z")
-    torque = dataset[f"{name}_torque"].values
-    axes.plot(at, torque, color=VERMILION, dashes=(7, 2, 2, 2), label="torque")
-    axes.set_ylabel("moment (N m)")
-    axes.set_title("Bending moment and torque", loc="left")
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.35 * (high - low))
-    legend(axes, ncols=2, loc="upper right")
+    torque = line(1, at, dataset[f"{name}_torque"].values, "torque", dashes=DASHES[3])
+    return Panel(_POSITION, "moment (N m)", [*_across(at, moment, "bending, ", "bending "), torque],
+                 "Bending moment and torque", {"ncols": 2, "loc": "upper right"}, tight=False,
+                 more=_with_room(0.35))  # fmt: skip
 
 
-def _deflection(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
+def _deflection(dataset: "xr.Dataset", name: str) -> Panel:
     at, bent = dataset[f"{name}_place"].values, dataset[f"{name}_deflection"].values
-    axes.plot(at, np.hypot(*bent.T), color=BLUE, label="resultant")
-    axes.plot(at, bent[:, 0], color=GREEN, dashes=(5, 2), label="by y")
-    axes.plot(at, bent[:, 1], color=ORANGE, dashes=(2, 2), label="by z")
-    axes.set_ylabel("deflection (um)")
-    axes.set_title("Deflection, with shear", loc="left")
-    low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.25 * (high - low))
-    legend(axes, ncols=3, loc="upper right")
+    return Panel(
+        _POSITION,
+        "deflection (um)",
+        _across(at, bent),
+        "Deflection, with shear",
+        {"ncols": 3, "loc": "upper right"},
+        tight=False,
+        more=_with_room(0.25),
+    )
+
+
+def _across(at: Any, both: Any, whole: str = "", part: str = "") -> list[Mark]:
+    """Return what runs across a shaft: its size, and what it is by y and z."""
+    return [
+        line(0, at, np.hypot(*both.T), f"{whole}resultant"),
+        line(2, at, both[:, 0], f"{part}by y", dashes=(5, 2)),
+        line(4, at, both[:, 1], f"{part}by z", dashes=(2, 2)),
+    ]
+
+
+def _with_room(share: float) -> "Callable[[Axes], None]":
+    """Leave a share of a panel's height above its curves, for their names."""
+
+    def leave(axes: "Axes") -> None:
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high + share * (high - low))
+
+    return leave

@@ -84,7 +84,26 @@ class ShaftStudy(Result):
         life: float,
         iso: tuple[float, float] | None,
     ) -> "ShaftStudy":
-        """Return the answer of shafts that are found; ISO's deflection and limit in mm."""
+        """Return the answer of shafts that are found; ISO's deflection and limit in mm.
+
+        Parameters
+        ----------
+        given : Inputs
+            The gearset and its operation.
+        found : mapping of str to ShaftFound
+            By ``worm_shaft`` and ``wheel_shaft``.
+        loads : tuple of Load
+            That they carry.
+        life : float
+            Required of the bearings, h.
+        iso : tuple of float or None
+            Deflection by ISO/TR 14521 and its limit, mm.
+
+        Returns
+        -------
+        ShaftStudy
+            With the least of each safety and life.
+        """
         lives = [
             each for shaft in found.values() for own in shaft.lives if own for each in own.values()
         ]

@@ -60,12 +60,38 @@ class Reactions(NamedTuple):
 
 
 def resultant(y: Any, z: Any) -> Any:
-    """Return the length of a vector across the shaft."""
+    """Return the length of a vector across the shaft.
+
+    Parameters
+    ----------
+    y, z : float or ndarray, same shape
+        Its parts.
+
+    Returns
+    -------
+    float or ndarray, same shape
+        In their unit.
+    """
     return math.hypot(y, z) if isinstance(y, float) else np.sqrt(y**2 + z**2)
 
 
 def mesh_load(at: float, force: Vector, radius: float) -> PointLoad:
-    """Return the load of teeth that touch at y = ``radius`` from the shaft's axis, mm."""
+    """Return the load of teeth that touch at y = ``radius`` from the shaft's axis, mm.
+
+    Parameters
+    ----------
+    at : float
+        Position, mm.
+    force : tuple of float
+        On the shaft, by x, y and z, N.
+    radius : float
+        Where the teeth touch, mm.
+
+    Returns
+    -------
+    PointLoad
+        The force at the axis, and the couple of its arm.
+    """
     fx, _, fz = force
     return PointLoad(at, force, (radius * fz, 0.0, -radius * fx))
 
@@ -79,6 +105,11 @@ def reactions(loads: Sequence[PointLoad], first: float, second: float) -> Reacti
         On the shaft.
     first, second : float
         Positions of the bearings, mm; different.
+
+    Returns
+    -------
+    Reactions
+        By equilibrium of forces and couples.
     """
     span = second - first
     fy, fz, moment_y, moment_z = [0.0], [0.0], [0.0], [0.0]
@@ -135,10 +166,17 @@ def section(
     ----------
     at : float
         Position, mm.
-    loads, carried, bearings, fixed
+    loads, carried : sequence of PointLoad, Reactions
+        As in `moments`.
+    bearings, fixed : tuple of float
         As in `moments`.
     behind : bool
         Whether the side away from the end is meant, else that before the section.
+
+    Returns
+    -------
+    bending, torque, axial : float
+        N mm, N mm and N.
     """
     every = list(loads)
     for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
@@ -165,7 +203,7 @@ def moments(
 
     Parameters
     ----------
-    places : ndarray
+    places : ndarray, shape (places,)
         Positions, mm.
     loads : sequence of PointLoad
         On the shaft.
@@ -175,6 +213,11 @@ def moments(
         Where they are, mm.
     fixed : tuple of float
         Axial force of each of them, along x, N.
+
+    Returns
+    -------
+    Moments
+        On either side of each place.
     """
     every = list(loads)
     for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):

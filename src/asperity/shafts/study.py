@@ -1,5 +1,7 @@
 """What ``asperity shafts`` does: both shafts of a gearset, by the tables of a case."""
 
+import dataclasses
+from collections.abc import Callable
 from typing import NamedTuple
 
 from asperity.casefile import Case, naming_source
@@ -10,8 +12,8 @@ from asperity.rating.by_standard import rate_by
 from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, inputs, scaled
 from asperity.rating.parameters import RatingOptions
+from asperity.rating.rate import Rated
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row
 from asperity.rating.standards import tables_of
 from asperity.rating.tables import operation_of
 from asperity.runs import Run
@@ -50,6 +52,16 @@ def given_shafts(case: Case) -> bool:
 def prepare(case: Case) -> Prepared:
     """Return the shafts of a case.
 
+    Parameters
+    ----------
+    case : Case
+        With ``[gearset]``, ``[operation]`` and one of ``[worm_shaft]`` and ``[wheel_shaft]``.
+
+    Returns
+    -------
+    Prepared
+        For `answer`.
+
     Raises
     ------
     InputError
@@ -76,7 +88,23 @@ def prepare(case: Case) -> Prepared:
 
 
 def answer(problem: Prepared, _: Run) -> ShaftStudy:
-    """Find what both shafts and their bearings come to."""
+    """Find what both shafts and their bearings come to.
+
+    Parameters
+    ----------
+    problem : Prepared
+        From `prepare`.
+
+    Returns
+    -------
+    ShaftStudy
+        Loads, deflection, safeties and lives.
+
+    Raises
+    ------
+    InputError
+        ISO/TR 14521 has no answer for the gearset, whose losses the loads follow from.
+    """
     iso = rate_by("iso14521", problem.given, problem.tables)
     return study(problem, loads_of(problem.given, iso), iso)
 
@@ -118,25 +146,29 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
     )
 
 
-def shaft_rows(
-    case: Case, loads: tuple[Load, ...] | None = None, iso: Rating | None = None
-) -> tuple[Row, ...]:
-    """Return a row for each shaft and bearing of a case, for the screen of a rating.
+def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
+    """Return what adds shafts and bearings of a case to its rating: a row for each of them.
 
     Parameters
     ----------
     case : Case
-        Without a shaft there is no row.
-    loads : tuple of Load, optional
-        Left out: those of the operation.
-    iso : Rating, optional
-        By ISO/TR 14521, where it is there already.
+        With at least one shaft.
+
+    Returns
+    -------
+    callable
+        Takes a rating and a run, and returns the rating with the rows.
+
+    Raises
+    ------
+    InputError
+        As from `prepare`.
     """
-    if not given_shafts(case):
-        return ()
     problem = prepare(case)
-    with naming_source(case):
-        rating = iso or rate_by("iso14521", problem.given, problem.tables)
-        if loads is None:
-            loads = loads_of(problem.given, rating)
-        return rows_of(study(problem, loads, rating))
+
+    def add(rated: Rated, _: Run) -> Rated:
+        iso = rated.iso14521 or rate_by("iso14521", problem.given, problem.tables)
+        rows = rows_of(study(problem, loads_of(problem.given, iso), iso))
+        return dataclasses.replace(rated, rows=rows)
+
+    return add

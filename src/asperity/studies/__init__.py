@@ -2,7 +2,7 @@
 
 :Entry: a command a module: `sensitivity`, `methods`, `optimise`, `tradeoff`, `catalogue`,
     `proposals` (`asperity size`).
-:Data: a case of `rate`; ways to less friction in `data/methods.toml`.
+:Data: a case of `asperity.rating`; ways to less friction in `data/methods.toml`.
 :Where: `climb` (the highest point under constraints), `design` (what is free), `series` (standard
     series), `rounding`.
 :Tests: `unit/test_studies_*`, `literature/test_sensitivity`, `acceptance/test_cli_studies`.

@@ -74,13 +74,13 @@ class Catalogue:
     ----------
     gearset : Gearset
         Whose materials, pressure angle and roughness the proposals have.
-    ratios, centre_distances : ndarray
+    ratios, centre_distances : ndarray, shape (n,)
         What was asked for; m.
     numbers : dict of str to ndarray, shape (ratios, centre distances)
         The proposals, by the keys in `NUMBERS`; NaN where there is none.
-    candidates : ndarray of int
+    candidates : ndarray of int, shape (ratios, centre distances)
         How many gearsets were rated for each.
-    reason : ndarray of str
+    reason : ndarray of str, shape (ratios, centre distances)
         Why there is no proposal; empty where there is one.
     """
 
@@ -93,6 +93,16 @@ class Catalogue:
 
     def gearset_at(self, ratio: int, distance: int) -> Gearset:
         """Return a proposal as a gearset, by its places in `ratios` and `centre_distances`.
+
+        Parameters
+        ----------
+        ratio, distance : int
+            Places in `ratios` and `centre_distances`.
+
+        Returns
+        -------
+        Gearset
+            The proposal.
 
         Raises
         ------
@@ -167,7 +177,7 @@ def search(
     ----------
     gearset : Gearset
         Materials, flank, pressure angle, roughness and rules; its size and teeth do not matter.
-    operation, options
+    operation, options : Operation, RatingOptions
         As in `asperity.rating.rate`; the torques are those that every proposal must bear.
     ratios : array_like
         Ratios of the speeds, above 1. A wheel gets the nearest whole number of teeth.
@@ -177,6 +187,11 @@ def search(
         Of diameter factor and profile shift.
     folder : path, optional
         Where a relative file name among the options starts.
+
+    Returns
+    -------
+    Catalogue
+        A design, or the reason why there is none, for each ratio and centre distance.
 
     Raises
     ------

@@ -56,8 +56,12 @@ def compare(
 
     Parameters
     ----------
-    gearset, operation, options
-        As in `asperity.rating.rate`. A reduction acts on the friction that the gearset has so.
+    gearset : Gearset
+        As in `asperity.rating.rate`, whose friction a reduction acts on.
+    operation : Operation
+        As in `asperity.rating.rate`.
+    options : RatingOptions, optional
+        As in `asperity.rating.rate`.
     methods : sequence of Method, optional
         What is reported; `asperity.studies.reported_methods` if left out.
     vibration : Vibration, optional
@@ -71,6 +75,11 @@ def compare(
         On the contact, N. Left out: that which the standard's efficiency implies.
     folder : path, optional
         Where the file of a sampled waveform is looked for.
+
+    Returns
+    -------
+    Comparison
+        Efficiency with each method, and with vibration.
 
     Raises
     ------

@@ -205,7 +205,7 @@ def optimise(
 
     Parameters
     ----------
-    gearset, operation, options
+    gearset, operation, options : Gearset, Operation, RatingOptions
         As in `asperity.rating.rate`; what is not free stays.
     bounds : Bounds, optional
         How far the design may be changed; the default is assumed.
@@ -217,7 +217,7 @@ def optimise(
         Least safeties by ``standard.key``. Where they are given the permissible torque of BS 721,
         the lower of those for wear and strength, is kept; else each of the two is, as in the
         thesis (3.3.5), and no other safety.
-    begin : ndarray, optional
+    begin : ndarray, shape (designs, variables), optional
         Designs to begin from as well, rows of the variables in SI.
     requirements : Requirements, optional
         What the design keeps beside its load capacity, even where the gearset does not as it is.

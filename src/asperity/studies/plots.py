@@ -7,22 +7,21 @@ import numpy as np
 from asperity.results.figures import (
     BLACK,
     BLUE,
+    COLOURS,
     GREEN,
     ORANGE,
-    PURPLE,
     SKY,
     VERMILION,
     legend,
     panels,
 )
+from asperity.results.panels import MARKERS, Panel, drawn, line, points
 from asperity.studies.reported import OWN
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-_COLOURS = (BLUE, VERMILION, GREEN, PURPLE, ORANGE, SKY, BLACK)
-_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _KINDS = {
     "as it is": BLACK,
     "oil": BLUE,
@@ -49,10 +48,10 @@ def plot_sensitivity(dataset: "xr.Dataset") -> "Figure":
     for place, name in enumerate(dataset["input"].values):
         found = dataset.sel(input=name)
         efficiency, end = 100.0 * found["eta_z1_2"].values, float(found["fails_above"])
-        colour = _COLOURS[place % len(_COLOURS)]
+        colour = COLOURS[place % len(COLOURS)]
         axes.plot(
             rises, efficiency, color=colour, label=_SYMBOLS.get(name, name.replace("_", " ")),
-            marker=_MARKERS[place % len(_MARKERS)], markersize=5.0,
+            marker=MARKERS[place % len(MARKERS)], markersize=5.0,
         )  # fmt: skip
         last = int(np.flatnonzero(~np.isnan(efficiency))[-1])
         if not np.isnan(end):
@@ -115,23 +114,23 @@ def plot_comparison(dataset: "xr.Dataset") -> "Figure":
 
 def plot_trade_off(dataset: "xr.Dataset") -> "Figure":
     """Draw the highest efficiency over the permissible torque, and where the gearset is."""
-    figure, (axes,) = panels(height=4.4)
     attributes = dataset.attrs
-    axes.plot(
-        dataset["torque"], 100.0 * dataset["eta_z1_2"], color=BLUE, marker="o", markersize=5.0,
-        label="most efficient designs",
+    best = line(0, dataset["torque"], 100.0 * dataset["eta_z1_2"], "most efficient designs",
+                marker="o", markersize=5.0)  # fmt: skip
+    designs = [
+        points(
+            place, attributes[f"{group}.M_permissible_Nm"], 100.0 * attributes[f"{group}.eta_z1_2"],
+            label, filled=True, marker=marker, markersize=9.0,
+        )
+        for place, group, marker, label in (
+            (1, "given", "s", "as it is"),
+            (2, "optimum", "D", "optimum, permissible torque kept"),
+        )
+        if f"{group}.eta_z1_2" in attributes
+    ]  # fmt: skip
+    panel = Panel(
+        r"permissible torque, the lower of $M_w$ and $M_s$ (N m)",
+        r"efficiency of the teeth $\eta_{z1-2}$ (%)", [best, *designs], legend={"loc": "best"},
+        tight=False, limits={"xmargin": 0.08, "ymargin": 0.12},
     )  # fmt: skip
-    for group, marker, colour, label in (
-        ("given", "s", VERMILION, "as it is"),
-        ("optimum", "D", GREEN, "optimum, permissible torque kept"),
-    ):
-        if f"{group}.eta_z1_2" in attributes:
-            axes.plot(
-                attributes[f"{group}.M_permissible_Nm"], 100.0 * attributes[f"{group}.eta_z1_2"],
-                linestyle="none", marker=marker, markersize=9.0, color=colour, label=label,
-            )  # fmt: skip
-    axes.margins(x=0.08, y=0.12)
-    axes.set_xlabel(r"permissible torque, the lower of $M_w$ and $M_s$ (N m)")
-    axes.set_ylabel(r"efficiency of the teeth $\eta_{z1-2}$ (%)")
-    legend(axes, loc="best")
-    return figure
+    return drawn([panel], height=4.4)

@@ -27,12 +27,11 @@ from asperity.rating.variants import Variants, variants
 from asperity.studies.proposed import MOST, Proposal, Proposals
 from asperity.studies.requirements import Requirements
 from asperity.studies.series import grid
+from asperity.units.standards import FROM_SI
 
 RANKS = {"size": "centre_distance", "efficiency": "efficiency", "margin": "margin"}
 LOCKS = ("", "rest", "motion")
 """When the worm must lock itself; empty: never."""
-
-_FROM_SI = 1e3
 
 
 def propose(
@@ -78,6 +77,11 @@ def propose(
     details : callable, optional
         What else a `Proposal` tells of a gearset with its keys; those that are shown are asked for.
 
+    Returns
+    -------
+    Proposals
+        The best first.
+
     Raises
     ------
     InputError
@@ -113,8 +117,8 @@ def propose(
         STANDARDS,
         starts=starts,
         wheel_teeth=teeth,
-        centre_distance=distance / _FROM_SI,
-        axial_module=module / _FROM_SI,
+        centre_distance=distance / FROM_SI["mm"],
+        axial_module=module / FROM_SI["mm"],
         diameter_factor=factor,
     )
     margins, least, rated_by_all = _margins(rated)

@@ -77,7 +77,13 @@ class Proposal(NamedTuple):
 
 
 class Proposals(Result):
-    """Gearsets that are proposed for a ratio, a torque and a speed."""
+    """Gearsets that are proposed for a ratio, a torque and a speed.
+
+    Attributes
+    ----------
+    found : tuple of Proposal
+        The best first.
+    """
 
     title: ClassVar[str] = "Worm gearsets for what is asked"
     stem: ClassVar[str] = "size"

@@ -7,9 +7,10 @@ from typing import Any, NamedTuple
 from asperity.arrays import Real
 from asperity.errors import InputError, nearest
 from asperity.rating.entries import facts
-from asperity.rating.inputs import RPM, Inputs
+from asperity.rating.inputs import Inputs
+from asperity.units.standards import FROM_SI
 
-_TO_SI = {"mm": 1e-3, "um": 1e-6, "rpm": 1.0 / RPM, "deg": math.radians(1.0)}
+_TO_SI = {unit: 1.0 / size for unit, size in FROM_SI.items()} | {"deg": math.radians(1.0)}
 
 
 class Quantity(NamedTuple):

@@ -87,6 +87,16 @@ def more_methods(names: Sequence[str]) -> tuple[Method, ...]:
 def reported_methods(path: str | os.PathLike[str] | None = None) -> tuple[Method, ...]:
     """Return the methods of a data file; of the one that ships if none is named.
 
+    Parameters
+    ----------
+    path : path, optional
+        A TOML file such as ``studies/data/methods.toml``.
+
+    Returns
+    -------
+    tuple of Method
+        In the order of the file.
+
     Raises
     ------
     InputError

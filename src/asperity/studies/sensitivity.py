@@ -68,11 +68,11 @@ class Influence:
     ----------
     quantity : Quantity
         The input.
-    values : ndarray
+    values : ndarray, shape (rises,)
         Its values, in its unit.
-    efficiency : ndarray
+    efficiency : ndarray, shape (rises,)
         Efficiency of the teeth with each; NaN where there is none.
-    reason : ndarray of int
+    reason : ndarray of int, shape (rises,)
         0 where there is an efficiency, else a code of `legend`.
     legend : mapping of int to str
         The codes as sentences.
@@ -131,7 +131,7 @@ class Sensitivity(Result):
         Of the gearset.
     efficiency : float
         Of the teeth, as the gearset is.
-    rises : ndarray
+    rises : ndarray, shape (rises,)
         By how much of itself an input is raised.
     influences : tuple of Influence
         One for each input.
@@ -263,7 +263,7 @@ def sensitivity(
 
     Parameters
     ----------
-    gearset, operation, options
+    gearset, operation, options : Gearset, Operation, RatingOptions
         As in `asperity.rating.rate`.
     inputs : sequence of str
         What to vary, by the names of `asperity.rating.variants`.

@@ -44,11 +44,11 @@ class TradeOff(Result):
     ----------
     name : str
         Of the gearset.
-    torque : ndarray
+    torque : ndarray, shape (points,)
         Permissible torque, N m, rising.
-    efficiency : ndarray
+    efficiency : ndarray, shape (points,)
         Highest efficiency of the teeth with it.
-    numbers : dict of str to ndarray
+    numbers : dict of str to ndarray, shape (points,)
         The designs: what is free, profile shift, h*, torques permitted by wear and strength; the
         units are part of the keys.
     given : dict of str to float
@@ -135,10 +135,27 @@ def trade_off(
 
     Parameters
     ----------
-    gearset, operation, options, bounds, folder, least, requirements
+    gearset : Gearset
+        As in `asperity.studies.optimise.optimise`.
+    operation : Operation
+        As in `asperity.studies.optimise.optimise`.
+    options : RatingOptions, optional
+        As in `asperity.studies.optimise.optimise`.
+    bounds : Bounds, optional
         As in `asperity.studies.optimise.optimise`.
     points : int
         Required torques on the curve, at least 2.
+    folder : path, optional
+        Where a relative file name among the options starts.
+    least : mapping of str to float, optional
+        As in `asperity.studies.optimise.optimise`.
+    requirements : Requirements, optional
+        As in `asperity.studies.optimise.optimise`.
+
+    Returns
+    -------
+    TradeOff
+        A design for each torque.
 
     Raises
     ------

@@ -7,6 +7,7 @@ import numpy as np
 from asperity.rating.demands import DEMANDS
 from asperity.rating.standing import NAMES
 from asperity.results.figures import BLACK, COLOURS, DASHES, legend, panels
+from asperity.results.panels import MARKERS
 from asperity.sweep.axis import POINT
 from asperity.sweep.maps import axis_label, plane, ticks
 
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
 
-_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _MOST_MARKED = 16  # points of a line
 _EFFICIENCIES = {
     "iso14521_eta_ges": "ISO/TR 14521, gearbox",
@@ -42,14 +42,14 @@ def plot_along(dataset: "xr.Dataset") -> "Figure":
         if variable in dataset:
             upper.plot(
                 places, dataset[variable].values[order] / demand.asked,
-                color=COLOURS[number % len(COLOURS)], marker=_MARKERS[number % len(_MARKERS)],
+                color=COLOURS[number % len(COLOURS)], marker=MARKERS[number % len(MARKERS)],
                 linestyle=line if apart else (0, DASHES[standards.index(demand.standard)]),
                 markersize=4.0, markevery=every, label=f"{NAMES[demand.standard]} {demand.name}",
             )  # fmt: skip
     upper.axhline(1.0, color=BLACK, linewidth=1.2)
     upper.set_ylabel("safety over what is asked")
     for (variable, label), colour, marker in zip(
-        _EFFICIENCIES.items(), COLOURS, _MARKERS, strict=False
+        _EFFICIENCIES.items(), COLOURS, MARKERS, strict=False
     ):
         if variable in dataset:
             lower.plot(

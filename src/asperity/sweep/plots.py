@@ -6,6 +6,7 @@ import numpy as np
 
 from asperity.errors import InputError
 from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, legend, panels
+from asperity.results.panels import MARKERS
 from asperity.sweep.axis import POINT
 from asperity.sweep.gear_plots import plot_along, plot_plane
 from asperity.sweep.maps import balances, plot_map, resonances
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 _MOST_MARKED = 40
 _LABELS = {
     "ratio": r"mean drive force over $\mu F_N$",
@@ -56,7 +56,7 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     across = next((axis for axis in axes if axis.name != along.name), None)
     if across is None or curves.shape[1] <= len(COLOURS):
         names = [""] if across is None else [_text(across, value) for value in across.values]
-        for values, name, colour, marker in zip(curves.T, names, COLOURS, _MARKERS, strict=False):
+        for values, name, colour, marker in zip(curves.T, names, COLOURS, MARKERS, strict=False):
             _line(panel, along, values, color=colour, marker=marker, label=name or None)
         if across is not None:
             title = _label(across, with_unit=False)

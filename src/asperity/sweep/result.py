@@ -39,9 +39,9 @@ class SweepResult(Result):
         The case.
     axes : tuple of Axis
         The grid, the last axis running fastest.
-    arrays : dict of str to ndarray
+    arrays : dict of str to ndarray, shape of the grid
         Every variable over the grid in SI, NaN where there is none.
-    status : ndarray of int8
+    status : ndarray of int8, shape of the grid
         0 solved, 1 not.
     failures : dict of str to str
         The first points that did not converge, and why.

@@ -3,7 +3,7 @@
 :Entry: `run`, `asperity thesis`; `contents` lists all that is made.
 :Data: cases that ship (`cases`).
 :Where: a folder a subject: `sliding`, `contact`, `rating`, `flanks`, `drive`, `rig`; `exhibits`
-    (what a claim, figure or table is), `reproduce` (a run).
+    (what a claim, figure or table is), `products` (a verdict, a dataset), `reproduce` (a run).
 :Tests: `unit/test_thesis_*`, `acceptance/test_thesis`.
 """
 

@@ -227,7 +227,18 @@ class Sonotrode(Table):
         return self
 
     def velocities(self, mode: str) -> tuple[float, ...]:
-        """Return v_a at the frequencies, m/s; empty where it is not known."""
+        """Return v_a at the frequencies, m/s; empty where it is not known.
+
+        Parameters
+        ----------
+        mode : {'longitudinal', 'transverse'}
+            Of the vibration.
+
+        Returns
+        -------
+        tuple of float
+            As many as `frequencies`.
+        """
         return self.transverse_velocity if mode == TRANSVERSE else self.longitudinal_velocity
 
     def velocity(self, mode: str, frequency: float) -> float | None:
@@ -235,6 +246,18 @@ class Sonotrode(Table):
 
         Between the frequencies it follows a curve without overshoot over log f; beyond them
         nothing is known.
+
+        Parameters
+        ----------
+        mode : {'longitudinal', 'transverse'}
+            Of the vibration.
+        frequency : float
+            Hz.
+
+        Returns
+        -------
+        float or None
+            m/s.
         """
         values = self.velocities(mode)
         if not values or not self.frequencies[0] <= frequency <= self.frequencies[-1]:

@@ -1,7 +1,7 @@
 """Units at the edge: text with a unit comes in, floats in SI go on.
 
 :Entry: `to_si`; `Quantity` in the annotation of a field of a table.
-:Data: `measures`: what each unit is worth.
+:Data: `measures`: what each unit is worth; `standards`: those of gear standards.
 :Where: `quantities` (reading, refusing, bounds).
 :Tests: `unit/test_units`, `unit/test_python_units`, `property/test_units`.
 """

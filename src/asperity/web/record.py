@@ -90,6 +90,7 @@ class Job:
 
     def to_json(self) -> dict[str, Any]:
         """Return all that is known of it."""
+        self._look()
         return dataclasses.asdict(self) | {"answered": self.answered, "files": list(self.files())}
 
     def files(self) -> Iterator[str]:
@@ -101,10 +102,14 @@ class Job:
 
     def told(self) -> None:
         """Let everybody who waits see what is new."""
-        if self.process is not None:
-            self.seconds = round(time.monotonic() - self.since, 3)
+        self._look()
         self.news.set()
         self.news = asyncio.Event()
+
+    def _look(self) -> None:
+        """Look at the clock."""
+        if self.process is not None:
+            self.seconds = round(time.monotonic() - self.since, 3)
 
     def set(self, state: str) -> None:
         """Enter a state and keep it."""

@@ -325,6 +325,11 @@ def solve_block(
     run : Run, optional
         Told, now and then, how far it is.
 
+    Returns
+    -------
+    BlockResult
+        Drive force and friction with their bounds, powers, pressures and, if kept, the history.
+
     Raises
     ------
     InputError

@@ -87,21 +87,19 @@ def respond(body, candidates, force, free, nodal, u):
     count = candidates.counts[1]
     for i in range(count):
         j = 3 * candidates.nodes[i]
-        u[j] = free[j]
-        u[j + 1] = free[j + 1]
-        u[j + 2] = free[j + 2]
-    for m in range(count):
-        k = 3 * candidates.nodes[m]
-        fx = nodal[k]
-        fy = nodal[k + 1]
-        fz = nodal[k + 2]
-        if fx == 0.0 and fy == 0.0 and fz == 0.0:
-            continue
-        for i in range(count):
-            j = 3 * candidates.nodes[i]
-            u[j] += a[k, j] * fx + a[k + 1, j] * fy + a[k + 2, j] * fz
-            u[j + 1] += a[k, j + 1] * fx + a[k + 1, j + 1] * fy + a[k + 2, j + 1] * fz
-            u[j + 2] += a[k, j + 2] * fx + a[k + 1, j + 2] * fy + a[k + 2, j + 2] * fz
+        row_x, row_y, row_z = a[j], a[j + 1], a[j + 2]
+        x, y, z = free[j], free[j + 1], free[j + 2]
+        for m in range(count):
+            k = 3 * candidates.nodes[m]
+            fx = nodal[k]
+            fy = nodal[k + 1]
+            fz = nodal[k + 2]
+            if fx == 0.0 and fy == 0.0 and fz == 0.0:
+                continue
+            x += row_x[k] * fx + row_x[k + 1] * fy + row_x[k + 2] * fz
+            y += row_y[k] * fx + row_y[k + 1] * fy + row_y[k + 2] * fz
+            z += row_z[k] * fx + row_z[k + 1] * fy + row_z[k + 2] * fz
+        u[j], u[j + 1], u[j + 2] = x, y, z
 
 
 @kernel

@@ -19,7 +19,8 @@ class Body(NamedTuple):
     shapes: FloatArray  #: (r, m): Shape values at the points of a face
     weights: FloatArray  #: (q,): Area of each point, m^2
     places: FloatArray  #: (q, 3): Undeformed points, m
-    flexibility: FloatArray  #: (3n, 3n): Symmetric, m/N
+    #: (3n, 3n): Displacement of the nodes by unit forces on them, m/N
+    flexibility: FloatArray
     stiffness: float  #: Against a traction about one node, the mean over all, Pa/m
 
     @classmethod

@@ -22,7 +22,7 @@ from asperity.drive.elastic.rim import rim_of
 from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
-from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.solve import condensed
@@ -56,11 +56,8 @@ _STEPS = 40
 
 
 @dataclasses.dataclass(frozen=True)
-class TeethModel(ReducedModel):
-    """Elastic teeth in place of the reduced mesh.
-
-    What the protocols ask of the mesh beside its march (stiffness for the step, approach under the
-    load) is that of the teeth reduced.
+class TeethModel(MeshModel):
+    """The mesh as elastic teeth.
 
     Attributes
     ----------

@@ -4,7 +4,7 @@ import dataclasses
 import math
 import time
 from collections.abc import Callable
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,7 @@ from asperity.arrays import FloatArray
 from asperity.drive.interface import SOLVED
 from asperity.drive.motion.system import SUMS, System
 from asperity.drive.protocols.judgement import Judgement, steady_speed
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
 from asperity.runs.tree import Tree
@@ -31,25 +32,6 @@ _GOES_ON, _NEARER = 4, 0.7
 _CALL_SECONDS = 0.06
 
 
-class Marchable(Protocol):
-    """A mesh that can be marched, and what a step of it takes, about."""
-
-    @property
-    def step_seconds(self) -> float:
-        """Of a processor, s."""
-
-    def march(
-        self,
-        system: System,
-        states: Records,
-        committed: FloatArray,
-        stretch: float,
-        rows: Records,
-        stop: npt.NDArray[np.int64],
-    ) -> int:
-        """March so many stretches as there are rows."""
-
-
 class Marked(NamedTuple):
     """Where a march stood once: its row, motion and forces, what the mesh remembered."""
 
@@ -63,7 +45,7 @@ class March:
 
     Parameters
     ----------
-    mesh : Marchable
+    mesh : MeshModel
         The mesh.
     system : System
         What moves, and what moves it.
@@ -79,7 +61,7 @@ class March:
 
     def __init__(
         self,
-        mesh: Marchable,
+        mesh: MeshModel,
         system: System,
         states: Records,
         committed: FloatArray,

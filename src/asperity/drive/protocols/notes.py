@@ -6,7 +6,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import WANTED, StepError
 from asperity.drive.protocols.judgement import Judgement
 from asperity.drive.protocols.rest import Rest
-from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.mesh_model import MeshModel
 
 # Of a tooth's lowest mode: below, its inertia adds an eighth to what it gives at most.
 _QUASI_STATIC = 1.0 / 3.0
@@ -32,7 +32,7 @@ def _what(problem: DriveProblem) -> str:
 
 
 def notes_of(
-    problem: DriveProblem, model: ReducedModel, judged: Judgement, rest: Rest,
+    problem: DriveProblem, model: MeshModel, judged: Judgement, rest: Rest,
     off: StepError | None,
 ) -> tuple[str, ...]:  # fmt: skip
     """Return what a reader of a drive's answer should know."""

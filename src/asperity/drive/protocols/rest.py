@@ -19,7 +19,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.judgement import PERIODIC
 from asperity.drive.protocols.march import March, Records, mean
 from asperity.drive.protocols.setup import begin, system
-from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.runs import Run
 
 _SECONDS, _SWINGS = 60e-3, 20  # marched at least, and of the wheel on what holds it
@@ -67,7 +67,7 @@ class Rest:
 
 def at_rest(
     problem: DriveProblem,
-    model: ReducedModel,
+    model: MeshModel,
     moving: System,
     stop: npt.NDArray[np.int64] | None = None,
 ) -> Rest:
@@ -75,7 +75,7 @@ def at_rest(
 
     Parameters
     ----------
-    problem, model, moving : DriveProblem, ReducedModel, System
+    problem, model, moving : DriveProblem, MeshModel, System
         What is asked, its mesh and what moves.
     stop : ndarray of int64, shape (1,), optional
         As of `asperity.drive.protocols.solve.solve_shaken`.
@@ -109,13 +109,13 @@ def at_rest(
 
 
 def over_the_same(
-    problem: DriveProblem, model: ReducedModel, march: March, cycles: int, rest: Rest
+    problem: DriveProblem, model: MeshModel, march: March, cycles: int, rest: Rest
 ) -> Rest:
     """Return a drive without vibration over the part of a pitch that its march was judged by.
 
     Parameters
     ----------
-    problem, model, march : DriveProblem, ReducedModel, March
+    problem, model, march : DriveProblem, MeshModel, March
         What was asked, its mesh and what was marched.
     cycles : int
         By which it was judged, the last of them.
@@ -138,7 +138,7 @@ def over_the_same(
 
 
 def _marched(
-    problem: DriveProblem, model: ReducedModel, moving: System, seconds: float,
+    problem: DriveProblem, model: MeshModel, moving: System, seconds: float,
     stop: npt.NDArray[np.int64] | None,
 ) -> tuple[March, Records]:  # fmt: skip
     """March until the vibration begins, which stands still before where it begins."""
@@ -150,7 +150,7 @@ def _marched(
     return march, rows
 
 
-def _of_speed(problem: DriveProblem, model: ReducedModel, moving: System) -> bool:
+def _of_speed(problem: DriveProblem, model: MeshModel, moving: System) -> bool:
     """Return whether friction may leave steady sliding: falling with the speed, or at rest."""
     if model.pitch is not None or not (moving.speed or moving.motor_torque):
         return False
@@ -161,7 +161,7 @@ def _of_speed(problem: DriveProblem, model: ReducedModel, moving: System) -> boo
     return falls or (not moving.rolls and of_speed(law))
 
 
-def _slowest(model: ReducedModel, moving: System) -> float:
+def _slowest(model: MeshModel, moving: System) -> float:
     """Natural frequency of the wheel on teeth and shaft, Hz."""
     point = model.point
     give = 1.0 / ((point.normal_z * point.arm) ** 2 * model.stiffness[0])

@@ -9,7 +9,7 @@ from asperity.arrays import FloatArray
 from asperity.drive.interface import AT
 from asperity.drive.motion.system import STATE, System
 from asperity.drive.problem import DriveProblem
-from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.shafts import Bending, MeshAction, bending_of, bends
 from asperity.errors import InputError
 from asperity.vibration.waveform import (
@@ -29,7 +29,7 @@ _LANDING = 1.0 / 20.0  # of the approach without vibration, in a step
 _ROUNDS, _CLOSE = 20, 1e-8
 
 
-def shakes(problem: DriveProblem, model: ReducedModel) -> dict[str, float]:
+def shakes(problem: DriveProblem, model: MeshModel) -> dict[str, float]:
     """Return the amplitude of what is imposed where, by the names of `System`; rad and m.
 
     A screw turns and shifts so that it slides in itself. The part along the flank alone, protocol
@@ -72,7 +72,7 @@ def corners_of(shape: Shape) -> FloatArray:
 
 
 def system(
-    problem: DriveProblem, model: ReducedModel, *, shaken: bool = True, motor: bool = True
+    problem: DriveProblem, model: MeshModel, *, shaken: bool = True, motor: bool = True
 ) -> System:
     """Return freedoms and imposed motions of a problem's protocol.
 
@@ -80,7 +80,7 @@ def system(
     ----------
     problem : DriveProblem
         What is asked.
-    model : ReducedModel
+    model : MeshModel
         Its mesh.
     shaken : bool
         Whether it vibrates.
@@ -138,7 +138,7 @@ _RIGID = Bending(np.zeros(3), np.ones(3))
 _SHAKES = ("shake_worm_turn", "shake_worm_shift", "shake_seat", "shake_wheel", "shake_motor")
 
 
-def _longest(problem: DriveProblem, model: ReducedModel, found: System) -> float:
+def _longest(problem: DriveProblem, model: MeshModel, found: System) -> float:
     """Return the longest step that is stable and lands well, or refuse the one asked for."""
     normal, along = model.stiffness
     normal *= _STIFFER
@@ -182,7 +182,7 @@ def _longest(problem: DriveProblem, model: ReducedModel, found: System) -> float
 
 
 def begin(
-    problem: DriveProblem, model: ReducedModel, moving: System, early: float = 0.0
+    problem: DriveProblem, model: MeshModel, moving: System, early: float = 0.0
 ) -> tuple[npt.NDArray[np.void], FloatArray]:
     """Return the state without vibration: loaded, sliding steadily where a motor turns the worm.
 
@@ -259,7 +259,7 @@ def begin(
 
 
 def _balance(
-    model: ReducedModel, moving: System, state: np.void, pose: FloatArray, load: float
+    model: MeshModel, moving: System, state: np.void, pose: FloatArray, load: float
 ) -> float | None:
     """Let a mesh that has no closed form find its own balance: ``state`` and ``pose`` follow.
 
@@ -285,7 +285,7 @@ def _balance(
 
 
 def switched_off(
-    problem: DriveProblem, model: ReducedModel, moving: System, states: npt.NDArray[np.void]
+    problem: DriveProblem, model: MeshModel, moving: System, states: npt.NDArray[np.void]
 ) -> tuple[System, npt.NDArray[np.void]]:
     """Return what moves once vibration and motor are off, and the state it begins in.
 

@@ -18,6 +18,7 @@ from asperity.drive.protocols.march import March, Records, bands_of, mean, refin
 from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
 from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
 from asperity.drive.protocols.setup import switched_off, system
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel
 from asperity.errors import ConvergenceError
@@ -39,7 +40,7 @@ _ADVICE = "give a smaller solve.step"
 
 def solve_shaken(
     problem: DriveProblem,
-    model: ReducedModel,
+    model: MeshModel,
     run: Run,
     stop: npt.NDArray[np.int64] | None = None,
 ) -> DriveResult:
@@ -47,7 +48,7 @@ def solve_shaken(
 
     Parameters
     ----------
-    problem, model : DriveProblem, ReducedModel
+    problem, model : DriveProblem, MeshModel
         The drive and its mesh.
     run : Run
         Who is told how far it is, and where it is kept.
@@ -94,7 +95,7 @@ def solve_shaken(
 
 def _settled(
     problem: DriveProblem,
-    model: ReducedModel,
+    model: MeshModel,
     march: March,
     rest: Rest,
     stop: npt.NDArray[np.int64] | None,
@@ -144,7 +145,7 @@ def kind_of(problem: DriveProblem) -> type[DriveResult]:
     return HeldWheel if problem.drive.protocol == "held-wheel" else DriveResult
 
 
-def _measured(problem: DriveProblem, rest: Rest, model: ReducedModel) -> tuple[str, float]:
+def _measured(problem: DriveProblem, rest: Rest, model: MeshModel) -> tuple[str, float]:
     """Return what of a protocol's motion has to stay, and what it is measured by."""
     if problem.drive.protocol == "back-drive":
         speed = problem.velocity / model.point.length or problem.worm_speed
@@ -163,7 +164,7 @@ def _first_cycles(march: March, window: int, torque: float, power: float) -> Jud
     return Judgement(False, False, spread, march.balance(rows), stored, 0.0, window)
 
 
-def _held_after(problem: DriveProblem, model: ReducedModel, march: March, run: Run) -> bool | None:
+def _held_after(problem: DriveProblem, model: MeshModel, march: March, run: Run) -> bool | None:
     """Whether the gearset holds once vibration and motor are off; None where it is not asked."""
     if problem.drive.protocol != "on-demand":
         return None
@@ -185,7 +186,7 @@ def _drift(rows: Records) -> float:
 
 
 def _summarise(
-    problem: DriveProblem, model: ReducedModel, march: March, judged: Judgement, rest: Rest,
+    problem: DriveProblem, model: MeshModel, march: March, judged: Judgement, rest: Rest,
     off: StepError | None,
 ) -> DriveResult:  # fmt: skip
     rows, moving = march.rows, march.system
@@ -290,7 +291,7 @@ def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Deman
     )
 
 
-def _closed_form(problem: DriveProblem, model: ReducedModel) -> float | None:
+def _closed_form(problem: DriveProblem, model: MeshModel) -> float | None:
     """Ratio of a screw far above the resonances; None where there is no such form."""
     slides = problem.mode == "screw" and problem.drive.protocol not in WORM_ALONE
     sine = problem.vibrated[0].waveform == "sine"
@@ -300,7 +301,7 @@ def _closed_form(problem: DriveProblem, model: ReducedModel) -> float | None:
     return float(screw_ratio(model.point, model.friction, problem.velocity_ratio))
 
 
-def _resonances(model: ReducedModel, moving: System) -> dict[str, Any]:
+def _resonances(model: MeshModel, moving: System) -> dict[str, Any]:
     normal, _ = model.stiffness
     wheel = (model.point.normal_z * model.point.arm) ** 2 * normal
     turn = 0.5 / math.pi

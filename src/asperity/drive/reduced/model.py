@@ -1,4 +1,4 @@
-"""A drive's mesh reduced: its closed form without vibration, and the mesh as kernels take it."""
+"""A drive's mesh reduced: closed forms without vibration, and the mesh as kernels take it."""
 
 import dataclasses
 import functools
@@ -9,95 +9,22 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.drive.friction import friction_curve, rating_inputs
-from asperity.drive.friction_curve import FrictionCurve, friction_at
 from asperity.drive.interface import OUTS, POSES
-from asperity.drive.lugre import check_passive, static_ratio, steady_friction
+from asperity.drive.lugre import check_passive, static_ratio
 from asperity.drive.motion.system import System
-from asperity.drive.point import MeshPoint
-from asperity.drive.problem import DriveProblem
-from asperity.drive.reduced.law import NormalLaw, force_and_energy
+from asperity.drive.reduced.law import force_and_energy
 from asperity.drive.reduced.lugre import LuGre
 from asperity.drive.reduced.march import march
 from asperity.drive.reduced.mesh import STATES, Mesh, settle_in
-from asperity.drive.reduced.reduction import Reduction
-from asperity.errors import InputError
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.friction.lugre import stribeck_share
-
-_FASTER = 3.0  # than sliding and vibration together, up to where friction is tabulated
-# Coulomb's friction on rigid teeth gives by so much of the normal approach at full friction.
-_GIVE = 2e-3
 
 
 @dataclasses.dataclass(frozen=True)
-class ReducedModel:
-    """The reduced mesh of a problem.
-
-    Attributes
-    ----------
-    problem : DriveProblem
-        What it is a model of.
-    reduction : Reduction
-        What the teeth are reduced to.
-    step_seconds : float
-        What a step of the march takes, about, s.
-    """
-
-    problem: DriveProblem
-    reduction: Reduction
+class ReducedModel(MeshModel):
+    """The reduced mesh of a problem."""
 
     step_seconds: ClassVar[float] = 0.3e-6
-
-    @functools.cached_property
-    def point(self) -> MeshPoint:
-        """Where it touches."""
-        return self.problem.point(self.reduction.radius)
-
-    @functools.cached_property
-    def curve(self) -> FrictionCurve:
-        """Coefficient of friction over the sliding speed."""
-        problem = self.problem
-        if problem.drive.friction == "constant":
-            return FrictionCurve(1.0, np.array([problem.friction.mu]))
-        if problem.case is None:
-            raise InputError("drive.friction is 'iso14521', which needs a case with [operation]")
-        return friction_curve(rating_inputs(problem.case), self.fastest)
-
-    @functools.cached_property
-    def friction(self) -> float:
-        """Coefficient of friction without vibration."""
-        problem = self.problem
-        return steady_friction(
-            problem.friction, self.kinetic, self.point, problem.load, self.sliding_speed
-        )
-
-    @functools.cached_property
-    def kinetic(self) -> float:
-        """The same; of LuGre without what its speed adds."""
-        return float(friction_at(self.curve, self.sliding_speed))
-
-    @property
-    def holding(self) -> float:
-        """Coefficient of friction up to which the flanks hold."""
-        return float(friction_at(self.curve, 0.0)) * static_ratio(self.problem.friction)
-
-    @property
-    def fastest(self) -> float:
-        """Sliding speed that is not passed, m/s."""
-        speed = self.sliding_speed
-        if self.problem.vibration is not None:
-            speed += self.problem.velocity
-        return _FASTER * speed
-
-    @property
-    def sliding_speed(self) -> float:
-        """Of the worm where it touches, m/s."""
-        return self.point.sliding_speed(self.problem.worm_speed)
-
-    @functools.cached_property
-    def normal_force(self) -> float:
-        """Without vibration, N."""
-        return self.point.normal_force(self.problem.load, self.friction)
 
     @property
     def worm_torque(self) -> float:
@@ -112,25 +39,6 @@ class ReducedModel:
     def reversed_torque(self) -> float:
         """Of the worm if all friction were turned round, N m."""
         return self.point.worm_torque(self.problem.load, -self.friction)
-
-    @functools.cached_property
-    def law(self) -> NormalLaw:
-        """Normal force against approach."""
-        return NormalLaw.of(self.point, self.reduction.deflection, self.friction)
-
-    @functools.cached_property
-    def approach(self) -> float:
-        """Of the flanks without vibration, m."""
-        return self.law.approach_at(self.normal_force)
-
-    @functools.cached_property
-    def elastic_slip(self) -> float:
-        """Way along the flank from none to full friction without vibration, m."""
-        full = self.kinetic * self.normal_force
-        bending = self.reduction.compliance * full
-        if self.problem.friction.model == "coulomb":
-            return bending or _GIVE * self.approach
-        return bending + self.problem.friction.deflection_limit(self.normal_force)
 
     @functools.cached_property
     def mesh(self) -> Mesh:
@@ -245,16 +153,3 @@ class ReducedModel:
         if self.problem.drive.flanks == "driving":
             return math.inf
         return self.problem.backlash
-
-    @property
-    def stiffness(self) -> tuple[float, float]:
-        """Of the mesh without vibration along the normal and along the flank, N/m."""
-        slope = float(self.law.exact(np.array([self.approach]))[1][0])
-        full, law = self.kinetic * self.normal_force, self.problem.friction
-        along = full / self.elastic_slip
-        damping = law.contact_damping + law.viscous_damping
-        if damping > 0.0:
-            # Over a short step dampings hold the asperities fast, behind what the teeth give.
-            held = full / law.deflection_limit(self.normal_force) + damping / self.problem.step
-            along = 1.0 / (self.reduction.compliance + 1.0 / held)
-        return slope, along

@@ -318,7 +318,8 @@ class _Teeth:
         def deflection(force: FloatArray) -> FloatArray:
             # Threads of BLAS cost more than they save here.
             moved = np.einsum("ij,j->i", smooth, to_nodes @ force)
-            return spaces.deflection(force) + to_patches @ moved
+            moved_to: FloatArray = spaces.deflection(force) + to_patches @ moved
+            return moved_to
 
         gap = np.concatenate([s.gap + s.nodes @ self.rubbed[k] for k, s in some])
         arm = np.concatenate([s.arm for _, s in some])

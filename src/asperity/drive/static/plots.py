@@ -4,7 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, panels
+from asperity.results.panels import Panel, drawn, line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,43 +17,41 @@ _SHOWN_SHARE = 1e-3
 
 def over_pitch(dataset: "xr.Dataset") -> "Figure":
     """Draw torque, transmission error and the teeth's shares against the worm's angle."""
-    figure, (torque, error, share) = panels(3, height=8.0)
     angle = np.degrees(dataset["phase"].values)
-    for k, (name, what) in enumerate(
-        (
-            ("torque", "forward"),
-            ("torque_frictionless", "without friction"),
-            ("torque_reversed", "friction turned round"),
+    torques = [
+        line(k, angle, dataset[name].values, what)
+        for k, (name, what) in enumerate(
+            (
+                ("torque", "forward"),
+                ("torque_frictionless", "without friction"),
+                ("torque_reversed", "friction turned round"),
+            )
         )
-    ):
-        torque.plot(angle, dataset[name].values, color=COLOURS[k], dashes=DASHES[k], label=what)
-    torque.set_ylabel("torque of the worm (N m)")
-    torque.set_ylim(0.0, 1.35 * float(dataset["torque"].max()))
-    legend(torque, ncols=3)
-    micro = 1e6
-    loaded, unloaded = (micro * dataset[f"error_{name}"].values for name in ("loaded", "unloaded"))
-    error.plot(angle, loaded - loaded.mean(), color=BLUE, label="under load")
-    error.plot(
-        angle, unloaded - unloaded.mean(), color=VERMILION, dashes=DASHES[1], label="without load"
-    )
-    error.set_ylabel("transmission error (µrad)")
-    error.margins(y=0.25)
-    legend(error, ncols=2)
+    ]
+    loaded, unloaded = (1e6 * dataset[f"error_{name}"].values for name in ("loaded", "unloaded"))
+    errors = [
+        line(0, angle, loaded - loaded.mean(), "under load"),
+        line(1, angle, unloaded - unloaded.mean(), "without load"),
+    ]
     force = dataset["tooth_force"].values
     parts = force / force.sum(axis=1, keepdims=True)
-    shown = parts.T[parts.max(axis=0) > _SHOWN_SHARE]
-    for k, column in enumerate(shown):
-        share.plot(
-            angle, column, color=COLOURS[k % len(COLOURS)], dashes=DASHES[k % len(DASHES)],
-            label=f"tooth {k + 1}",
-        )  # fmt: skip
-    legend(share, ncols=len(shown), loc="upper center", bbox_to_anchor=(0.5, -0.22))
-    share.set_ylabel("share of a tooth")
-    share.set_ylim(0.0, 1.0)
-    share.set_xlabel("angle of the worm (deg)")
-    for axes in (torque, error, share):
-        axes.margins(x=0.0)
-    return figure
+    shares = [
+        line(k % len(DASHES), angle, column, f"tooth {k + 1}", color=COLOURS[k % len(COLOURS)])
+        for k, column in enumerate(parts.T[parts.max(axis=0) > _SHOWN_SHARE])
+    ]
+    most = 1.35 * float(dataset["torque"].max())
+    below = {"ncols": len(shares), "loc": "upper center", "bbox_to_anchor": (0.5, -0.22)}
+    return drawn(
+        [
+            Panel(y="torque of the worm (N m)", marks=torques, legend={"ncols": 3},
+                  limits={"ylim": (0.0, most)}),
+            Panel(y="transmission error (µrad)", marks=errors, legend={"ncols": 2},
+                  limits={"ymargin": 0.25}),
+            Panel("angle of the worm (deg)", "share of a tooth", shares, legend=below,
+                  limits={"ylim": (0.0, 1.0)}),
+        ],
+        height=8.0,
+    )  # fmt: skip
 
 
 def pattern(dataset: "xr.Dataset") -> "Figure":

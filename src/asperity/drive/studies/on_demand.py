@@ -17,7 +17,7 @@ from asperity.drive.friction import rating_inputs
 from asperity.drive.life import Life, life
 from asperity.drive.motor import Exchange, Service, exchange, of_another_speed
 from asperity.drive.problem import DriveProblem
-from asperity.drive.reduced.model import ReducedModel
+from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.result import EQUAL, DriveResult
 from asperity.errors import InputError
 from asperity.rating.demands import DEMANDS
@@ -107,7 +107,7 @@ def _wear(value: float) -> str:
     return Safety(demand, value).said
 
 
-def in_a_stroke(problem: DriveProblem, model: ReducedModel, shaken: DriveResult) -> DriveResult:
+def in_a_stroke(problem: DriveProblem, model: MeshModel, shaken: DriveResult) -> DriveResult:
     """Return what a drive that is shaken on demand is worth in its stroke.
 
     Parameters
@@ -115,7 +115,7 @@ def in_a_stroke(problem: DriveProblem, model: ReducedModel, shaken: DriveResult)
     problem : DriveProblem
         ``operation.output_torque`` is the seat's, ``operation.through_travel_torque`` that between
         (if left out, as ``operation.service`` has it).
-    model : ReducedModel
+    model : MeshModel
         Its mesh.
     shaken : DriveResult
         Its answer at the seat's torque.
@@ -140,9 +140,7 @@ def _untold(shaken: DriveResult, why: str) -> DriveResult:
     return dataclasses.replace(shaken, notes=(*shaken.notes, f"the stroke is not told: {why}"))
 
 
-def _told(
-    problem: DriveProblem, model: ReducedModel, shaken: DriveResult, torque: float
-) -> OnDemand:
+def _told(problem: DriveProblem, model: MeshModel, shaken: DriveResult, torque: float) -> OnDemand:
     drive, operation = problem.drive, problem.operation
     seat = operation.output_torque
     between = operation.through_travel_torque

@@ -80,8 +80,20 @@ def prepare_gearset(
 ) -> Prepared:
     """Cut the wheel of a gearset, and mesh a tooth of it.
 
-    How it is cut, mounted, modified and ground has defaults; the density is a name, or the element
-    size on the flank in mm.
+    Parameters
+    ----------
+    gearset : Gearset
+        Worm and wheel.
+    hob, mount, modification, disc : Hob, Mount, Modification, Disc, optional
+        How the wheel is cut, how both are mounted, how the worm's flank differs from its type,
+        and what grinds it.
+    density : str or float
+        ``coarse``, ``intermediate``, ``fine``, or the element size on the flank, mm.
+
+    Returns
+    -------
+    Prepared
+        Wheel and mesh, for `study`.
 
     Raises
     ------
@@ -114,6 +126,11 @@ def prepare(
         Whether the files are to hold tooth, worm, wheel and both in mesh as STEP.
     dxf : bool
         Whether they are to hold a drawing as DXF.
+
+    Returns
+    -------
+    Prepared
+        Wheel and mesh, for `study`.
 
     Raises
     ------
@@ -172,6 +189,16 @@ def answer(prepared: Prepared, run: Run) -> FlankStudy:
 
 def study(prepared: Prepared) -> FlankStudy:
     """Find how a gearset meshes.
+
+    Parameters
+    ----------
+    prepared : Prepared
+        From `prepare` or `prepare_gearset`.
+
+    Returns
+    -------
+    FlankStudy
+        Contact lines, pattern, transmission error, measures and mesh.
 
     Raises
     ------

@@ -7,7 +7,13 @@ from asperity.results import Quantities, quantity
 
 
 class ToothMesh(Quantities):
-    """One tooth with its share of the rim in mm, and how good its hexahedra are."""
+    """One tooth with its share of the rim in mm, and how good its hexahedra are.
+
+    Attributes
+    ----------
+    hexahedra : HexMesh
+        Nodes and cells, mm.
+    """
 
     density: str = quantity("", "", "density", shown=False)
     element_size: float = quantity("", "mm", "element size on the flank")
@@ -20,7 +26,22 @@ class ToothMesh(Quantities):
 
     @classmethod
     def of(cls, hexahedra: HexMesh, density: str, element_size: float) -> "ToothMesh":
-        """Return a mesh with its quality; the density as it was asked for, the size in mm."""
+        """Return a mesh with its quality; the density as it was asked for, the size in mm.
+
+        Parameters
+        ----------
+        hexahedra : HexMesh
+            Nodes and cells, mm.
+        density : str
+            As it was asked for.
+        element_size : float
+            On the flank, mm.
+
+        Returns
+        -------
+        ToothMesh
+            With the least and the median scaled Jacobian, and the volume in mm3.
+        """
         quality = hexahedra.scaled_jacobian()
         return cls(
             density=density,

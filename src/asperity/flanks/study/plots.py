@@ -11,7 +11,8 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.flanks.wheel.flank import RESOLVED
-from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, panels
+from asperity.results.panels import Panel, drawn, line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -103,29 +104,31 @@ def contact_lines(dataset: "xr.Dataset") -> "Figure":
 
 def transmission_error(dataset: "xr.Dataset") -> "Figure":
     """Draw the transmission error over a pitch, which ends where the next begins."""
-    figure, (axes,) = panels(height=3.6)
     angle = np.degrees(np.linspace(0.0, float(dataset["pitch"]), dataset.sizes["place"] + 1))
-    peak = 0.0
+    peak, marks = 0.0, []
     for flank in _each(dataset):
         error, side = flank["transmission_error"].values, int(flank["side"])
         error = np.append(error, error[0])
         about = error - np.mean(error)
         peak = max(peak, float(np.ptp(about)))
-        axes.plot(
-            angle, 1e6 * about, color=_SIDES[side], label=f"flank s = {side:+d}",
-            dashes=(1, 0) if side > 0 else (4, 2),
+        marks.append(
+            line(side < 0, angle, 1e6 * about, f"flank s = {side:+d}",
+                 dashes=(1, 0) if side > 0 else (4, 2))
         )  # fmt: skip
-    axes.margins(y=0.25)
     least = RESOLVED / float(dataset["radius"].max())
-    if peak <= least:
-        axes.set_ylim(-1.0, 1.0)
-        _zero(axes, f"zero within {1e6 * least:.0g} µrad: the wheel turns evenly")
-    axes.set_xlim(angle[0], angle[-1])
-    axes.set_xlabel("angle of the worm (°)")
-    axes.set_ylabel("error of the wheel (µrad)")
-    axes.set_title("Transmission error about its mean over a pitch", loc="left")
-    legend(axes, loc="upper right", ncols=2, bbox_to_anchor=(1.0, 1.0))
-    return figure
+
+    def even(axes: "Axes") -> None:
+        if peak <= least:
+            axes.set_ylim(-1.0, 1.0)
+            _zero(axes, f"zero within {1e6 * least:.0g} µrad: the wheel turns evenly")
+
+    panel = Panel(
+        "angle of the worm (°)", "error of the wheel (µrad)", marks,
+        "Transmission error about its mean over a pitch",
+        {"loc": "upper right", "ncols": 2, "bbox_to_anchor": (1.0, 1.0)}, more=even,
+        limits={"ymargin": 0.25, "xlim": (angle[0], angle[-1])},
+    )  # fmt: skip
+    return drawn([panel], height=3.6)
 
 
 def vibration(dataset: "xr.Dataset") -> "Figure":

@@ -57,6 +57,10 @@ class FlankStudy(Drawn):
 
     Attributes
     ----------
+    name : str
+        Of the gearset.
+    mesh : ToothMesh
+        A tooth of the wheel.
     wheel : Wheel
         The wheel as it is cut, with the pair it belongs to; the worm's threads are as thick as the
         backlash asks for.

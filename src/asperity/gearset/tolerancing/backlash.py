@@ -138,7 +138,18 @@ class Backlash(NamedTuple):
             )  # fmt: skip
 
     def sentence(self, key: str = "backlash") -> Sentence:
-        """Return it in a sentence of the verdict."""
+        """Return it in a sentence of the verdict.
+
+        Parameters
+        ----------
+        key : str
+            Where it stands in an answer's JSON.
+
+        Returns
+        -------
+        Sentence
+            With its numbers.
+        """
         wheel = self.measures[2]
         new = self.states["new"].times(wheel.factor)
 
@@ -199,7 +210,18 @@ class Backlash(NamedTuple):
         }
 
     def table(self, key: str = "backlash") -> Table:
-        """Return a row for each measure of each state, and what each deviation brings."""
+        """Return a row for each measure of each state, and what each deviation brings.
+
+        Parameters
+        ----------
+        key : str
+            Where it stands in an answer's JSON.
+
+        Returns
+        -------
+        Table
+            Of the terminal, the page and the report.
+        """
         rows: list[tuple[str, ...]] = []
         ends = "min", "max", "likely_min", "likely_max"
         for state, interval in self.states.items():
@@ -273,6 +295,11 @@ def backlash(gearset: Gearset, given: Tolerances, wear: float | None = None) -> 
         What is allowed.
     wear : float, optional
         Depth that is worn off the wheel's flanks, normal to them, um.
+
+    Returns
+    -------
+    Backlash
+        Of the gearset new and worn, between its ends and likely.
 
     Raises
     ------

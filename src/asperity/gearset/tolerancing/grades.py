@@ -81,6 +81,11 @@ def graded(geometry: Geometry, grade: int) -> tuple[Allowed, ...]:
     grade : int
         6 to 9.
 
+    Returns
+    -------
+    tuple of Allowed
+        Of worm and wheel, um each.
+
     Raises
     ------
     InputError

@@ -32,6 +32,7 @@ from asperity.rating.iso14521 import (
 )
 from asperity.rating.iso14521.housed import housing_of
 from asperity.rating.iso14521.wearing import sump_of, temperatures, wear_of
+from asperity.units.standards import FROM_SI
 
 ROOT_LIFE_FACTOR = 1.0
 """Y_NL, the default of MITCalc; that by wheel and grade has no document."""
@@ -42,8 +43,6 @@ _OF_WEAR = (
     "W_NS", "W_ML", "J_W", "s_star", "N_L", "s_Wm_mm", "delta_Wlim_mm",
 )  # fmt: skip
 """What leads to the wear of a part of a duty cycle, by the keys of a rating."""
-
-_MPA = 1e-6
 
 
 _OF_TEETH = (
@@ -163,9 +162,9 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
     )
     worm, wheel = given.gearset.worm_material, given.gearset.wheel_material
     elastic = (
-        worm.youngs_modulus * _MPA,
+        worm.youngs_modulus * FROM_SI["MPa"],
         worm.poisson_ratio,
-        wheel.youngs_modulus * _MPA,
+        wheel.youngs_modulus * FROM_SI["MPa"],
         wheel.poisson_ratio,
     )
     v["E_red_MPa"] = contact.reduced_modulus(*elastic)
@@ -310,7 +309,7 @@ def _pitting(given: Inputs, v: Values) -> None:
     v["Z_S"] = pitting.pitting_size_factor(given.centre_distance)
     v["Z_u"] = pitting.pitting_ratio_factor(given.gear_ratio, edition=edition)
     v["Z_oil"] = given.operation.lubricant.base.pitting_factor
-    v["sigma_HlimT_MPa"] = given.gearset.wheel_material.pitting_strength * _MPA
+    v["sigma_HlimT_MPa"] = given.gearset.wheel_material.pitting_strength * FROM_SI["MPa"]
     v["sigma_HG_MPa"] = pitting.pitting_limit(
         v["sigma_HlimT_MPa"],
         v["Z_h"],
@@ -354,7 +353,7 @@ def _deflection(given: Inputs, v: Values, mean_friction: Real) -> None:
         given.worm_root_diameter,
         0.5 * given.bearing_span,
         0.5 * given.bearing_span,
-        given.gearset.worm_material.youngs_modulus * _MPA,
+        given.gearset.worm_material.youngs_modulus * FROM_SI["MPa"],
     )
     v["delta_lim_mm"] = strength.deflection_limit(given.axial_module)
     v["safety_deflection"] = strength.safety(v["delta_lim_mm"], v["delta_m_mm"])
@@ -379,7 +378,7 @@ def _root(given: Inputs, v: Values) -> None:
         given.lead_angle,
         v["Y_K"],
     )
-    v["tau_FlimT_MPa"] = given.gearset.wheel_material.shear_strength * _MPA
+    v["tau_FlimT_MPa"] = given.gearset.wheel_material.shear_strength * FROM_SI["MPa"]
     v["Y_NL"] = ROOT_LIFE_FACTOR
     v["tau_FG_MPa"] = strength.root_shear_limit(v["tau_FlimT_MPa"], v["Y_NL"])
     v["safety_root"] = strength.safety(v["tau_FG_MPa"], v["tau_F_MPa"])

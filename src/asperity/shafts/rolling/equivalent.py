@@ -65,24 +65,73 @@ def angular(angle: float, *, pair: bool) -> Factors:
     """Return the factors of angular contact ball bearings by contact angle in degrees.
 
     A pair stands back to back or face to face; two in tandem have those of a single one.
+
+    Parameters
+    ----------
+    angle : float
+        One of `ANGLES`, degrees.
+    pair : bool
+        Whether two stand back to back or face to face.
+
+    Returns
+    -------
+    Factors
+        e, X and Y, X_0 and Y_0.
     """
     return (_PAIR if pair else _SINGLE)[angle]
 
 
 def taper(limit: float, y: float, y0: float) -> Factors:
-    """Return the factors of a taper roller bearing, which its table has."""
+    """Return the factors of a taper roller bearing, which its table has.
+
+    Parameters
+    ----------
+    limit, y, y0 : float
+        e, Y and Y_0 of the bearing's table.
+
+    Returns
+    -------
+    Factors
+        With X = 0.4 and X_0 = 0.5.
+    """
     return Factors(limit, (1.0, 0.0), (0.4, y), (0.5, y0))
 
 
 def deep_groove(factor: Any, axial: Any, static_rating: Any) -> Factors:
-    """Return the factors of a deep groove ball bearing under an axial load, N."""
+    """Return the factors of a deep groove ball bearing under an axial load, N.
+
+    Parameters
+    ----------
+    factor : float
+        f_0 of the bearing's table.
+    axial, static_rating : array_like
+        F_a and C_0, N.
+
+    Returns
+    -------
+    Factors
+        Linear between the rows of f_0 F_a/C_0, at the ends those of the end.
+    """
     relative = relative_axial_load(factor, axial, static_rating)
     limit, y = (number(np.interp(relative, _RELATIVE, row)) for row in (_E, _Y_OF))
     return Factors(limit, (1.0, 0.0), (_DEEP_X, y), (0.6, 0.5))
 
 
 def outside_table(factor: Any, axial: Any, static_rating: Any) -> bool:
-    """Whether the axial load of a deep groove ball bearing is more than the table reaches."""
+    """Whether the axial load of a deep groove ball bearing is more than the table reaches.
+
+    Parameters
+    ----------
+    factor : float
+        f_0 of the bearing's table.
+    axial, static_rating : float
+        F_a and C_0, N, of one load.
+
+    Returns
+    -------
+    bool
+        True above 6.89.
+    """
     return bool(relative_axial_load(factor, axial, static_rating) > _RELATIVE[-1])
 
 
@@ -105,7 +154,20 @@ def combined_load(radial: s.F_r, axial: s.F_a, x: _X, y: _Y) -> Real:
 
 
 def dynamic_load(factors: Factors, radial: Any, axial: Any) -> Any:
-    """Return the equivalent dynamic load P, N."""
+    """Return the equivalent dynamic load P, N.
+
+    Parameters
+    ----------
+    factors : Factors
+        Of the bearing.
+    radial, axial : array_like
+        F_r and F_a, N, 0 or more.
+
+    Returns
+    -------
+    float or ndarray, shape of the loads
+        P = X F_r + Y F_a, N; ISO 281.
+    """
     below = combined_load(radial, axial, *factors.below)
     if factors is CYLINDRICAL:
         return number(below)
@@ -114,7 +176,20 @@ def dynamic_load(factors: Factors, radial: Any, axial: Any) -> Any:
 
 
 def static_load(factors: Factors, radial: Any, axial: Any) -> Any:
-    """Return the equivalent static load P_0, N; at least the radial load."""
+    """Return the equivalent static load P_0, N; at least the radial load.
+
+    Parameters
+    ----------
+    factors : Factors
+        As of `dynamic_load`.
+    radial, axial : array_like
+        As of `dynamic_load`.
+
+    Returns
+    -------
+    float or ndarray, shape of the loads
+        P_0 = X_0 F_r + Y_0 F_a, N; ISO 76.
+    """
     return number(np.maximum(combined_load(radial, axial, *factors.static), radial))
 
 
@@ -125,7 +200,18 @@ def induced_of_taper(radial: s.F_r, y: Annotated[Real, Symbol("Y", "", positive)
 
 
 def induced_of_angular(angle: float) -> Callable[[float], float]:
-    """Return what an angular contact ball bearing makes of its radial load, by contact angle."""
+    """Return what an angular contact ball bearing makes of its radial load, by contact angle.
+
+    Parameters
+    ----------
+    angle : float
+        Contact angle, 20, 25, 30 or 40 degrees.
+
+    Returns
+    -------
+    callable
+        Axial force by radial load, N.
+    """
     return lambda radial: _INDUCED[angle] * radial
 
 

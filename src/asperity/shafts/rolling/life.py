@@ -55,7 +55,20 @@ def rating_life_hours(rating: s.C, load: s.P, exponent: s.p, speed: s.n) -> Real
 
 
 def spectrum_life(hours: Sequence[Any], lives: Sequence[Any]) -> Any:
-    """Return the life under several loads, h, by their hours and the life under each alone."""
+    """Return the life under several loads, h, by their hours and the life under each alone.
+
+    Parameters
+    ----------
+    hours : sequence of float, shape (n,)
+        How long each load acts, h.
+    lives : sequence of float, shape (n,)
+        Life under each of them alone, h; arrays where many gearsets are looked at together.
+
+    Returns
+    -------
+    float or ndarray, shape of each life
+        h, by linear damage (Palmgren and Miner).
+    """
     whole = total(hours)
     return 1.0 / total(each / whole / own for each, own in zip(hours, lives, strict=True))
 

@@ -1,7 +1,7 @@
 """DIN 743-2: what shoulders, grooves, keyways and press fits do to a shaft's fatigue strength."""
 
 import math
-from typing import Literal, NamedTuple
+from typing import Annotated, Literal, NamedTuple
 
 import numpy as np
 
@@ -79,7 +79,12 @@ def stress_gradient(
     equation="1 + sqrt(G) 10^-(0.33 + sigma_S/712); of a hard layer 1 + sqrt(G) 10^-0.7",
     source=s.DIN_743,
 )
-def support_factor(gradient: s.gradient, yield_strength: s.sigma_S, *, hard: bool = False) -> Real:
+def support_factor(
+    gradient: s.gradient,
+    yield_strength: s.sigma_S,
+    *,
+    hard: Annotated[bool, "Whether the surface is a hard layer"] = False,
+) -> Real:
     """Support of what is stressed less; the yield strength is that of the size at hand.
 
     Examples

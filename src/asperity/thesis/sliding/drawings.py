@@ -233,7 +233,8 @@ def over_direction(dataset: "xr.Dataset") -> "Figure":
     for n, k in enumerate(dataset["k_lugre"].values):
         marks(
             axes, 2, dataset["theta"], dataset["lugre"].sel(k_lugre=k),
-            "" if n else "LuGre, k = 2 and 20", markersize=9, color=BLACK, markeredgewidth=0.8,
+            "" if n else "LuGre, k = 2 and 20", marker="o", markersize=10, color=BLACK,
+            markeredgewidth=0.8,
         )  # fmt: skip
     axes.set(ylim=(0.0, None), **OVER_DIRECTION)
     legend_above(axes, 3)

@@ -57,9 +57,7 @@ class Checked(Result):
 
     title = "What was heard, checked"
     stem = "check"
-    drawings: ClassVar[Mapping[str, str]] = {
-        "check": "asperity.tribometer.checking.plots:plot_findings"
-    }
+    drawings: ClassVar[Mapping[str, str]] = {"check": "asperity.tribometer.plots:plot_findings"}
 
     found: tuple[Found, ...]
     recordings: int = quantity("", "", "recordings")

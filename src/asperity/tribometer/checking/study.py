@@ -1,12 +1,11 @@
 """The command ``asperity rig check``: what is wrong with what was heard."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.casefile import Case
 from asperity.runs import Run
 from asperity.tribometer.checking.result import Checked, Found
 from asperity.tribometer.reduction import study as reduction
@@ -15,19 +14,7 @@ from asperity.tribometer.reduction.study import Series
 
 _POINTS = 240  # of a picture's course
 
-prepare = reduction.prepare
-
-
-def read(
-    case: str,
-    known: Mapping[str, Any],
-    settings: Sequence[str],
-    *,
-    recordings: Sequence[str],
-    config: str = "",
-) -> Case:
-    """Open recordings; each is read by the configuration that is given, or by its own."""
-    return reduction.read(case, known, settings, recordings=recordings, config=config)
+read, prepare = reduction.read, reduction.prepare
 
 
 def answer(series: Series, run: Run) -> Checked:

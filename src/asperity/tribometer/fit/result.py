@@ -91,7 +91,7 @@ class FitResult(Result):
 
     title = "Friction law fitted to measurements"
     stem = "fit"
-    drawings: ClassVar[Mapping[str, str]] = {"fit": "asperity.tribometer.fit.plots:plot_fit"}
+    drawings: ClassVar[Mapping[str, str]] = {"fit": "asperity.tribometer.plots:plot_fit"}
 
     parameters: tuple[Parameter, ...]
     correlation: FloatArray

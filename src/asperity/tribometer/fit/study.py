@@ -10,7 +10,7 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.casefile import Case
-from asperity.errors import ConvergenceError, InputError, choices, suggestion
+from asperity.errors import ConvergenceError, InputError
 from asperity.friction.dahl import LAWS
 from asperity.runs import Run
 from asperity.slider.parameters import Slider
@@ -29,7 +29,6 @@ _LAW = "friction.law"
 # Tables of which one makes a case that a model solves; a disc of a rig is a body, too.
 _BODIES = {SLIDE: ("slider", Rig.table), BLOCK: ("block",), DRIVE: ("drive",)}
 _STEP = 1e-3  # of an uncertain condition, for its slope
-_MOST_NEXT = 100
 _LEAST = 1e-4  # deviation that is estimated, of what is assumed
 _OUTSIDE = 0.05  # of what is, of intervals
 _AN_END = 30  # evaluations of the data set, for an end of an interval
@@ -39,7 +38,15 @@ _STRIKING = 2.0  # deviations
 _ALIKE = 0.01  # of chi-square, by which laws do not differ
 
 
-def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
+def prepare(
+    case: Case,
+    *,
+    data: str,
+    free: str,
+    law: str = "",
+    next: int = 0,  # noqa: A002
+    model: str = SLIDE,
+) -> FitProblem:
     """Read the measurements and look whether they go with the case; refuses at no cost.
 
     Parameters
@@ -50,15 +57,13 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
         A CSV file.
     free : str
         Keys, separated by commas.
-    **options : str
-        ``law``, ``next`` and ``model``, as the command line has them.
+    law : {'', 'split', 'unsplit', 'vector', 'all'}
+        Which are fitted; empty: the case's.
+    next : int
+        How many measurements to make are named.
+    model : {'slide', 'block', 'drive'}
+        Whose answer it is.
     """
-    law, model = options.get("law", ""), options.get("model", SLIDE)
-    if model not in (SLIDE, BLOCK, DRIVE):
-        raise InputError(
-            f"--model {model}: it must be one of {choices((SLIDE, BLOCK, DRIVE))}"
-            f"{suggestion(model, (SLIDE, BLOCK, DRIVE))}"
-        )
     measured = read_measurements(Path(data), case)
     _see_kind(case, model, measured)
     if model == SLIDE and Slider.table not in case and Rig.table in case:
@@ -83,9 +88,7 @@ def prepare(case: Case, *, data: str, free: str, **options: str) -> FitProblem:
             f"{measured.name} holds {points} measurements, fewer than the {len(found)} free "
             "parameters; free fewer, or measure more"
         )
-    return FitProblem(
-        measured, ready, found, _laws(law, ready), _count(options.get("next", "0")), model
-    )
+    return FitProblem(measured, ready, found, _laws(law, ready), next, model)
 
 
 def _see_kind(case: Case, model: str, measured: Measurements) -> None:
@@ -109,18 +112,10 @@ def _see_kind(case: Case, model: str, measured: Measurements) -> None:
 def _laws(given: str, case: Case) -> tuple[str, ...]:
     if given == "all":
         return tuple(LAWS)
-    if given and given not in LAWS:
-        raise InputError(f"--law {given}: it must be 'all' or one of {choices(LAWS)}")
     if given:
         return (given,)
     own = case.raw.get("friction", {}).get("law", "vector")
     return (str(own),)
-
-
-def _count(text: str) -> int:
-    if not text.isdecimal() or int(text) > _MOST_NEXT:
-        raise InputError(f"--next {text}: it must be a whole number, at most {_MOST_NEXT}")
-    return int(text)
 
 
 class _Data:

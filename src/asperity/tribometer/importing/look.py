@@ -31,9 +31,7 @@ class Looked(Result):
     title = "A file, looked at"
     stem = "look"
 
-    drawings: ClassVar[Mapping[str, str]] = {
-        "look": "asperity.tribometer.importing.plots:plot_columns"
-    }
+    drawings: ClassVar[Mapping[str, str]] = {"look": "asperity.tribometer.plots:plot_columns"}
 
     headings: tuple[str, ...]
     units: tuple[str, ...]

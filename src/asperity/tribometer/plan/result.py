@@ -14,7 +14,7 @@ class PlanResult(Result):
 
     title = "plan of a series of tests on a disc-on-disc rig"
     stem = "plan"
-    drawings: ClassVar[Mapping[str, str]] = {"plan": "asperity.tribometer.plan.plots:plot_plan"}
+    drawings: ClassVar[Mapping[str, str]] = {"plan": "asperity.tribometer.plots:plot_plan"}
 
     planned: tuple[PlannedFile, ...]
     order: str

@@ -15,7 +15,7 @@ class RunResult(Result):
 
     title = "run of a plan on a disc-on-disc rig"
     stem = "run"
-    drawings: ClassVar[Mapping[str, str]] = {"run": "asperity.tribometer.procedure.plots:plot_run"}
+    drawings: ClassVar[Mapping[str, str]] = {"run": "asperity.tribometer.plots:plot_run"}
 
     lines: tuple[Mapping[str, Any], ...]
     latch: AsperityError | None = None

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 
 from asperity.casefile import Case
-from asperity.errors import AsperityError, InputError, choices, plain, suggestion
+from asperity.errors import AsperityError, InputError, plain
 from asperity.processes.alone import alone
 from asperity.runs import Run
 from asperity.runs.interrupt import Signals
 from asperity.runs.key import key
 from asperity.tribometer.channels import Channels
-from asperity.tribometer.guardian.backends import BACKENDS, REPLAY, GuardedBench, open_bench
+from asperity.tribometer.guardian.backends import REPLAY, GuardedBench, open_bench
 from asperity.tribometer.guardian.guard import GuardedJournal
 from asperity.tribometer.guardian.journal import Journal, Lines
 from asperity.tribometer.instruments.acquisition import inputs_for
@@ -86,11 +86,6 @@ def prepare(
     sonotrode = case.require(Sonotrode)
     Pair.from_case(case)
     inputs_for(case)
-    if backend not in BACKENDS:
-        raise InputError(
-            f"--backend is {backend!r}; it must be one of {choices(BACKENDS)}"
-            f"{suggestion(backend, BACKENDS)}"
-        )
     most = plan.sample_rate / _LEAST_SAMPLES_A_CYCLE
     for frequency in plan.frequencies:
         if frequency > most:

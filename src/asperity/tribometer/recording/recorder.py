@@ -35,7 +35,17 @@ _COMPRESSION: dict[str, Any] = {"compression": "gzip", "compression_opts": 1, "s
 
 @dataclasses.dataclass(frozen=True)
 class Source:
-    """A channel of a recording: what is on it, and what a count of it is worth."""
+    """A channel of a recording: what is on it, and what a count of it is worth.
+
+    Attributes
+    ----------
+    signal : str
+        The name it has in the rig.
+    units : str
+        Of a value.
+    scale, offset : float
+        A value is scale times count plus offset.
+    """
 
     signal: str
     units: str
@@ -142,7 +152,15 @@ class Recorder:
                 self._write_waiting(clock)
 
     def event(self, time: float, kind: str, text: str) -> None:
-        """Take something that happened, at a time in s since the start."""
+        """Take something that happened.
+
+        Parameters
+        ----------
+        time : float
+            Since the start, s.
+        kind, text : str
+            A word for it, and what it was.
+        """
         row = {"event_time": float(time), "event_kind": plain(kind), "event_text": plain(text)}
         with self._trouble_told():
             self._blocks.event(row)
@@ -154,7 +172,13 @@ class Recorder:
             self._blocks.sync()
 
     def close(self, *, compress: bool = True) -> None:
-        """Write what is left, and make the file of it; compressed, whole or not at all."""
+        """Write what is left, and make the file of it; compressed, whole or not at all.
+
+        Parameters
+        ----------
+        compress : bool
+            Whether the samples are compressed.
+        """
         if not self._open:
             return
         self._write_waiting(self._came)

@@ -30,7 +30,15 @@ _LATE = 0.5  # of a block, by which the clock may lead the count before samples 
 
 @dataclasses.dataclass(frozen=True)
 class Event:
-    """Something that happened, at a time in s since the start."""
+    """Something that happened.
+
+    Attributes
+    ----------
+    time : float
+        Since the start, s.
+    kind, text : str
+        A word for it, and what it was.
+    """
 
     time: float
     kind: str
@@ -97,6 +105,16 @@ class Recording:
     def open(cls, path: Path) -> Self:
         """Read what a file holds beside its counts, and check these.
 
+        Parameters
+        ----------
+        path : path
+            A file; what a killed process left beside it is put together.
+
+        Returns
+        -------
+        Recording
+            Without its samples, which are read where they are asked for.
+
         Raises
         ------
         StorageError
@@ -133,7 +151,23 @@ class Recording:
         return self.samples * self.sample_interval
 
     def case(self, known: Mapping[str, Any]) -> Case:
-        """Return the configuration it was made with."""
+        """Return the configuration it was made with.
+
+        Parameters
+        ----------
+        known : mapping of str to type of Table
+            Every table that a case may have.
+
+        Returns
+        -------
+        Case
+            Checked.
+
+        Raises
+        ------
+        InputError
+            The configuration is not one of this version.
+        """
         raw = {str(name): dict(entries) for name, entries in self.configuration.items()}
         case = Case(plain(str(self.path)), self.path.parent.absolute(), {}, raw, known)
         return case.replace(())
@@ -143,13 +177,37 @@ class Recording:
         return next((n for n, one in enumerate(self.sources) if one.signal == signal), None)
 
     def stretches(self, length: int = _STRETCH) -> Iterator[tuple[int, Counts]]:
-        """Yield the counts of all channels in stretches, each with its first sample."""
+        """Yield the counts of all channels in stretches, each with its first sample.
+
+        Parameters
+        ----------
+        length : int
+            Samples of each, the last one shorter.
+
+        Yields
+        ------
+        first : int
+            Number of its first sample.
+        counts : ndarray of int16, shape (samples, channels)
+            As they were recorded.
+        """
         with self._counts() as raw:
             for first in range(0, self.samples, length):
                 yield first, raw[first : min(first + length, self.samples)]
 
     def part(self, first: int, last: int) -> Counts:
-        """Return the counts of all channels from a sample up to another."""
+        """Return the counts of all channels from a sample up to another.
+
+        Parameters
+        ----------
+        first, last : int
+            Numbers of samples, the last not included.
+
+        Returns
+        -------
+        ndarray of int16, shape (samples, channels)
+            As they were recorded.
+        """
         with self._counts() as raw:
             counts: Counts = raw[first : min(last, self.samples)]
         return counts
@@ -158,6 +216,25 @@ class Recording:
         """Return what a channel saw, in its unit; NaN where a sample is missing or past the range.
 
         For use inside the reduction, which refuses a window that holds any.
+
+        Parameters
+        ----------
+        signal : str
+            The name it has in the rig.
+        first : int
+            Number of the first sample.
+        last : int, optional
+            Of the one after the last; left out: to the end.
+
+        Returns
+        -------
+        ndarray, shape (samples,)
+            In the unit of the channel.
+
+        Raises
+        ------
+        InputError
+            The signal was not recorded.
         """
         place = self.place(signal)
         if place is None:

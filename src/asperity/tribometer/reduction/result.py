@@ -173,9 +173,7 @@ class Reduced(Result):
 
     title = "Recordings of a disc-on-disc rig, reduced"
     stem = "reduce"
-    drawings: ClassVar[Mapping[str, str]] = {
-        "reduce": "asperity.tribometer.reduction.plots:plot_changes"
-    }
+    drawings: ClassVar[Mapping[str, str]] = {"reduce": "asperity.tribometer.plots:plot_changes"}
 
     segments: tuple[SegmentResult, ...]
     files: tuple[FileResult, ...]

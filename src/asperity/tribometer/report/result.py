@@ -6,18 +6,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from asperity.results import Result, quantity
-from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
 from asperity.results.report import Picture, Section
 from asperity.results.table import Table
+from asperity.tribometer.plots import changes, over_velocity
 from asperity.tribometer.reduction import budgets
-from asperity.tribometer.reduction.plots import changes, mark_simulated
-from asperity.tribometer.reduction.result import REFUSED, Reduced
+from asperity.tribometer.reduction.result import Reduced
 from asperity.tribometer.report.standards import MISSING, Asked
 from asperity.tribometer.sheets import Sheet
 
 if TYPE_CHECKING:
-    import xarray as xr
-    from matplotlib.figure import Figure
+    pass
 
 _BUDGETED = ("torque_before", "torque_with", "torque_change")
 _CHANGES = {
@@ -177,25 +175,3 @@ class Report(Result):
 
 def _percent(value: float | None) -> str:
     return "" if value is None else f"{value + 0.0:.2g}"
-
-
-def over_velocity(dataset: "xr.Dataset") -> "Figure":
-    """Draw torque with over torque before against k_v, measured and by the model."""
-    figure, (axes,) = panels()
-    usable = dataset["quality"].values.astype(str) != REFUSED
-    for place, mode in enumerate(("transverse", "longitudinal")):
-        here = usable & (dataset["mode"].values.astype(str) == mode)
-        if not here.any() or "k_v" not in dataset:
-            continue
-        colour, marker = (BLUE, VERMILION)[place], "os"[place]
-        k = dataset["k_v"].values[here]
-        ratio = 1.0 + dataset["torque_change"].values[here] / 100.0
-        axes.plot(k, ratio, color=colour, marker=marker, linestyle="none",
-                  markerfacecolor="none", label=f"{mode}, measured")  # fmt: skip
-        axes.plot(k, dataset["model_ratio"].values[here], color=colour, marker="x",
-                  linestyle="none", label=f"{mode}, model")  # fmt: skip
-    axes.axhline(1.0, color=BLACK, linewidth=0.8)
-    axes.set(xlabel=r"velocity ratio $k_v$", ylabel="torque with over torque before")
-    legend(axes)
-    mark_simulated(dataset, axes)
-    return figure

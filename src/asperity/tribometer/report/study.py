@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.casefile import Case, read_case
-from asperity.errors import AsperityError, InputError, choices, plain, shown
+from asperity.errors import AsperityError, InputError, plain
 from asperity.runs import Run
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.deposit import Package
@@ -18,7 +18,7 @@ from asperity.tribometer.reduction import study as reduction
 from asperity.tribometer.reduction.result import REFUSED, Reduced, SegmentResult
 from asperity.tribometer.reduction.study import Reducible, Series
 from asperity.tribometer.report.result import Report
-from asperity.tribometer.report.standards import STANDARDS, asked, friction
+from asperity.tribometer.report.standards import asked, friction
 from asperity.tribometer.sheets import sheets
 
 _BESIDE = Conditions.table, Package.table  # of a case, what no recording needs
@@ -45,8 +45,6 @@ def read(
     **_: Any,
 ) -> Case:
     """Open every recording in a folder; what is none is left out and named."""
-    if standard and standard not in STANDARDS:
-        raise InputError(f"standard is {shown(standard)}; it must be {choices(STANDARDS)}")
     place = Path(folder)
     if not place.is_dir():
         raise InputError(f"{plain(folder)} is not a folder; give the one that holds recordings")

@@ -79,7 +79,18 @@ class TwinFit:
     misfit: float
 
     def applied(self, case: Case) -> Case:
-        """Return a case whose simulated rig has these values."""
+        """Return a case whose simulated rig has these values.
+
+        Parameters
+        ----------
+        case : Case
+            A configuration with ``[twin]``.
+
+        Returns
+        -------
+        Case
+            Another one.
+        """
         return case.replace_values({f"twin.{key}": value for key, value in self.values.items()})
 
 
@@ -94,6 +105,11 @@ def fit_twin(case: Case, recordings: Sequence[str | Path], free: Sequence[str] =
         They are reduced first; segments that are refused are left out.
     free : sequence of str
         Keys of `BOUNDS`.
+
+    Returns
+    -------
+    TwinFit
+        Values in SI, their standard deviations as shares of them, and the misfit.
 
     Raises
     ------

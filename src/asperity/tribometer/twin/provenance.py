@@ -41,7 +41,18 @@ _MEASURED_FREQUENCY = 750.0
 
 
 def parameters(case: Case) -> dict[str, Standing]:
-    """Return what each parameter of a configuration's simulated rig rests on."""
+    """Return what each parameter of a configuration's simulated rig rests on.
+
+    Parameters
+    ----------
+    case : Case
+        A configuration with ``[twin]``.
+
+    Returns
+    -------
+    dict of str to str
+        ``measured``, ``fitted``, ``placeholder`` or ``given`` by key.
+    """
     twin = case.require(Twin)
     return {
         name: standing if getattr(twin, name) == shipped else "given"
@@ -54,13 +65,38 @@ def figure_standing(mode: str, waveform: str, frequency: float) -> Standing:
 
     The velocity of the disc was measured at 750 Hz alone, and the torque there across the sliding;
     that a disc shaken along the sliding stands still is assumed.
+
+    Parameters
+    ----------
+    mode : {'longitudinal', 'transverse'}
+        Of the vibration.
+    waveform : str
+        As of ``[vibration]``.
+    frequency : float
+        Hz.
+
+    Returns
+    -------
+    str
+        ``fitted`` or ``placeholder``.
     """
     fitted = mode == "transverse" and waveform == "sine" and frequency == _MEASURED_FREQUENCY
     return "fitted" if fitted else "placeholder"
 
 
 def standing(case: Case) -> list[str]:
-    """Return what a reader of simulated figures should know, in sentences."""
+    """Return what a reader of simulated figures should know, in sentences.
+
+    Parameters
+    ----------
+    case : Case
+        A configuration with ``[twin]``.
+
+    Returns
+    -------
+    list of str
+        Sentences.
+    """
     found = parameters(case)
     named = {
         kind: ", ".join(name for name, one in found.items() if one == kind)

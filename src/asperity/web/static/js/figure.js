@@ -1,5 +1,6 @@
 /** Pictures, and what stands beneath each: as table, PNG, SVG, CSV. */
 import { html, useRef, useState } from "../vendor/preact.js";
+import { inWords, plain } from "./symbols.js";
 import { named, Table } from "./table.js";
 import { digits } from "./units.js";
 
@@ -58,7 +59,7 @@ function pictureOf(figure) {
   const whole = element("svg", { width: width + 2 * MARGIN, height: below + ENTRY * entries.length + MARGIN });
   whole.append(
     element("rect", { class: "sheet", width: "100%", height: "100%" }),
-    text(figure.querySelector("figcaption").textContent, MARGIN, MARGIN + 12, { class: "title" }),
+    text(figure.querySelector("figcaption").dataset.title, MARGIN, MARGIN + 12, { class: "title" }),
     put(drawn, MARGIN, TITLE),
   );
   entries.forEach((entry, at) => {
@@ -132,7 +133,8 @@ export function Beneath({ title, columns: made, svg }) {
  */
 export function Figure({ title, kind = "", columns, children }) {
   const figure = useRef(null);
-  return html`<figure class=${`plot ${kind}`} ref=${figure}><figcaption>${title}</figcaption>
+  return html`<figure class=${`plot ${kind}`} ref=${figure}>
+    <figcaption data-title=${plain(title)}>${inWords(title)}</figcaption>
     ${children}
     <${Beneath} title=${title} columns=${columns} svg=${() => pictureOf(figure.current)} />
   </figure>`;

@@ -2,6 +2,7 @@
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { forms, useCaseFile } from "./api.js";
 import { fault, instead, useCase } from "./state.js";
+import { useTouch } from "./touch.js";
 import { digits, factor, inUnit, split } from "./units.js";
 
 /** Words of a key: `drive_velocity` is "drive velocity". */
@@ -159,34 +160,6 @@ export function AllKeys({ tables, brief }) {
 /** What is set, folded away at first where there is room for one column only. */
 export const Folded = ({ children }) => html`<details open=${innerWidth > 700}>
   <summary>what is set</summary>${children}</details>`;
-
-/** So far a finger goes along a slider before it drags it; what goes more up or down scrolls, px. */
-const SURE = 8;
-
-/**
- * What keeps a slider where it is while a finger that scrolls passes over it.
- * @param {(event: any) => void} moved what a slider that is dragged does
- */
-function useTouch(moved) {
-  const finger = useRef(null);
-  const back = ({ currentTarget }) => finger.current && (currentTarget.value = finger.current.value);
-  const over = () => (finger.current = null);
-  return {
-    onPointerDown: ({ pointerType, clientX, clientY, currentTarget }) =>
-      (finger.current = pointerType === "touch"
-        ? { x: clientX, y: clientY, value: currentTarget.value, sure: false } : null),
-    onPointerMove: (event) => {
-      const { x, y, sure } = finger.current ?? { sure: true };
-      if (sure) return;
-      const [along, aside] = [event.clientX - x, event.clientY - y].map(Math.abs);
-      if (along > SURE && along > aside) finger.current.sure = true;
-    },
-    // The browser takes the finger for its own: it scrolls.
-    onPointerCancel: (event) => (back(event), over()),
-    onPointerUp: (event) => (finger.current?.sure === false && back(event), over()),
-    onInput: (event) => (finger.current?.sure === false ? back(event) : moved(event)),
-  };
-}
 
 /** Digits of what a slider says, few enough to read and enough to tell its steps apart. */
 const KEPT = 3;

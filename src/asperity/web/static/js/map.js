@@ -1,6 +1,7 @@
 /** Colours of a value, and maps of a flank: cells of a mesh, filled by what holds in them. */
 import { html } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
+import { inWords } from "./symbols.js";
 import { digits } from "./units.js";
 
 /** From low to high, told apart by those who do not see all colours: cividis. */
@@ -59,7 +60,7 @@ export function Legend({ range: [low, high], unit, label }) {
   return html`<ul class="legend ramp"><li>
     <svg viewBox=${`0 0 ${LEVELS} 1`} preserveAspectRatio="none" role="img" aria-label=${`colours from ${ends}`}>
       ${steps.map((level) => html`<rect x=${level} width="1.05" height="1" fill=${shade((level + 0.5) / LEVELS)} />`)}
-    </svg> ${ends}: ${label}</li></ul>`;
+    </svg> ${ends}: ${inWords(label)}</li></ul>`;
 }
 
 /**

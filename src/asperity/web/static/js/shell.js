@@ -32,6 +32,10 @@ export function App({ screens, children }) {
   const here = screens.find(({ name }) => name === screen);
   if (here?.kind) last[here.kind] = caseParams(params);
   useEffect(() => {
+    // On a phone the screens are one row, which scrolls.
+    document.querySelector("nav [aria-current]")?.scrollIntoView({ block: "nearest", inline: "center" });
+  }, [screen]);
+  useEffect(() => {
     document.title = `${here?.title ?? "?"} · asperity`;
   }, [here]);
   useEffect(() => {

@@ -4,6 +4,7 @@ import { Figure } from "./figure.js";
 import { useValue, words } from "./form.js";
 import { path, ticks } from "./plot.js";
 import { useCase } from "./state.js";
+import { along as sideways } from "./touch.js";
 import { digits, inUnit } from "./units.js";
 
 /** Of the keys that say how segments are found. */
@@ -40,10 +41,14 @@ export function Signals({ time, signals, segments, settling_s: answered, duratio
     const place = ((event.clientX - left) / width) * WIDTH - LEFT;
     setHeld(settle((place / (WIDTH - LEFT - RIGHT)) * duration - grip.current.start, grip.current));
   };
-  const drop = () => {
+  // A finger that scrolls instead has moved nothing.
+  const leave = () => {
     grip.current = null;
-    if (held !== null) put(held);
     setHeld(null);
+  };
+  const drop = () => {
+    if (held !== null) put(held);
+    leave();
   };
   const keyed = (event, one) => {
     const step = { ArrowLeft: -0.1, ArrowRight: 0.1 }[event.key];
@@ -62,7 +67,7 @@ export function Signals({ time, signals, segments, settling_s: answered, duratio
   };
   return html`<${Figure} title="Signals, and the windows before and with vibration" kind="bare" columns=${columns}>
     <div class="scroll wide"><svg ref=${box} class="signals drawn" viewBox=${`0 0 ${WIDTH} ${height}`} role="group"
-        aria-label="signals over time" onPointerMove=${move} onPointerUp=${drop} onPointerCancel=${drop}>
+        aria-label="signals over time" onPointerMove=${move} onPointerUp=${drop} onPointerCancel=${leave}>
       ${segments.map((one, at) => html`<g key=${at} class=${one.refused ? "segment refused" : "segment"}>
         <title>${told(one, at)}</title>${window(one.before, 3)}${window(one.with, 1)}
         <text x=${along(ends(one.with)[0]) + 10} y="18">
@@ -75,7 +80,7 @@ export function Signals({ time, signals, segments, settling_s: answered, duratio
       ${segments.map((one, at) => html`<rect key=${at} class="grip" x=${along(ends(one.with)[0]) - 4} width="8" y="4"
         height=${rows.length * ROW - 8} role="slider" tabindex="0" aria-label=${`settling, at segment ${at + 1}`}
         aria-valuemin="0" aria-valuemax=${duration} aria-valuenow=${settling}
-        aria-valuetext=${`${digits(settling, 3)} s`} onKeyDown=${(event) => keyed(event, one)}
+        aria-valuetext=${`${digits(settling, 3)} s`} onKeyDown=${(event) => keyed(event, one)} ...${sideways}
         onPointerDown=${(event) => grab(event, one)} />`)}
     </svg></div>
     <p class="says">Time in s. Green: sliding before; blue: with vibration. Drag the left edge of a blue window,

@@ -3,6 +3,7 @@ import { html, signal, useLayoutEffect, useMemo, useRef, useState } from "../ven
 import { useValue } from "./form.js";
 import { arrow, draw, HALF_X, HALF_Y, HEIGHT, motionOf, REACH, TILE, WIDTH, X, Y } from "./motion.js";
 import { useCase } from "./state.js";
+import { anyWay, useTouch } from "./touch.js";
 import { digits, inUnit, split } from "./units.js";
 
 /** When the picture is, in cycles. */
@@ -114,6 +115,7 @@ export function Stage({ series, ratio, k, limit }) {
   const frequency = inUnit(useValue("vibration.frequency").text, "Hz");
   const { place, direction, dragged, grasped } = useHandle(k);
   useMotion(picture, moving, runs);
+  const touch = useTouch(({ target }) => (moment.value = target.value / STEPS));
   if (!moving) return null;
   const { side } = moving;
   const path = moving.pulls.map((pull, row) => `${row ? "L" : "M"}${(-REACH * pull).toFixed(1)} ${
@@ -153,7 +155,7 @@ export function Stage({ series, ratio, k, limit }) {
         <path class="lead" d=${`M${-REACH - 8} 84L${-Math.max(12, REACH * ratio * 0.6)} ${side ? 36 : 6}`} />
         ${side ? null : html`<path class="shaken" d=${`M${-place[0]} ${-place[1]}L${place[0]} ${place[1]}`} />
           <circle class="grip" cx=${place[0]} cy=${place[1]} r="13"
-            onPointerDown=${grasped}
+            onPointerDown=${grasped} ...${anyWay}
             onPointerMove=${dragged}><title>drag: which way it is shaken, and how strongly</title></circle>
           <text class="strong" x=${place[0] - 20} y=${place[1] + 5} text-anchor="end">
             ${digits(direction, 3)}°, k ${digits(k, 3)}</text>`}
@@ -164,7 +166,7 @@ export function Stage({ series, ratio, k, limit }) {
       <button type="button" onClick=${() => setRuns(!runs)}>${runs ? "stop the motion" : "let it move"}</button>
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
         value=${Math.round(STEPS * (moment.peek() % 1))}
-        onInput=${(event) => (moment.value = event.target.value / STEPS)} /></label>`}
+        ...${touch} /></label>`}
       <span class="says">${slower(frequency)}, seen ${from}. ${side ? "" : "Drag the round handle."}
         <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
     </div>

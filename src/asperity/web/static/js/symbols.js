@@ -32,5 +32,7 @@ const set = (text, pattern) => (text ? pieces(text, pattern).map((each) => html`
 
 /** A symbol or a formula. @param {string} text */
 export const symbol = (text) => set(text, SYMBOL);
+/** The same where nothing can stand below a letter. @param {string} text */
+export const plain = (text) => String(text ?? "").replace(/\bmu (?=[A-Z]_)/g, "µ ");
 /** A sentence with symbols in it. @param {string} text */
 export const inWords = (text) => set(text, IN_WORDS);

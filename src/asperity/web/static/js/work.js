@@ -97,7 +97,8 @@ export function useJob(command, body, slot = "", any = false) {
     const failed = (error) => error.name === "AbortError" || put({ error, asking: false });
     let answered = false;
     const hear = (job) => {
-      put({ job, asking: false, error: job.error ? new Refused(job.error, 0) : null });
+      const error = job.error ? new Refused(job.error, 0) : null;
+      put({ job: { ...job, heard: performance.now() }, asking: false, error });
       // Its pictures may come later.
       if (!job.answered || answered) return;
       answered = true;
@@ -152,14 +153,26 @@ export function lasting(seconds) {
   return `${seconds < size ? "1" : (seconds / size).toFixed(0)} ${unit}`;
 }
 
-/** How far a job is and how long it still takes, in words. */
-export function left({ state, done, total, seconds, answered }) {
+/** Draw anew every second while something goes on. */
+function useTicking(on) {
+  const [, setCount] = useState(0);
+  useEffect(() => {
+    const timer = on ? setInterval(() => setCount((old) => old + 1), 1000) : 0;
+    return () => clearInterval(timer);
+  }, [on]);
+}
+
+/** How far a job is, how long it has run and how long it still takes at its pace so far, in words. */
+export function left({ state, done, total, seconds: told, heard, answered }) {
+  // Since it was told, time goes on.
+  const seconds = told + (state === "running" && heard ? (performance.now() - heard) / 1000 : 0);
   const without = answered && state === "stopped" ? ", with its answer, without all of its files" : "";
   if (ENDED.includes(state)) return `${state} after ${lasting(seconds)}${without}`;
   if (answered) return "answered; its files are being written";
-  if (!total) return state;
+  const so = state === "running" ? `for ${lasting(seconds)}` : "";
+  if (!total) return so ? `${state} ${so}` : state;
   const rest = done > 0.02 * total && seconds > 2 ? `, about ${lasting((seconds * (total - done)) / done)} left` : "";
-  return `${state}, ${done} of ${total}${rest}`;
+  return `${state}, ${done} of ${total}${so && `, ${so}`}${rest}`;
 }
 
 const shippedSays = ({ other }, stale) => `an answer that ships${other ? `, of the case ${other}`
@@ -169,6 +182,7 @@ const shippedSays = ({ other }, stale) => `an answer that ships${other ? `, of t
 export function Work({ work, label }) {
   const { job, asking, can, stale, start, stop } = work;
   const running = job && !ENDED.includes(job.state);
+  useTicking(running);
   const said = asking ? "begun" : running ? left(job)
     : job?.shipped ? shippedSays(job, stale)
     : stale && job ? "something was set since; this is the answer to what was asked before"

@@ -135,7 +135,7 @@ function Marched({ work }) {
       html`<${Num} entry=${numbers[key]} label count=${4} />`)}</p>
     ${data && packed ? html`<${Deformed} packed=${packed}
       contact=${{ x: milli(data.node_x), y: milli(data.node_y), cells: quads(data.faces) }} />` : null}
-    ${data ? html`<div class="grid">
+    ${data ? html`<div class="pair">
       <${FlankMap} title="Pressure under the block, its mean" label="mean pressure at a node" unit="kPa"
         x=${milli(data.node_x)} y=${milli(data.node_y)} cells=${quads(data.faces)} values=${pressure}
         range=${span(pressure)} says="seen from below; along the drive to the right, across it upwards" />

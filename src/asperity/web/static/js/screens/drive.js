@@ -95,7 +95,7 @@ function Pattern({ data, found }) {
   return html`<p class="choice"><label for="load">torque of the wheel</label>${" "}
       <select id="load" value=${String(at)} onChange=${(event) => setParam("load", event.target.value)}>
         ${loads.map((load, n) => html`<option value=${String(n)}>${digits(load, 4)} N m</option>`)}</select></p>
-    <div class="grid">
+    <div class="pair">
       <${FlankMap} title="Where it bears over a pitch, and how hard" label="largest pressure" unit="MPa"
         x=${value("node_face", 1e3)} y=${value("node_radius", 1e3)} cells=${rows(data.faces)} values=${values}
         range=${[0, span(values)[1]]} />

@@ -9,6 +9,7 @@ import { Plot } from "../plot.js";
 import { nearest, stage } from "../scene.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
+import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
 import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
 
@@ -99,6 +100,7 @@ function Space({ gears, shown, options }) {
     setPlaying(false);
     put((Number(event.target.value) * Math.PI) / 180);
   };
+  const touch = useTouch(turned);
   return html`<section class="panel" aria-label="in space">
     <div class="row">${options}</div>
     ${without ? html`<p class="notes" role="status">This browser draws nothing in space (no WebGL); the maps beneath
@@ -110,7 +112,7 @@ function Space({ gears, shown, options }) {
       <button type="button" aria-pressed=${playing} onClick=${() => setPlaying(!playing)}>
         ${playing ? "❚❚ pause" : "▶ play"}</button>
       <input type="range" aria-label="angle of the worm" min="0" max=${degrees(header.pitch)} step="0.5"
-        value=${degrees(phi)} aria-valuetext=${`${digits(degrees(phi), 3)} degrees`} onInput=${turned} />
+        value=${degrees(phi)} aria-valuetext=${`${digits(degrees(phi), 3)} degrees`} ...${touch} />
       <output>${degrees(phi).toFixed(1)}° of a pitch of ${digits(degrees(header.pitch), 4)}°</output>
     </div>
     <${Over} gears=${gears} shown=${shown} phi=${phi} />

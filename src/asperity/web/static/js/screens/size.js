@@ -163,10 +163,10 @@ export function view() {
         <select id="rank" value=${rank} onChange=${(event) => setParam("rank", event.target.value)}>
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
-      ${answer ? html`<p class="says">${answer.rated} gearsets rated, ${answer.holding} hold by every standard;
-          shown are those that no other beats in size, efficiency and margin together. Oil, materials, roughness and
-          life are the case's${through ? html`; its torque through the travel, ${through}, is not, since it goes with
-          another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where
+      ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold by every standard.</p>
+        <p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil, materials,
+          roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is not, since
+          it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where
           none is given` : null}.</p>
         <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
         : html`<p class="wait">One moment.</p>`}

@@ -7,6 +7,7 @@ import { Heat } from "../heat.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
+import { inWords, plain } from "../symbols.js";
 import { digits, split } from "../units.js";
 import { dataOf, Files, lasting, useJob, Work } from "../work.js";
 
@@ -48,7 +49,7 @@ export function view() {
     answer=${{ ...one.data, notes: running ? work.job.notes : [], command: body && commandLine("sweep", body) }}
     error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}
     now=${one.now && !refused}>
-    <div class="columns">
+    <div class="columns answer-first">
       <section class="controls" aria-label="the grid">
         ${["x", "y"].map((key, place) => html`<${AxisForm} key=${key} name=${key} tables=${kind.tables}
           label=${place ? "second axis" : "first axis"} axis=${axisOf(texts[place])} file=${file} />`)}
@@ -59,7 +60,7 @@ export function view() {
       <section class="shown" aria-label="what is found">
         ${found.names.length ? html`<p class="row"><label for="variable">shown</label>
           <select id="variable" value=${found.name} onChange=${(event) => setParam("shown", event.target.value)}>
-            ${found.names.map(([key, meaning]) => html`<option value=${key}>${meaning}</option>`)}</select></p>`
+            ${found.names.map(([key, meaning]) => html`<option value=${key}>${plain(meaning)}</option>`)}</select></p>`
           : html`<p class="says">${running || work.asking ? "The first points are being solved."
             : "Nothing is solved yet: choose the axes and begin."}</p>`}
         ${found.data ? html`<${Found} ...${found} />` : null}
@@ -139,20 +140,35 @@ function useSoFar({ id: own, from, job }) {
   return known.id === id ? known : { names: [], data: null };
 }
 
+const plainUnit = (unit) => (unit === "1" ? "" : (unit ?? ""));
+
+/** Where the least is, in a sentence; of what has settled. */
+function Least({ title, unit, values, loose, axes }) {
+  const known = values.map((value, at) => [value, at]).filter(([value, at]) => value !== null && !loose[at]);
+  if (!known.length) return null;
+  const [value, at] = known.reduce((best, one) => (one[0] < best[0] ? one : best));
+  const count = axes.at(-1).values.length;
+  const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
+  const where = axes.map(({ label, unit: of, values: all }, k) => `${label} ${digits(all[places[k]], 4)} ${of}`.trim());
+  return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}
+    <span class="says">${inWords(title)}</span></p>`;
+}
+
 function Found({ name, names, data }) {
   const { dims, values, units } = data[name];
-  const plain = (unit) => (unit === "1" ? "" : (unit ?? ""));
   const title = names.find(([key]) => key === name)[1];
   const [down, across] = dims.map((dim) =>
-    ({ label: words(dim), unit: plain(data[dim]?.units), values: data[dim]?.values ?? [] }));
+    ({ label: words(dim), unit: plainUnit(data[dim]?.units), values: data[dim]?.values ?? [] }));
   const loose = values.map((value, at) => value !== null && data[SETTLED]?.values[at] === 0);
   const count = loose.filter(Boolean).length;
   const says = count ? html`<p role="status">${count} of ${values.length} points
     ${count === 1 ? "has" : "have"} not settled: no prediction.</p>` : null;
-  const marks = count ? [{ label: "not settled", unit: plain(units), points: "square",
+  const marks = count ? [{ label: "not settled", unit: plainUnit(units), points: "square",
     bare: true, values: values.map((value, at) => (loose[at] ? value : null)), colour: 6 }] : [];
-  return across ? html`${says}<${Heat} title=${title} unit=${plain(units)} down=${down} across=${across}
+  const least = html`<${Least} title=${title} unit=${plainUnit(units)} values=${values} loose=${loose}
+    axes=${[down, across].filter(Boolean)} />`;
+  return across ? html`${least}${says}<${Heat} title=${title} unit=${plainUnit(units)} down=${down} across=${across}
       values=${values} />`
-    : html`${says}<${Plot} title=${title} x=${down} height=${340}
-      series=${[{ label: title, unit: plain(units), values, points: "round" }, ...marks]} />`;
+    : html`${least}${says}<${Plot} title=${title} x=${down} height=${340}
+      series=${[{ label: title, unit: plainUnit(units), values, points: "round" }, ...marks]} />`;
 }

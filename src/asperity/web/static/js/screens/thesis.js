@@ -23,8 +23,8 @@ const CHOICES = {
 
 export function view() {
   const { found: own, error } = useAsked("thesis", (leave) => get("/api/thesis", leave));
-  const ships = useShipped("thesis", Boolean(own));
-  const ledger = own && withShipped(own, ships?.data.answer.claims ?? []);
+  const ships = useShipped("thesis", true)?.data.answer;
+  const ledger = own ? withShipped(own, ships?.claims ?? []) : ships && unmadeOf(ships);
   const { q = "", verdict = "all" } = route.value.params;
   const wanted = verdict === "none" ? "" : verdict;
   const words = q.toLowerCase().split(/\s+/).filter(Boolean);
@@ -39,7 +39,7 @@ export function view() {
     claims: claims.filter((one) => one.chapter === chapter.number),
     figures: figures.filter((one) => one.chapter === chapter.number),
   })).filter((chapter) => chapter.claims.length + chapter.figures.length);
-  return html`<${Screen} title="Thesis" error=${error} busy=${!ledger && !error}
+  return html`<${Screen} title="Thesis" error=${error} busy=${!own && !error}
       lead="On friction under imposed vibration and in worm gears: what it says, and what comes of it when it is
         computed anew.">
     ${ledger ? html`
@@ -65,6 +65,9 @@ export function view() {
   <//>`;
 }
 
+/** What ships, before it is known what was made here. */
+const unmadeOf = (shipped) => ({ ...shipped, claims: shipped.claims.map((one) => ({ ...one, kept: false })) });
+
 /** Claims that were not made here, with what came of them as it ships. */
 function withShipped(ledger, shipped) {
   const known = Object.fromEntries(shipped.map(({ id, verdict, ours, why }) => [id, { verdict, ours, why }]));
@@ -80,7 +83,7 @@ function unmade({ claims, figures, folder }) {
   const missing = [...claims, ...figures].filter(({ kept }) => !kept).length;
   return missing
     ? `${missing} of all were not made here, or by another version: what stands here of claims ships with the page; `
-      + `asperity thesis makes them, into ${folder}.`
+      + `asperity thesis makes them${folder && `, into ${folder}`}.`
     : `All were made here, in ${folder}.`;
 }
 
