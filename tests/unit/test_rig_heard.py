@@ -216,6 +216,7 @@ def test_a_check_tells_of_segments_that_are_refused(tmp_path):
     path = faulty(name, seed_of(name), tmp_path / "run.nc", **SMALL)
     checked = checking.answer(Series((reducible(path),)), Run())
     assert checked.headline() == ("Nothing is found, but not all could be checked.",)
+    assert checked.to_json()["refused"] == checked.segments == 3
     assert sum("is refused: torque_steel has samples missing" in one for one in checked.notes) == 3
 
 

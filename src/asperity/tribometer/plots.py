@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.results.figures import BLACK, BLUE, COLOURS, ORANGE, legend, panels
 from asperity.results.panels import Panel, drawn, level, line, points
 from asperity.tribometer.reduction.result import REFUSED
@@ -19,6 +20,8 @@ _MOST = 24  # findings
 _ACROSS = 2
 _FEW = 30  # points, which are drawn as such
 _LONGEST = 62  # signs of a title
+_LEAST_MARK = 0.01  # of a picture's width
+_LEAST_SPAN = 0.1  # of the largest value: what hardly moves is drawn as such
 _ENDS = 1.96  # deviations to the ends of 95 %
 
 
@@ -86,17 +89,28 @@ def plot_findings(dataset: "xr.Dataset") -> "Figure":
         same = (x[1:] == x[-1]) & (y[1:] == y[-1])
         own = x.size - int(np.argmin(same[::-1])) if not same.all() else 1
         if end > begin:
+            # What is short is seen all the same.
+            wide = max(0.5 * (_LEAST_MARK * float(np.ptp(x)) - (end - begin)), 0.0)
+            begin, end = begin - wide, end + wide
             panel.axvspan(begin, end, color=ORANGE, alpha=0.25, linewidth=0.0)
         if own <= _FEW:
             panel.plot(x[:own], y[:own], color=BLACK, marker="o", linestyle="none", markersize=4)
         else:
             panel.plot(x[:own], y[:own], color=BLUE, linewidth=0.9)
         title = str(dataset["told"].values[place])
+        _not_too_near(panel, y)
         panel.set_title(f"{place + 1}: {title[:_LONGEST]}", fontsize=9, loc="left")
         panel.set_xlabel(str(dataset["across"].values[place]), fontsize=9)
         panel.set_ylabel(str(dataset["up"].values[place]), fontsize=8)
         panel.tick_params(labelsize=8)
     return figure
+
+
+def _not_too_near(panel: Any, values: FloatArray) -> None:
+    low, high = panel.get_ylim()
+    short = _LEAST_SPAN * float(np.abs(values).max()) - (high - low)
+    if short > 0.0:
+        panel.set_ylim(low - 0.5 * short, high + 0.5 * short)
 
 
 def plot_fit(dataset: "xr.Dataset") -> "Figure":

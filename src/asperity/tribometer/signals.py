@@ -25,6 +25,11 @@ class Signal:
     meaning: str
     example: str
 
+    @property
+    def unit_in_text(self) -> str:
+        """The unit as it is written in a sentence or at an axis."""
+        return self.unit.replace("**", "")
+
 
 SIGNALS: Mapping[str, Signal] = {
     signal.name: signal

@@ -63,6 +63,7 @@ class Checked(Result):
     found: tuple[Found, ...]
     recordings: int = quantity("", "", "recordings")
     segments: int = quantity("", "", "segments with vibration")
+    refused: int = quantity("", "", "of these refused, and not checked")
     findings: int = quantity("", "", "findings", key="count")
     spoiling: int = quantity("", "", "of these such that numbers are not good")
     x: FloatArray = quantity("", "", "across each picture", dims=("finding", "point"), only="file")

@@ -21,11 +21,12 @@ def answer(series: Series, run: Run) -> Checked:
     """Listen to recordings, one after the other."""
     problem = series.reducible
     found, courses, notes = [], [], []
-    segments = 0
+    segments = refused = 0
     for done, one in enumerate(problem):
         run.checkpoint(done, len(problem), what="recordings")
         parts, listened = reduction.heard_in(one)
         segments += len(parts)
+        refused += sum(bool(part.refused) for part in parts)
         name = one.recording.name
         if not parts:
             notes.append(f"{name}: no vibration was found, so that only channels are checked")
@@ -44,8 +45,9 @@ def answer(series: Series, run: Run) -> Checked:
             )  # fmt: skip
             courses.append(finding.course)
     return Checked(
-        found=tuple(found), recordings=len(problem), segments=segments, findings=len(found),
-        spoiling=sum(one.spoils for one in found), notes=tuple(notes), **_drawn(found, courses),
+        found=tuple(found), recordings=len(problem), segments=segments, refused=refused,
+        findings=len(found), spoiling=sum(one.spoils for one in found), notes=tuple(notes),
+        **_drawn(found, courses),
     )  # fmt: skip
 
 

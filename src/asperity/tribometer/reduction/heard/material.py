@@ -116,7 +116,7 @@ class Material:
         values = np.where(self.blocks.lost[signal], math.nan, self.blocks.means[signal])[here]
         time = self.blocks.time[here]
         known = np.isfinite(values)
-        unit = SIGNALS[signal].unit
+        unit = SIGNALS[signal].unit_in_text
         spans = tuple((one.first * length, one.last * length) for one in marked)
         return Course(time[known], values[known], "time (s)", f"{signal} ({unit})", spans)
 

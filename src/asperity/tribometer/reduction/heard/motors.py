@@ -58,7 +58,7 @@ def _signs(of: Material) -> Iterator[Finding]:
     def told(signal: str, against: str, *, spoils: bool = True) -> Finding:
         value, _ = _middle(of, signal)
         return Finding(
-            f"{signal} has the wrong sign", f"{value:.3g} {SIGNALS[signal].unit} {against}",
+            f"{signal} has the wrong sign", f"{value:.3g} {SIGNALS[signal].unit_in_text} {against}",
             "turn the sensor's leads, or the sign of its calibration points", (signal,),
             of.course(signal), spoils=spoils,
         )  # fmt: skip

@@ -69,7 +69,7 @@ def _stands(of: Material, signal: str) -> bool:
 
 
 def _value(of: Material, signal: str) -> str:
-    return f"{float(np.median(of.blocks.means[signal])):.3g} {SIGNALS[signal].unit}"
+    return f"{float(np.median(of.blocks.means[signal])):.3g} {SIGNALS[signal].unit_in_text}"
 
 
 def _dead(of: Material, rest: Rest, constant: list[str]) -> Iterator[Finding]:
@@ -93,7 +93,7 @@ def _dead(of: Material, rest: Rest, constant: list[str]) -> Iterator[Finding]:
         if abs(moved) > max(_SURE * error, least_of(signal), _CHANGES * largest):
             continue
         answers = [one for one in rest.answering if one.endswith(disc)]
-        unit = SIGNALS[signal].unit
+        unit = SIGNALS[signal].unit_in_text
         # A worm that is driven on takes no current.
         yield Finding(
             f"{signal} does not answer its motor",
@@ -114,7 +114,7 @@ def _held(of: Material, signal: str, rest: Rest) -> Iterator[Finding]:
     shares_at_rest = [float(flat[one.first : one.last].mean()) for one in rest.stretches]
     least = min([*shares, *shares_at_rest], default=1.0)
     told: set[int] = set()
-    unit, worth = SIGNALS[signal].unit, of.blocks.means[signal]
+    unit, worth = SIGNALS[signal].unit_in_text, of.blocks.means[signal]
     for (place, window), share in zip(places, shares, strict=True):
         if place in told:
             continue
@@ -156,7 +156,7 @@ def _ended(of: Material, signal: str, low: Counts, high: Counts, window: Stretch
     value = line.offset + line.gain * (source.offset + source.scale * extreme)
     return (
         f"{100.0 * max(tops, bottoms):.0f} % of {window.count * of.blocks.length:.2g} s end at "
-        f"{value:.4g} {SIGNALS[signal].unit}"
+        f"{value:.4g} {SIGNALS[signal].unit_in_text}"
     )
 
 
@@ -169,7 +169,7 @@ def _noisy(of: Material, signal: str) -> Iterator[Finding]:
         ]
         if level < least_of(signal) or max(noises) <= _NOISE * level:
             continue
-        unit = SIGNALS[signal].unit
+        unit = SIGNALS[signal].unit_in_text
         yield Finding(
             f"{signal} is noisy",
             f"from sample to sample it varies by {noises[0]:.2g} {unit} before and {noises[1]:.2g} "
@@ -208,10 +208,11 @@ def _jumping(of: Material, signal: str) -> Iterator[Finding]:
                 for one in np.flatnonzero(off | spiked)
             ]
             most = float(np.abs(left).max())
+            often = "once" if times == 1 else f"{times} times"
             yield Finding(
                 f"{signal} jumps",
-                f"{times} times in {window.count * of.blocks.length:.2g} s, by up to {most:.2g} "
-                f"{SIGNALS[signal].unit} in {1e3 * of.blocks.length:.0f} ms",
+                f"{often} in {window.count * of.blocks.length:.2g} s, by up to {most:.2g} "
+                f"{SIGNALS[signal].unit_in_text} in {1e3 * of.blocks.length:.0f} ms",
                 "look for a loose contact or a screen that is off", (signal,),
                 of.course(signal, marked, part=of.around(place)), place,
             )  # fmt: skip

@@ -20,7 +20,7 @@ def spectrum_of(of: Material, place: int, signal: str) -> Course:
     values = of.recording.values(signal, one.shaken.first * samples, one.shaken.last * samples)
     scale, line = lines_of(of.recording, of.case.require(Channels))[signal]
     found = drive_signal.Spectrum.of(line.of(scale * values), of.recording.sample_interval)
-    across, up = "frequency (Hz)", f"{signal} ({SIGNALS[signal].unit})"
+    across, up = "frequency (Hz)", f"{signal} ({SIGNALS[signal].unit_in_text})"
     if found is None or one.tone is None:
         return Course(np.zeros(1), np.zeros(1), across, up)
     most = min(int(_HARMONICS * one.tone.frequency / found.step), found.lines.size)

@@ -254,7 +254,7 @@ def _running(of: Material, signal: str) -> float:
 def _findings(
     of: Material, signal: str, zero: Zero, level: float, *, mended: bool
 ) -> Iterator[Finding]:
-    unit = SIGNALS[signal].unit
+    unit = SIGNALS[signal].unit_in_text
     deviations = np.sqrt(np.diag(zero.covariance))
     place = int(np.argmax(np.abs(zero.values)))
     value, deviation = float(zero.values[place]), float(deviations[place])
