@@ -45,7 +45,7 @@ ROOM_OF_THEIR_OWN = {
     "asperity.slider.shooting.shoot",
     "asperity.slider.unknowns.unknown_scales",
     "asperity.thesis.drive.appendix_e.follow",
-    "asperity.tribometer.reduction.noise.lasting",
+    "asperity.tribometer.reduction.noise.weighed",
     "asperity.tribometer.reduction.noise.whitened",
     "asperity.tribometer.twin.plant_kernels.sample",
 }
