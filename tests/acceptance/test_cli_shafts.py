@@ -78,7 +78,7 @@ def test_shafts_leaves_a_report_a_picture_and_files_that_are_read_back(run, tmp_
     done = run("shafts", CASE, "--out", str(tmp_path))
     assert done.returncode == 0, done.stderr
     assert {each.name for each in tmp_path.iterdir()} == {
-        "report.html", "shafts.json", "shafts.nc", "shafts.png",
+        "report.html", "shafts.json", "shafts.nc", "shafts.png", "shafts.xlsx",
     }  # fmt: skip
     saved = read(tmp_path / "shafts.nc")
     assert saved.to_json() == json.loads((tmp_path / "shafts.json").read_text("utf-8"))
