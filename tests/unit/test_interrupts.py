@@ -2,6 +2,9 @@
 
 import subprocess
 import sys
+import zipfile
+
+from asperity.processes.interrupts import reraise_pending
 
 CLEANED_UP = """
 import signal, time
@@ -37,3 +40,20 @@ def test_what_else_is_dropped_is_told_as_before():
     )  # fmt: skip
     assert done.stdout == "done\n"
     assert "ValueError: lost" in done.stderr
+
+
+def test_an_archive_whose_making_was_broken_off_is_dropped_without_a_word(monkeypatch):
+    said = []
+    monkeypatch.setattr(sys, "unraisablehook", said.append)
+    reraise_pending()
+    half_made = zipfile.ZipFile.__new__(zipfile.ZipFile)
+    del half_made
+    assert said == []
+
+    class Other:
+        def __del__(self):
+            raise AttributeError("a defect")
+
+    other = Other()
+    del other
+    assert len(said) == 1

@@ -77,7 +77,7 @@ def test_what_made_the_data_is_found_again(tmp_path):
 @pytest.mark.slow
 def test_intervals_are_as_wide_as_the_information_allows(tmp_path):
     path = table(tmp_path / "data.csv", exact("table-4.3"))
-    result = fitted(path, "table-4.3", [LIMIT, EXPONENT], next="2")
+    result = fitted(path, "table-4.3", [LIMIT, EXPONENT], next=2)
     found = numbers(result)
     for key, bound in ((LIMIT, 0.065), (EXPONENT, 0.03)):
         low, high = found[key].ends

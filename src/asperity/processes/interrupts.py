@@ -21,7 +21,13 @@ def reraise_pending() -> None:
             again = threading.Timer(_SOON, os.kill, (os.getpid(), signal.SIGINT))
             again.daemon = True
             again.start()
-        else:
+        elif not _half_made(what):
             usual(what)
 
     sys.unraisablehook = dropped
+
+
+def _half_made(what: "sys.UnraisableHookArgs") -> bool:
+    """Whether it is an archive that cannot be closed since a Ctrl-C broke off its making."""
+    by = getattr(what.object, "__qualname__", "")
+    return isinstance(what.exc_value, AttributeError) and by == "ZipFile.__del__"

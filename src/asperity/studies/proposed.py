@@ -105,13 +105,12 @@ class Proposals(Result):
     def tables(self) -> tuple[Table, ...]:
         """Return a row for each proposal."""
         headings = ("", "a (mm)", "z_1", "z_2", "u", "m_x1 (mm)", "q_1", "x_2", "eta (%)", "margin",
-                    "least safety", "locks", "mass (kg)")  # fmt: skip
+                    "least safety", "locks")  # fmt: skip
         rows = [
             (str(place), f"{p.centre_distance_mm:g}", str(p.starts), str(p.wheel_teeth),
              f"{p.wheel_teeth / p.starts:.4g}",
              f"{p.axial_module_mm:g}", f"{p.diameter_factor:g}", f"{round(p.profile_shift, 3):g}",
-             f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", _safety(p.limited_by), p.locks,
-             "-" if p.mass_kg is None else f"{p.mass_kg:.3g}")
+             f"{100 * p.efficiency:.1f}", f"{p.margin:.2f}", _safety(p.limited_by), p.locks)
             for place, p in enumerate(self.found[:MOST], 1)
         ]  # fmt: skip
         best = self.found[0]
@@ -130,19 +129,21 @@ class Proposals(Result):
         return (Table.of(headings, rows, title=title, remarks=remarks), *self._made())
 
     def _made(self) -> Iterator[Table]:
-        """Yield what they are cut with and how they play, where that is asked."""
-        headings = ("", "hob", "backlash (arcmin)", "rim (kg)")
-        rows = [
-            (
-                str(place),
-                p.hob or "any",
-                _backlash(p),
-                "-" if p.rim_kg is None else f"{p.rim_kg:.3g}",
-            )
-            for place, p in enumerate(self.found[:MOST], 1)
-        ]
-        if any(p.hob or p.backlash_arcmin for p in self.found):
-            yield Table.of(headings, rows, title="Made with")
+        """Yield what they weigh and, where it is asked, what cuts them and how they play."""
+        shown = self.found[:MOST]
+        if any(p.mass_kg is None for p in shown):
+            return
+        columns = {
+            "": [str(place) for place, _ in enumerate(shown, 1)],
+            "mass (kg)": [f"{p.mass_kg:.3g}" for p in shown],
+            "rim (kg)": [f"{p.rim_kg:.3g}" for p in shown],
+        }
+        if any(p.hob for p in shown):
+            columns["hob"] = [p.hob for p in shown]
+        if any(p.backlash_arcmin for p in shown):
+            columns["backlash (arcmin)"] = [_backlash(p) for p in shown]
+        rows = list(zip(*columns.values(), strict=True))
+        yield Table.of(tuple(columns), rows, title="Worm and wheel as full bodies")
 
 
 def _safety(path: str) -> str:
