@@ -55,7 +55,7 @@ class PtyController:
                 return
             while b"\r\n" in text:
                 line, text = text.split(b"\r\n", 1)
-                answer = self._answer(line.decode())
+                answer = self._answer(line.decode("utf-8", "replace"))
                 if self.fault == "silent":
                     continue
                 sent = answer.encode() + b"\r\n"
