@@ -93,6 +93,27 @@ def test_a_duty_that_lacks_something_is_refused_by_its_file(asperity, tmp_path, 
     assert errors.count("\n") <= 1
 
 
+@pytest.mark.parametrize(
+    "life",
+    [
+        "wheel_revolutions = 100000",
+        'duty_cycle = "300 N m, 1000 h; 90 N m, 4000 h"',
+        'life = "3000 h"',
+    ],
+)
+def test_a_life_in_any_form_takes_the_place_of_the_assumed_one(asperity, tmp_path, life):
+    (tmp_path / "own.toml").write_text(
+        "[requirements]\nratio = 40\n[operation]\n"
+        f'output_torque = "300 N m"\nworm_speed = "1500 rpm"\n{life}\n'
+    )
+    code, _, errors = asperity("size", "own.toml", "--uncut", "--out", "out", cwd=tmp_path)
+    assert code == 0, errors
+    operation = read_case(tmp_path / "out" / "proposal-1.toml", case_tables()).tables["operation"]
+    key = life.partition(" ")[0]
+    assert getattr(operation, key) is not None
+    assert {"wheel_revolutions", "duty_cycle", "life"} & operation.model_fields_set == {key}
+
+
 def test_without_case_or_torque_it_is_asked_for(asperity, tmp_path):
     code, _, errors = asperity("size", "--ratio", "40", cwd=tmp_path)
     assert code == 2

@@ -149,6 +149,20 @@ class Moments(NamedTuple):
     axial: FloatArray
 
 
+def _in_balance(
+    loads: Sequence[PointLoad],
+    carried: Reactions,
+    bearings: tuple[Any, Any],
+    fixed: tuple[Any, Any],
+) -> list[PointLoad]:
+    """Return the loads with what bearings and coupling put against them."""
+    every = list(loads)
+    for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
+        every.append(PointLoad(place, (-fx, -fy, -fz)))
+    every.append(PointLoad(0.0, (0.0, 0.0, 0.0), (carried.torque, 0.0, 0.0)))
+    return every
+
+
 def section(
     at: Any,
     loads: Sequence[PointLoad],
@@ -178,10 +192,7 @@ def section(
     bending, torque, axial : float
         N mm, N mm and N.
     """
-    every = list(loads)
-    for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
-        every.append(PointLoad(place, (-fx, -fy, -fz)))
-    every.append(PointLoad(0.0, (0.0, 0.0, 0.0), (carried.torque, 0.0, 0.0)))
+    every = _in_balance(loads, carried, bearings, fixed)
     before = [load for load in every if (load.at <= at if behind else load.at < at)]
     bending_y = total([(at - load.at) * load.force[1] + load.couple[2] for load in before] or [0.0])
     bending_z = total([(at - load.at) * load.force[2] - load.couple[1] for load in before] or [0.0])
@@ -219,10 +230,7 @@ def moments(
     Moments
         On either side of each place.
     """
-    every = list(loads)
-    for place, (fy, fz), fx in zip(bearings, (carried.first, carried.second), fixed, strict=True):
-        every.append(PointLoad(place, (-fx, -fy, -fz)))
-    every.append(PointLoad(0.0, (0.0, 0.0, 0.0), (carried.torque, 0.0, 0.0)))
+    every = _in_balance(loads, carried, bearings, fixed)
     at = np.array([load.at for load in every])
     force = np.array([load.force for load in every])
     couple = np.array([load.couple for load in every])

@@ -3,7 +3,7 @@
 from typing import Any
 
 from asperity.casefile.case import read_raw
-from asperity.casefile.table import names_file
+from asperity.casefile.table import names_file, same_thing
 from asperity.commands import case_tables
 from asperity.errors import InputError, nearest, shown
 from asperity.rating.load_steps import LOADS
@@ -44,9 +44,13 @@ def duty(name: str = "") -> Values:
                              f"{nearest(table, known)}")  # fmt: skip
         if not isinstance(entries, dict):
             raise InputError(f"{case.source}: {table} must be one table; write it as [{table}]")
+        mine = values.setdefault(table, {})
+        # What is assumed gives way to any form of the same thing.
+        for other in {form for key in entries for form in same_thing(known[table], key)}:
+            mine.pop(other, None)
         for key, value in entries.items():
             named = isinstance(value, str) and names_file(known[table], key)
-            values.setdefault(table, {})[key] = str(case.folder / value) if named else value
+            mine[key] = str(case.folder / value) if named else value
             given.add(f"{table}.{key}")
     drop_begun_life(values, given)
     return values
