@@ -17,6 +17,7 @@ from asperity.commands.command import Command
 from asperity.errors import ConvergenceError, InputError, StorageError, choices, plain, shown
 from asperity.files.store import output_folder, reason, write_text
 from asperity.results.files import picture_format
+from asperity.results.language import Catalogue, catalogue_of, spoken
 from asperity.results.system import System, shown_in
 from asperity.runs import Run
 
@@ -62,6 +63,7 @@ def execute(
     out: Path | None,
     pictures: str = "png",
     units: str = "",
+    language: str = "",
     **options: Any,
 ) -> None:
     """Do what a command does with a case, tell the answer and write its files.
@@ -84,6 +86,8 @@ def execute(
         What pictures are written as; empty: none are.
     units : str
         What people are shown it in, ``si`` or ``us``; empty: as the case says.
+    language : str
+        What people are shown it in, ``en``, ``de`` or a file of sentences; empty: as the case says.
     **options
         What the command takes beside a case.
     """
@@ -96,6 +100,7 @@ def execute(
     found = command.case_of(case, settings, **options)
     given = [options[argument.name] for argument in command.arguments if not argument.many]
     teller.read(found)
+    words = catalogue_of(language) if language else _own_language(found)
     with naming_source(found, *given):
         problem = command.prepared(found, **options)
     if out is None and command.into:
@@ -115,7 +120,7 @@ def execute(
             raise
     # What was measured is what an answer is about, rather than how it is read.
     source = plain(given[0]) if given else found.source
-    with shown_in(_system(units, found)):
+    with shown_in(_system(units, found)), spoken(words):
         shown = teller.show(source, found, result)
         if file is not None:
             teller.written(result.save(file), ())
@@ -137,9 +142,18 @@ def execute(
 
 def _system(units: str, case: "Case") -> System | None:
     """Return the system of units that is asked for, or that of the case."""
-    project = case.get(Project)
-    own: System | None = None if project is None else project.units
+    own: System = _project(case).units
     return "us" if units == "us" else "si" if units == "si" else own
+
+
+def _own_language(case: "Case") -> Catalogue | None:
+    language = _project(case).language
+    # A file is named as it stands beside the case.
+    return catalogue_of(str(case.folder / language) if language.endswith(".toml") else language)
+
+
+def _project(case: "Case") -> Project:
+    return case.get(Project, Project())
 
 
 def _check_new(file: Path, command: Command) -> None:

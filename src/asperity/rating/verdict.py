@@ -12,6 +12,7 @@ from asperity.rating.result import Rating
 from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
+from asperity.results.language import said
 from asperity.results.system import shown_text
 from asperity.results.words import Number, Sentence
 
@@ -51,7 +52,8 @@ class Safety(NamedTuple):
     def said(self) -> str:
         """What there is of what is asked, and that it fails where it does."""
         d = self.demand
-        return f"{d.symbol} {_short(self.value)} of {d.asked:g}{'' if self.holds else '  FAILS'}"
+        fails = "" if self.holds else f"  {said('FAILS')}"
+        return f"{d.symbol} {_short(self.value)} {said('of')} {d.asked:g}{fails}"
 
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""
@@ -236,10 +238,10 @@ class Verdict(NamedTuple):
             return
         unit = _BAR // int(_LONGEST)
         scale = "".join(f"{number:>{unit}}" for number in range(1, int(_LONGEST) + 1))
-        yield f"{'':25}{scale}  times what is asked"
+        yield f"{'':25}{scale}  {said('times what is asked')}"
         for safety in self.safeties:
             d = safety.demand
-            name = f"{NAMES[d.standard]} {d.name}"
+            name = f"{NAMES[d.standard]} {said(d.name)}"
             yield f"{name:24} {bar(safety.margin)} {safety.said}"
         for row in self.rows:
             yield from wrapped(row.line)
@@ -351,10 +353,10 @@ def screen(
     more = len(kept["remarks"]) - shown
     rest = "number rests" if memory == 1 else "numbers rest"
     further = f", {more} remark{'s' * (more > 1)}" if more > 0 else ""
-    lines["end"] = [
+    lines["end"] = wrapped(
         f"assumed {assumed} key{'s' * (assumed != 1)}, {memory} {rest} on sources from memory"
         f"{further}: --full"
-    ]
+    )
     order = (
         "stands", "first", "best", "bars", "power", "duty", "film", "locking", "play", "remarks",
         "end",
