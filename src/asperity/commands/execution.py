@@ -9,16 +9,15 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, get_args
+from typing import TYPE_CHECKING, Any, Protocol
 
 from asperity.casefile import naming_source
 from asperity.casefile.project import Project
 from asperity.commands.command import Command
-from asperity.errors import ConvergenceError, InputError, StorageError, choices, plain, shown
+from asperity.commands.shown import check_shown, shown_as
+from asperity.errors import ConvergenceError, InputError, StorageError, plain, shown
 from asperity.files.store import output_folder, reason, write_text
 from asperity.results.files import picture_format
-from asperity.results.language import Catalogue, catalogue_of, spoken
-from asperity.results.system import System, shown_in
 from asperity.runs import Run
 
 if TYPE_CHECKING:
@@ -91,8 +90,7 @@ def execute(
     **options
         What the command takes beside a case.
     """
-    if units not in ("", *get_args(System)):
-        raise InputError(f"--units {units}: it must be one of {choices(get_args(System))}")
+    check_shown(units, language)
     pictures = pictures and picture_format(pictures)
     file = out if command.out != "DIR" else None
     if file is not None:
@@ -100,7 +98,7 @@ def execute(
     found = command.case_of(case, settings, **options)
     given = [options[argument.name] for argument in command.arguments if not argument.many]
     teller.read(found)
-    words = catalogue_of(language) if language else _own_language(found)
+    shown_so = shown_as(found.get(Project, Project()), found.folder, units, language)
     with naming_source(found, *given):
         problem = command.prepared(found, **options)
     if out is None and command.into:
@@ -120,7 +118,7 @@ def execute(
             raise
     # What was measured is what an answer is about, rather than how it is read.
     source = plain(given[0]) if given else found.source
-    with shown_in(_system(units, found)), spoken(words):
+    with shown_so:
         shown = teller.show(source, found, result)
         if file is not None:
             teller.written(result.save(file), ())
@@ -138,22 +136,6 @@ def execute(
         raise shown
     if result.failure is not None:
         raise result.failure
-
-
-def _system(units: str, case: "Case") -> System | None:
-    """Return the system of units that is asked for, or that of the case."""
-    own: System = _project(case).units
-    return "us" if units == "us" else "si" if units == "si" else own
-
-
-def _own_language(case: "Case") -> Catalogue | None:
-    language = _project(case).language
-    # A file is named as it stands beside the case.
-    return catalogue_of(str(case.folder / language) if language.endswith(".toml") else language)
-
-
-def _project(case: "Case") -> Project:
-    return case.get(Project, Project())
 
 
 def _check_new(file: Path, command: Command) -> None:

@@ -18,6 +18,7 @@ from asperity.results.words import Number, Sentence
 
 _LONGEST = 3.0
 _BAR = 27
+_NAMES = 24
 _MOST_LEVERS = 3
 _MOST_REMARKS = 3
 _MOST_LINES = 23
@@ -236,13 +237,13 @@ class Verdict(NamedTuple):
         """
         if not self.safeties:
             return
+        names = [f"{NAMES[one.demand.standard]} {said(one.demand.name)}" for one in self.safeties]
+        wide = max(_NAMES, *map(len, names))
         unit = _BAR // int(_LONGEST)
         scale = "".join(f"{number:>{unit}}" for number in range(1, int(_LONGEST) + 1))
-        yield f"{'':25}{scale}  {said('times what is asked')}"
-        for safety in self.safeties:
-            d = safety.demand
-            name = f"{NAMES[d.standard]} {said(d.name)}"
-            yield f"{name:24} {bar(safety.margin)} {safety.said}"
+        yield f"{'':{wide + 1}}{scale}  {said('times what is asked')}"
+        for name, safety in zip(names, self.safeties, strict=True):
+            yield f"{name:{wide}} {bar(safety.margin)} {safety.said}"
         for row in self.rows:
             yield from wrapped(row.line)
         yield from wrapped(self.wear_assumed)

@@ -22,12 +22,14 @@ from asperity.results.words import Number, Sentence
 ENGLISH = "en"
 _FOLDER = Path(__file__).with_name("languages")
 _HOLE = re.compile(r"\{(\w+)\}")
-_WORD = re.compile(r"(?<![\w.])[a-z][a-z-]{2,}(?![\w.(=])")
+_WORD = re.compile(r"(?<![\w.])[a-z][a-z-]{2,}(?![\w(=]|\.\w)")
 # Numbers of a sentence keep their digits and keys: signs of no language stand for them meanwhile.
 _FIRST = 0xE000
 _MARK = re.compile("[\ue000-\uf8ff]")
 # What a row of texts is joined by, where the row itself has no line.
-_BETWEEN = ("; ", ". ", ": ", ", ", " and ", " + ", " (")
+_SHORT = len("_n")
+_MOST_PIECES = 16
+_BETWEEN = (". ", ": ", ", ", " and ", " + ", " (")
 
 
 class _Line(NamedTuple):
@@ -86,27 +88,71 @@ class Catalogue:
             return None if inner is None else text.replace(bare, inner)
         if text in self._kept or not _WORD.search(text):
             return text
+        # A line is of one sentence of a row rather than of the whole row.
+        return (
+            self._by_line(text, whole=True)
+            or self._in_row(text, "; ")
+            or self._by_line(text, whole=False)
+            or self._in_parts(text)
+        )
+
+    def _by_line(self, text: str, *, whole: bool) -> str | None:
+        """Return a text by a line with holes; where they are ``whole`` none of them has a row."""
         for line in self._lines:
             if line.longest in text and (found := line.found.fullmatch(text)):
+                if not all(_is_whole(part) and not (whole and "; " in part)
+                           for part in found.groups()):  # fmt: skip
+                    continue
                 parts = {name: self._in_hole(name, found[name]) for name in line.holes}
                 if None not in parts.values():
                     return line.said.format(**parts)
-        return self._in_parts(text)
+        return None
 
     def _in_hole(self, name: str, text: str) -> str | None:
-        """Return what stands in a hole; one whose name begins with a line below stays as it is."""
-        return text if name.startswith("_") else self._found(text)
+        """Return what stands in a hole: in ``_name`` any text, in ``_n`` one without words."""
+        if not name.startswith("_"):
+            return self._found(text)
+        if "; " in text or (len(name) == _SHORT and _WORD.search(text)):
+            return None
+        return text
 
     def _in_parts(self, text: str) -> str | None:
         """Return texts in a row, each by its own line."""
-        for between in _BETWEEN:
-            if between in text:
-                parts = [self._found(part) for part in text.split(between)]
-                if None not in parts:
-                    joint = self._texts.get(between.strip(), between.strip())
-                    made = between.replace(between.strip(), joint)
-                    return made.join(part for part in parts if part is not None)
-        return None
+        if text.endswith(".") and (found := self._found(text[:-1])) is not None:
+            return f"{found}."
+        rows = (self._in_row(text, between) for between in _BETWEEN)
+        return next((row for row in rows if row is not None), None)
+
+    def _in_row(self, text: str, between: str) -> str | None:
+        if between not in text or not (parts := self._row(text.split(between), between)):
+            return None
+        joint = self._texts.get(between.strip(), between.strip())
+        return between.replace(between.strip(), joint).join(parts)
+
+    def _row(self, pieces: list[str], between: str) -> list[str]:
+        """Return the texts that pieces are of, as few pieces to each as have a line; or none."""
+        if len(pieces) > _MOST_PIECES:
+            return []
+        for count in range(1, len(pieces)):
+            first = self._found(between.join(pieces[:count]))
+            if first is None:
+                continue
+            rest = pieces[count:]
+            if len(rest) > 1 and (others := self._row(rest, between)):
+                return [first, *others]
+            if (last := self._found(between.join(rest))) is not None:
+                return [first, last]
+        return []
+
+
+def _is_whole(text: str) -> bool:
+    """Return whether what stands in a hole may be one: it has both of each pair of brackets."""
+    depth = 0
+    for sign in text:
+        depth += (sign == "(") - (sign == ")")
+        if depth < 0:
+            return False
+    return depth == 0
 
 
 def _line(english: str, said: str) -> _Line:

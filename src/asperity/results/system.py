@@ -71,9 +71,10 @@ _SUFFIXES = {
 _TEXT = sorted((unit for unit in US if unit != "m"), key=len, reverse=True)
 _NUMBER = r"[+-]{0,2}\d+(?:\.\d+)?(?:[eE][+-]?\d+)?"
 _UNIT = "|".join(map(re.escape, _TEXT))
-# "3 to 4 mm", "1.2 of 3 W", "10, 20 and 30 N m": what a unit at the end is of.
+# "3 to 4 mm", "1.2 of 3 W", "10, 20 and 30 N m": what a unit at the end is of; but not what is to
+# be given as it stands, "key=3 mm".
 _RUN = re.compile(
-    rf"(?<![\w.+/*^-])(?P<numbers>{_NUMBER}(?:(?:, | to | of | and |/){_NUMBER})*)"
+    rf"(?<![\w.+/*^=-])(?P<numbers>{_NUMBER}(?:(?:, | to | of | and |/){_NUMBER})*)"
     rf"(?P<space> )(?P<unit>{_UNIT})(?![\w/^*(]|\s*/)"
 )
 _HEAD = re.compile(rf"\((?P<unit>{_UNIT})\)$")
