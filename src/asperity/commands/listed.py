@@ -231,6 +231,14 @@ COMMANDS = (
         counts="amplitudes",
     ),
     Command(
+        "control",
+        "Switch a drive's vibration in a stroke, by a sensor or a clutch, and let each part fail.",
+        "With --out also control.json, control.nc and pictures.",
+        module="asperity.drive.control.study",
+        needs=("gearset", "operation", "drive", "control"),
+        counts="thousandths of strokes",
+    ),
+    Command(
         "fit",
         "Fit a friction law to measured ratios or forces: intervals, and what data cannot tell.",
         "With --out also fit.json, fit.nc and fit.png.",
