@@ -1,6 +1,8 @@
 """A stroke whose vibration is switched: sensor, thresholds, failures, a clutch."""
 
 import math
+import os
+import signal
 
 import numpy as np
 import pytest
@@ -14,7 +16,7 @@ from asperity.drive.control.parameters import Control
 from asperity.drive.control.sensor import Filter, alias, late_by, passed
 from asperity.drive.control.switching import FROZEN, TOO_LONG, Switch
 from asperity.errors import InputError
-from asperity.runs import Run
+from asperity.runs import Interrupted, Run
 
 # A short stroke whose vibration comes fast.
 SHORT = (
@@ -123,6 +125,30 @@ def test_without_vibration_the_motor_s_work_is_that_of_the_loads():
     between = found.load[dead] < 22.0 + 1e-9
     assert found.torque[dead][between].mean() == pytest.approx(found.torque_static / 3.0, rel=2e-3)
     assert found.shares_on[dead] == 0.0
+
+
+def test_a_stroke_interrupted_goes_on_with_those_that_are_done(tmp_path, monkeypatch):
+    asked = study.prepare(case(*SHORT, "drive.stroke=12 deg", "control.failures=dead"))
+    marched, march = [], study.march_stroke
+
+    def counted(*words, **keys):
+        marched.append(words[3])
+        return march(*words, **keys)
+
+    monkeypatch.setattr(study, "march_stroke", counted)
+    wanted = study.answer(asked, Run()).to_json()
+
+    class Pressed(Run):
+        def checkpoint(self, done, *words):
+            if done >= 1500:
+                os.kill(os.getpid(), signal.SIGINT)
+            super().checkpoint(done, *words)
+
+    with pytest.raises(Interrupted, match=r"the same command goes on from .*npz"):
+        study.answer(asked, Pressed(folder=tmp_path))
+    marched.clear()
+    assert study.answer(asked, Run(folder=tmp_path)).to_json() == wanted
+    assert marched == ["dead", ""]
 
 
 @pytest.mark.slow

@@ -106,8 +106,8 @@ class Controlled(Result):
 
     def headline(self) -> tuple[str, ...]:
         """Return what the motor needs, how long it is shaken, what holds, and what fails."""
-        peak = Number.of(self.peak, ".3g", "peak_N_m")
-        still = Number.of(self.torque_static, ".3g", "torque_static_N_m")
+        peak = Number.of(self.peak, ".3g", "peak_Nm")
+        still = Number.of(self.torque_static, ".3g", "torque_static_Nm")
         needs = Sentence(
             "the motor needs ", peak, " N m at most, without vibration ", still, " N m"
         )
@@ -141,7 +141,7 @@ class Controlled(Result):
         rows = [
             {
                 "failure": str(name),
-                "peak_N_m": float(self.peaks[n]),
+                "peak_Nm": float(self.peaks[n]),
                 "share_on": float(self.shares_on[n]),
                 "switched": int(self.times_on[n]),
                 "crept_rad": float(self.creeps[n]),

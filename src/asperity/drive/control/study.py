@@ -6,10 +6,11 @@ import math
 import numpy as np
 
 from asperity.casefile import Case, naming_source
+from asperity.drive.control.machine import rise_of, seat_and_between
 from asperity.drive.control.parameters import FAILURES, Control
 from asperity.drive.control.result import Controlled
 from asperity.drive.control.sensor import alias, late_by, passed
-from asperity.drive.control.stroke import Stroke, march_stroke, rise_of, seat_and_between
+from asperity.drive.control.stroke import Stroke, march_stroke
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import asked
@@ -95,12 +96,9 @@ def _strokes(
             if label not in known:
                 made = march_stroke(
                     problem, model, control, name, run, 1000 * n, 1000 * len(wanted),
-                    coarser=coarser,
+                    coarser=coarser, kept=lambda: known,
                 )  # fmt: skip
                 known[label] = to_tree(made)
-                run.checkpoint(
-                    1000 * (n + 1), 1000 * len(wanted), lambda: known, "thousandths of strokes"
-                )
             found.append(from_tree(Stroke, known[label]))
     return dict(zip(names, found, strict=False)), found[-1]
 
