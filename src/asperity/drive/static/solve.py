@@ -21,6 +21,7 @@ from asperity.drive.resolved.flank import ExactFlank
 from asperity.drive.resolved.strip import ZONES
 from asperity.drive.shafts import compliances_of
 from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
+from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
 from asperity.drive.static.pressure import modulus_of
 from asperity.drive.static.result import PATTERNS, StaticResult
@@ -216,7 +217,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
             ],
             lambda done: run.checkpoint(done, total, what="phases"),
         )
-        model.courses(
+        lighter = model.courses(
             [
                 LoadCase(share * load, evaluate=part.evaluate)
                 for share, part in zip(PATTERNS[:-1], less_loaded, strict=True)
@@ -224,6 +225,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
             lambda done: run.checkpoint(count + done, total, what="phases"),
         )
         back = _back_patterns(model, 2 * count, total) if run.detailed else None
+    error = ErrorHarmonics.of(sector_.wheel, [*lighter, forward])
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, np.array(seen.turns[::every]), more, less)
@@ -263,7 +265,13 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         torque_frictionless=frictionless.worm_torque,
         torque_reversed=reversed_.worm_torque,
         error_loaded=forward.error,
-        error_unloaded=forward.touching,
+        error_unloaded=error.unloaded,
+        error_torque=error.torque,
+        error_order=error.order,
+        error_amplitude=error.amplitude,
+        error_phase=error.phase,
+        error_noise=error.noise,
+        error_noise_range=error.noise_range,
         tooth_force=forward.tooth_force,
         part=np.array(list(parts)),
         part_stiffness=np.array(list(parts.values())),
@@ -273,7 +281,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         node_radius=np.hypot(places[:, 0], places[:, 1]),
         node_face=problem.gearset.hand_sign * places[:, 2],
         faces=model.resolved.flank.faces,
-        notes=notes_of(problem, seen, forward),
+        notes=notes_of(problem, seen, forward, error.noise_range),
     )
 
 
