@@ -16,6 +16,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.drive.resolved.smooth import smoothed
 from asperity.drive.teeth.sector import Sector, lattice
 from asperity.drive.teeth.threads import thread_flexibility
+from asperity.flanks.wheel.enveloped import Wheel
 from asperity.gearset.materials import Material
 
 _MILLIMETRES = 1e3
@@ -62,17 +63,7 @@ class ExactFlank:
     @cached_property
     def grid(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Exact points (k, 3), their normals, shares of the flank's height, and face places."""
-        wheel = self.sector.wheel
-        shares = np.linspace(0.0, 1.0, _ROWS)
-        z = wheel.blank.columns(_COLUMNS)
-        made = wheel.flank(1).at_shares(shares, z)
-        share = np.repeat(shares, z.size)
-        return (
-            made.points.reshape(-1, 3) / _MILLIMETRES,
-            made.normals.reshape(-1, 3),
-            share,
-            made.z.reshape(-1) / _MILLIMETRES,
-        )
+        return grid_of(self.sector.wheel)
 
     @cached_property
     def on_grid(self) -> sparse.csr_array:
@@ -88,9 +79,7 @@ class ExactFlank:
     @property
     def faces(self) -> IntArray:
         """Faces between the points of `grid`, (m, 4)."""
-        at = np.arange(self.nodes).reshape(_ROWS, -1)
-        corners = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
-        return np.stack([corner.ravel() for corner in corners], axis=1)
+        return grid_faces()
 
     def nearest(self, share: FloatArray, z: FloatArray) -> IntArray:
         """Return the number of the nearest point of `grid` to places on the flank."""
@@ -200,6 +189,27 @@ class ExactFlank:
         matrix[first, second] = found
         (px, dx), (py, dy) = powers(x, 0), powers(y, 1)
         return Heights(px @ matrix @ py.T, dx @ matrix @ py.T, px @ matrix @ dy.T, off)
+
+
+def grid_of(wheel: Wheel) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return exact points of a wheel's flank, as `ExactFlank.grid`."""
+    shares = np.linspace(0.0, 1.0, _ROWS)
+    z = wheel.blank.columns(_COLUMNS)
+    made = wheel.flank(1).at_shares(shares, z)
+    share = np.repeat(shares, z.size)
+    return (
+        made.points.reshape(-1, 3) / _MILLIMETRES,
+        made.normals.reshape(-1, 3),
+        share,
+        made.z.reshape(-1) / _MILLIMETRES,
+    )
+
+
+def grid_faces() -> IntArray:
+    """Return the faces between the points of `grid_of`, (m, 4)."""
+    at = np.arange(_ROWS * _COLUMNS).reshape(_ROWS, -1)
+    corners = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
+    return np.stack([corner.ravel() for corner in corners], axis=1)
 
 
 @functools.cache

@@ -24,10 +24,11 @@ _EDGES = {
 
 def notes_of(problem: DriveProblem, seen: Seen, forward: Course, noise: float) -> tuple[str, ...]:
     """Return the notes of a loaded gearset; ``noise`` is the mesh's part of the error, rad."""
-    return (*_rigid(problem), *_pressures(problem, seen), *_error(problem, forward, noise))
+    return (*rigid_parts(problem), *_pressures(problem, seen), *_error(problem, forward, noise))
 
 
-def _rigid(problem: DriveProblem) -> Iterator[str]:
+def rigid_parts(problem: DriveProblem) -> Iterator[str]:
+    """Yield what of the drive is taken as rigid."""
     left_out = [
         what
         for what, there in (

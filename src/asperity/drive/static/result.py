@@ -118,6 +118,15 @@ class StaticResult(Drawn):
     loaded_teeth_min: int = quantity("", "", "teeth under load, least over a pitch")
     loaded_teeth_max: int = quantity("", "", "teeth under load, most over a pitch")
     load_share_max: float = quantity("", "", "largest share of a tooth in the normal force")
+    k_h_beta: float = quantity(
+        "K_Hbeta", "", "force by width of the face, largest over mean, of a pitch"
+    )
+    k_h_alpha: float = quantity(
+        "K_Halpha", "", "largest force of a tooth over that of an even share"
+    )
+    line_load: float = quantity(
+        "w", "N/mm", "largest force by length along a contact", key="line_load_N_mm"
+    )
     pressure_flank: float = quantity(
         "p", "MPa", "largest pressure on the flank, away from edges", key="pressure_flank_MPa"
     )

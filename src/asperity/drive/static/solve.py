@@ -26,6 +26,7 @@ from asperity.drive.static.notes import notes_of
 from asperity.drive.static.pressure import modulus_of
 from asperity.drive.static.result import PATTERNS, StaticResult
 from asperity.drive.static.seen import Pattern, Seen, contact_means
+from asperity.drive.static.spread import LOADED, k_h_alpha
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
@@ -47,18 +48,22 @@ _MILLIMETRES = 1e3
 _MEGA, _MICRO = 1e6, 1e6
 # Torques beside the load, between which the tangent stiffness is taken.
 _BESIDE = 0.01
-# A tooth with less of the normal force counts as unloaded.
-_LOADED = 1e-3
 # For the stiffness each third of the phases, where there are many.
 _EVERY, _MANY = 3, 12
 
 
+def wheel_of(problem: DriveProblem) -> Wheel:
+    """Return the wheel of a drive, cut and mounted as its case says."""
+    return Wheel.cut(
+        Pair.of(problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc)
+    )
+
+
 def condensed(problem: DriveProblem, run: Run) -> Sector:
     """Return the elastic teeth of a drive, condensed or from those that are kept."""
-    pair = Pair.of(problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc)
     drive = problem.drive
     found = sector(
-        Wheel.cut(pair),
+        wheel_of(problem),
         problem.gearset.wheel_material,
         density=drive.density,
         teeth=drive.teeth,
@@ -230,7 +235,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     radius = seen.radius / seen.weight
     parts = _parts(model, np.array(seen.turns[::every]), more, less)
     share = forward.tooth_force / forward.tooth_force.sum(axis=1, keepdims=True)
-    loaded = (share > _LOADED).sum(axis=1)
+    loaded = (share > LOADED).sum(axis=1)
     axes = contact.stand.axes
     on_worm = -forward.wrench[:, :3].mean(axis=0)
     places = model.resolved.flank.grid[0]
@@ -256,6 +261,9 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         loaded_teeth_min=int(loaded.min()),
         loaded_teeth_max=int(loaded.max()),
         load_share_max=float(share.max()),
+        k_h_beta=seen.spread.k_h_beta,
+        k_h_alpha=k_h_alpha(forward.tooth_force),
+        line_load=seen.spread.line_load / _MILLIMETRES,
         **_pressures(model, seen),
         residual=max(forward.residual, frictionless.residual, reversed_.residual),
         teeth_nodes=sector_.body.nodes,
