@@ -308,6 +308,10 @@ if __name__ == "__main__":
         ),
         "drive_locking": of_command("locking", "drive-actuator"),
         "loaded_error": of_command("drive", "drive-screw", picture="drive_error", static=True),
+        "misalign": of_command(
+            "misalign", "drive-screw", "tolerances.centre_distance=js8",
+            "tolerances.axial_offset=30 um", "tolerances.shaft_angle=0.02 deg",
+        ),
         "shafts": of_command("shafts", "actuator-shafts"),
         "catalogue": catalogues(),
     }  # fmt: skip

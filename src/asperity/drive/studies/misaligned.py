@@ -14,7 +14,7 @@ from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
 from asperity.results.table import Table
-from asperity.results.words import text_of
+from asperity.results.words import Number, text_of
 from asperity.sweep.axis import Axis
 
 _POINT = ("point",)
@@ -199,6 +199,7 @@ class Misaligned(Drawn):
             "force_worm_tip_N": self.force_worm_tip,
             "force_wheel_tip_N": self.force_wheel_tip,
             "force_face_end_N": self.force_face_end,
+            "force_edge_N": self.edge_force,
             "flow_depth_um": _MICRO * self.flow_depth,
             "transmission_error_rad": self.transmission_error,
             "deflection_rad": self.deflection,
@@ -265,22 +266,23 @@ class Misaligned(Drawn):
             "flank (MPa)", "edge (N)", "error (urad)", "K_Hbeta", "K_Halpha", "share",
             "face (mm)", "radial (mm)",
         )  # fmt: skip
-        numbers = (
-            _MEGA * self.pressure_flank, self.edge_force, _MICRO * self.transmission_error,
-            self.k_h_beta, self.k_h_alpha, self.load_share, _MILLI * self.shift_face,
-            _MILLI * self.shift_radial,
+        shown = (
+            ("pressure_flank_MPa", ".0f", 1.0), ("force_edge_N", ".0f", 1.0),
+            ("transmission_error_rad", ".1f", _MICRO), ("k_h_beta", ".2f", 1.0),
+            ("k_h_alpha", ".2f", 1.0), ("load_share_max", ".2f", 1.0),
+            ("shift_face_mm", ".3f", 1.0), ("shift_radial_mm", ".3f", 1.0),
         )  # fmt: skip
-        forms = (".0f", ".0f", ".1f", ".2f", ".2f", ".2f", ".3f", ".3f")
         rows = [
             (
                 *(text_of(float(value)) for value in self.value[n]),
                 *(
-                    format(float(column[n]) + 0.0, form) if np.isfinite(column[n]) else "none"
-                    for column, form in zip(numbers, forms, strict=True)
+                    "none" if row[key] is None
+                    else Number.of(row[key] + 0.0, form, f"points.{n}.{key}", times)
+                    for key, form, times in shown
                 ),
             )
-            for n in range(len(self.name))
-        ]
+            for n, row in enumerate(self.rows)
+        ]  # fmt: skip
         remarks = (
             "the first row is the case as it is; face, radial: shift of the pattern's middle",
             *self.notes,
