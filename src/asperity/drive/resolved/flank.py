@@ -8,6 +8,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
@@ -18,6 +19,9 @@ from asperity.drive.teeth.sector import Sector, lattice
 from asperity.drive.teeth.threads import thread_flexibility
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.gearset.materials import Material
+
+if TYPE_CHECKING:
+    from scipy.interpolate import RegularGridInterpolator
 
 _MILLIMETRES = 1e3
 _ROWS, _COLUMNS = 41, 61
@@ -44,6 +48,8 @@ class ExactFlank:
     #: (1 + b, n, n): Inward motion of the nodes under forces along the normals on the same tooth,
     #: less that of a half-space, and on one 1 .. b pitches before it, m/N
     smooth: FloatArray
+    #: (k,): Depth worn off at the points of `grid`, m; None: new
+    worn: FloatArray | None = None
 
     @classmethod
     def of(cls, sector: Sector, wheel: Material, flexibility: FloatArray) -> ExactFlank:
@@ -142,6 +148,25 @@ class ExactFlank:
         starts = np.arange(count + 1) * values.shape[1]
         shape = count, len(self.sector.surface.positions)
         return sparse.csr_array((values.ravel(), columns.ravel(), starts), shape=shape)
+
+    @cached_property
+    def _worn_at(self) -> RegularGridInterpolator | None:
+        from scipy.interpolate import RegularGridInterpolator
+
+        if self.worn is None:
+            return None
+        _, _, share, z = self.grid
+        rows = share.reshape(_ROWS, -1)[:, 0], z.reshape(_ROWS, -1)[0]
+        # Smooth: a kink in the gap would bear.
+        return RegularGridInterpolator(rows, self.worn.reshape(_ROWS, -1), "cubic")
+
+    def depth_at(self, share: FloatArray, z: FloatArray) -> FloatArray:
+        """Return the depth worn off at places on the flank, m."""
+        if self._worn_at is None:
+            return np.zeros(len(share))
+        half = self.half_face
+        at = np.column_stack([np.clip(share, 0.0, 1.0), np.clip(z, -half, half)])
+        return np.asarray(self._worn_at(at))
 
     def heights(
         self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray
