@@ -207,6 +207,23 @@ COMMANDS = (
         options=(Option("static", "Leave the vibration out.", default=False),),
     ),
     Command(
+        "misalign",
+        "Load a worm gearset wherever its mounting may bring it: pressures, edges, error.",
+        "Without --over at corners, sides and middle of the case's [tolerances]. With --out also "
+        "report.html, misalign.json, misalign.nc and pictures.",
+        module="asperity.drive.studies.misalign",
+        needs=("gearset", "operation", "drive"),
+        counts="points",
+        options=(
+            Option(
+                "over",
+                "An axis: 1,2,3 or start:stop:step, with units; again for another axis.",
+                "TABLE.KEY=VALUES",
+                many=True,
+            ),
+        ),
+    ),
+    Command(
         "directions",
         "Shake a worm gearset each way: what a micrometre and a watt save, and what forces.",
         "With --out also directions.json, directions.nc and directions.png.",
