@@ -1,5 +1,8 @@
 /** How the picture of a shaken body moves: from a cycle of an answer to what is drawn at a moment of it. */
 
+export const NAME = "motion.js";
+/** How long a cycle is shown, s. */
+export const SHOWN = 3;
 /** The drawing: its size, the middle of the body, half of the body, how far a bristle bends and friction reaches. */
 export const [WIDTH, HEIGHT] = [720, 300];
 export const [X, Y] = [330, 150];
@@ -85,4 +88,13 @@ export function draw(picture, moving, time) {
   put("now", { d: arrow(-REACH * pull, side ? 0 : REACH * aside) });
   put("dot", { cx: -REACH * pull, cy: side ? 0 : REACH * aside });
   put("load", { d: side ? arrow(0, 42 * load) : "" });
+}
+
+/**
+ * What draws a body at a time, s, into its picture.
+ * @param {Element} picture @param {{series: Record<string, number[]>, limit: number}} of as of `motionOf`
+ */
+export function playing(picture, { series, limit }) {
+  const made = motionOf(series, limit);
+  return (seconds) => draw(picture, made, seconds / SHOWN);
 }

@@ -179,6 +179,7 @@ export function Plot(props) {
   return html`<${Figure} title=${title} columns=${() => joined({ x, series: lines })}>
     <div class=${onPick ? "canvas pick" : "canvas"} ref=${box}>
       <svg class="drawn" width=${width} height=${height} viewBox=${`0 0 ${width} ${height}`} role="img"
+        data-along=${`${LEFT} ${right}`}
         aria-label=${`${title}: ${lines.map(({ label }) => label).join(", ")} over ${x.label}; the numbers are in the
           table beneath`}>
         ${bands.map(({ from, to }) => html`<rect class="band" x=${across.at(from)} y=${TOP}

@@ -1,5 +1,5 @@
 /** Worm and wheel in space: turned by their ratio, with the lines on which they touch. */
-import { colourAt } from "./map.js";
+import { colourAt } from "./colours.js";
 
 const STEEL = 0xaeb6bf;
 const BRONZE = [0.85, 0.66, 0.38];
@@ -50,7 +50,8 @@ function placed(out, at, p, thick) {
 
 /**
  * Draw a gearset on a canvas.
- * @returns {Promise<null | {show: (what: any) => void, turn: (phi: number) => void, close: () => void}>}
+ * @returns {Promise<null | {show: (what: any) => void, turn: (phi: number) => void,
+ *   picture: (phi: number) => string, close: () => void}>}
  *   null where there is no WebGL
  */
 export async function stage(canvas, { header, arrays }) {
@@ -206,6 +207,15 @@ export async function stage(canvas, { header, arrays }) {
     turn(phi) {
       now.phi = phi;
       pose();
+    },
+    /** What is seen at an angle, as the address of a picture. */
+    picture(phi) {
+      const before = now.phi;
+      now.phi = phi;
+      pose();
+      draw();
+      now.phi = before;
+      return canvas.toDataURL("image/webp", 0.8);
     },
     close() {
       cancelAnimationFrame(waiting);

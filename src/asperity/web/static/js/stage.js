@@ -1,15 +1,15 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
 import { html, signal, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { useValue } from "./form.js";
-import { arrow, draw, HALF_X, HALF_Y, HEIGHT, motionOf, REACH, TILE, WIDTH, X, Y } from "./motion.js";
+import { moving as moves } from "./frames.js";
+import { arrow, draw, HALF_X, HALF_Y, HEIGHT, motionOf, NAME, REACH, SHOWN, TILE, WIDTH, X, Y } from "./motion.js";
 import { useCase } from "./state.js";
 import { anyWay, useTouch } from "./touch.js";
 import { digits, inUnit, split } from "./units.js";
 
 /** When the picture is, in cycles. */
 export const moment = signal(0.25);
-/** How long a cycle is shown, s, and parts of it that a picture without motion is moved by. */
-const SHOWN = 3;
+/** Parts of a cycle that a picture without motion is moved by. */
 const STEPS = 128;
 /** How far the handle is from the middle at the least and the greatest velocity ratio. */
 const [NEAR, FAR] = [62, 138];
@@ -115,6 +115,9 @@ export function Stage({ series, ratio, k, limit }) {
   const frequency = inUnit(useValue("vibration.frequency").text, "Hz");
   const { place, direction, dragged, grasped } = useHandle(k);
   useMotion(picture, moving, runs);
+  useLayoutEffect(() => {
+    if (moving) moves.set(picture.current, { module: NAME, of: { series, limit } });
+  }, [moving]);
   const touch = useTouch(({ target }) => (moment.value = target.value / STEPS));
   if (!moving) return null;
   const { side } = moving;

@@ -1,10 +1,14 @@
 /** The flanks of worm and wheel in mesh: in space, as maps, and over the angle of the worm. */
 import { html, useEffect, useMemo, useRef, useState } from "../../vendor/preact.js";
 import { fetchRaw, useAsked } from "../api.js";
+import { gridCells, span } from "../colours.js";
 import { Folded, Form } from "../form.js";
-import { FlankMap, gridCells, Legend, span } from "../map.js";
+import { moving } from "../frames.js";
+import * as lines from "../lines.js";
+import { FlankMap, Legend } from "../map.js";
 import { AllNumbers, byKey, Facts } from "../number.js";
 import { unpacked } from "../packed.js";
+import * as pictures from "../pictures.js";
 import { Plot } from "../plot.js";
 import { nearest, stage } from "../scene.js";
 import { Screen } from "../shell.js";
@@ -16,6 +20,8 @@ import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
 const SECONDS = 12;
+/** Pictures of a pitch in a shared file, of what is drawn in space. */
+const PICTURES = 24;
 /** Between two readings of the angle while it plays, ms. */
 const SELDOM = 120;
 /** Places of a count over a pitch. */
@@ -85,6 +91,7 @@ function Space({ gears, shown, options }) {
       if (!made) return setWithout(true);
       drawn.current = made;
       made.show(latest.current);
+      moving.set(canvas.current, { module: pictures.NAME, of: () => taken(made, header.pitch) });
       setPlaying(!still.matches);
     }, () => setWithout(true));
     return () => {
@@ -119,9 +126,21 @@ function Space({ gears, shown, options }) {
   </section>`;
 }
 
+/** How long a pitch takes, s. */
+const lasts = (pitch) => (SECONDS * pitch) / (2 * Math.PI);
+
+/** Pictures of what is drawn in space, over a pitch. */
+async function taken(drawn, pitch) {
+  const found = [];
+  for (let n = 0; n < PICTURES; n += 1) {
+    found.push(drawn.picture((n * pitch) / PICTURES));
+    await new Promise((done) => setTimeout(done));
+  }
+  return { pictures: found, seconds: lasts(pitch) };
+}
+
 /** The contact lines of an angle as they lie on a map: on them the gap is least, nought or not. */
-function linesOf({ header, arrays }, side, phi) {
-  const n = nearest(header, phi);
+function linesOf({ arrays }, side, n) {
   const [from, to] = arrays[`lines.begin.${side}`].slice(n, n + 2);
   const p = arrays[`lines.points.${side}`];
   const end = (at) => `${p[at + 2].toFixed(3)} ${(-Math.hypot(p[at], p[at + 1])).toFixed(3)}`;
@@ -140,11 +159,17 @@ function Over({ gears, shown: { layer, side, values, range }, phi }) {
     const cells = gridCells(...header.arrays[`flank.points.${side}`].shape);
     return { x: at.map((k) => p[k + 2]), y: at.map((k) => Math.hypot(p[k], p[k + 1])), cells };
   }, [gears, side]);
-  const lines = linesOf(gears, side, phi);
+  const touching = linesOf(gears, side, nearest(header, phi));
+  const box = useRef(null);
+  useEffect(() => {
+    const of = () => ({ seconds: lasts(header.pitch),
+      lines: Array.from({ length: header.angles }, (_, n) => linesOf(gears, side, n)) });
+    moving.set(box.current, { module: lines.NAME, of });
+  }, [gears, side]);
   const title = `${told?.word}, flank s = ${side}, and the lines nearest to the worm`;
   const map = useMemo(() => told && html`<${FlankMap} title=${title}
-    label=${told.meaning} unit=${told.unit} ...${grid} values=${values} range=${range} lines=${lines} />`,
-  [grid, values, lines]);
+    label=${told.meaning} unit=${told.unit} ...${grid} values=${values} range=${range} lines=${touching} />`,
+  [grid, values, touching]);
   const sides = ["+1", "-1"].map((each) => [each, header.sides[each]]);
   const { angle_deg: angle, teeth, teeth_marked: marked, loaded, film_um: film } = header.sides[side];
   const marks = [{ x: (phi * 180) / Math.PI }];
@@ -160,7 +185,7 @@ function Over({ gears, shown: { layer, side, values, range }, phi }) {
     { label: `gap under ${digits(film, 2)} µm`, values: counted(marked, marked.length - 1), dash: [6, 4] },
     ...(loaded ? [{ label: "under load", values: counted(loaded.teeth, loaded.teeth.length), dash: [2, 3] }] : []),
   ];
-  return html`<div class="grid">${map}
+  return html`<div class="grid" ref=${box}>${map}
     <${Plot} title="Transmission error about its mean" x=${x} series=${errors} marks=${marks} height=${200}
       range=${none ? [-1, 1] : undefined} />
     <${Plot} title="Teeth in contact" x=${{ ...x, values: fine }} series=${counts} marks=${marks} height=${200} />
