@@ -80,7 +80,7 @@ export function Gears({ geometry, mode = "", speed, pressed = null }) {
   const does = shown ? "Pressed with" : "The surfaces slide at";
   const says = `Worm and wheel in mesh, cut through the middle of the wheel. ${does}
     ${digits(range[0], 3)} to ${digits(range[1], 3)} ${shown ? "MPa" : "m/s"}.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
-  return html`<section class="panel" aria-label="in mesh"><h2>In mesh</h2>
+  return html`<section class="panel at-stage" aria-label="in mesh"><h2>In mesh</h2>
     <${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode} says=${says} />
     <div class="row"><${Play} ...${playing} />
       ${pressed ? html`<span class="choice"><label for="line-shows">line</label>${" "}

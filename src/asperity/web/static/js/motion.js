@@ -8,6 +8,9 @@ export const [WIDTH, HEIGHT] = [720, 300];
 export const [X, Y] = [330, 150];
 export const [HALF_X, HALF_Y] = [72, 46];
 export const [BEND, REACH, TILE] = [20, 92, 36];
+/** Below which width of the window only the middle is seen, px; from where, and how wide that is. */
+export const NARROW = 600;
+export const MIDDLE = [88, 524];
 /** From above and from the side: the places of bristles, from the middle of the body. */
 const PLACES = [-54, -27, 0, 27, 54].flatMap((x) => [-28, 0, 28].map((y) => [x, y]));
 const FEET = [-60, -40, -20, 0, 20, 40, 60].map((x) => [x, 0]);
@@ -96,5 +99,6 @@ export function draw(picture, moving, time) {
  */
 export function playing(picture, { series, limit }) {
   const made = motionOf(series, limit);
+  if (innerWidth < NARROW) picture.setAttribute("viewBox", `${MIDDLE[0]} 0 ${MIDDLE[1]} ${HEIGHT}`);
   return (seconds) => draw(picture, made, seconds / SHOWN);
 }

@@ -11,7 +11,7 @@ import { digits } from "./units.js";
  *   ends?: [(number | null)[], (number | null)[]]}} Line `x` where it has places of its own;
  *   `colour` the number of one of the page's colours; `bare` points without a line; `ends` of the
  *   interval about each of them
- * @typedef {{title: string, x: {label: string, unit?: string, values: number[]}, series: Line[],
+ * @typedef {{title: string, x: {label: string, unit?: string, values: number[], whole?: boolean}, series: Line[],
  *   bands?: {from: number, to: number}[], marks?: {x: number, y?: number}[],
  *   y?: string, height?: number, log?: boolean, xlog?: boolean, range?: [number, number],
  *   onPick?: (x: number) => void, running?: any}} Shown `running`: a signal of when, in cycles, of
@@ -121,8 +121,8 @@ export function useWidth() {
 }
 
 /** Grid, ticks and names of an axis along and of one or two up. */
-export const Axes = ({ across, ups, right, bottom, along, upward }) => html`
-  ${across.ticks.map((tick) => html`<path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
+export const Axes = ({ across, ups, right, bottom, along, upward, whole }) => html`
+  ${(whole ? across.ticks.filter(Number.isInteger) : across.ticks).map((tick) => html`<path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
     <text x=${across.at(tick)} y=${bottom + 16} text-anchor="middle">${digits(tick, 6)}</text>`)}
   ${ups.slice(0, 2).map((up, side) => up.ticks.map((tick) => html`
     ${side ? null : html`<path class="grid-line" d=${`M${LEFT} ${up.at(tick)}H${right}`} />`}
@@ -184,7 +184,7 @@ export function Plot(props) {
           table beneath`}>
         ${bands.map(({ from, to }) => html`<rect class="band" x=${across.at(from)} y=${TOP}
           width=${across.at(to) - across.at(from)} height=${bottom - TOP} />`)}
-        <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} />
+        <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} whole=${x.whole} />
         ${lines.map((line) => html`<${Drawn} key=${line.label} line=${line} colour=${line.colour} across=${across}
           places=${line.x ?? x.values} up=${upOf(line)} />`)}
         ${marks.filter((mark) => number(mark.x)).map((mark) => (number(mark.y)

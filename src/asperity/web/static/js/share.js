@@ -46,13 +46,13 @@ function seen(body) {
   copy.querySelectorAll("img").forEach((each, row) => each.setAttribute("src", drawn(images[row])));
   copy.querySelectorAll(OF_SERVER).forEach((each) => each.remove());
   flattened(copy);
-  copy.querySelectorAll(".num button, td button, th button").forEach((each) => {
+  copy.querySelectorAll(".num button, td button, th button, li button").forEach((each) => {
     const plain = copy.ownerDocument.createElement("span");
     plain.append(...each.childNodes);
     each.replaceWith(plain);
   });
   copy.querySelectorAll("button, .all, .stage .row > label").forEach((each) => each.remove());
-  copy.querySelectorAll("details").forEach((each) => each.setAttribute("open", ""));
+  copy.querySelectorAll("details:not(.notes)").forEach((each) => each.setAttribute("open", ""));
   copy.querySelectorAll(".fault:empty, section:empty").forEach((each) => each.remove());
   return copy.innerHTML;
 }
@@ -60,6 +60,23 @@ function seen(body) {
 const rows = (entries) => entries.map(({ key, symbol, value, unit, meaning, equation, source }) =>
   `<tr data-key="${safe(key)}" data-value="${safe(value)}">${[meaning || key, symbol, value, unit, equation, source]
     .map((each) => `<td>${safe(each)}</td>`).join("")}</tr>`).join("");
+
+const frame = () => new Promise(requestAnimationFrame);
+
+/**
+ * Do something while a screen is as narrow as on a phone: there words of a picture must still be read, and
+ * on a wide window all of it becomes larger.
+ */
+async function narrow(shown, act) {
+  shown.classList.add("narrow");
+  try {
+    // What is drawn to measure is drawn anew.
+    for (let n = 0; n < 4; n += 1) await frame();
+    return await act();
+  } finally {
+    shown.classList.remove("narrow");
+  }
+}
 
 /** As many of the moves as there is room for, the smallest first. */
 function fitting(moves, room) {
@@ -79,9 +96,12 @@ export async function share(title, told) {
   const shown = document.querySelector("main .body");
   if (!shown) return;
   const styles = (await Promise.all(STYLES.map(text))).join("\n");
-  const { moves: all, unmark } = await movesOf(shown);
-  const body = seen(shown);
-  unmark();
+  const { all, body } = await narrow(shown, async () => {
+    const { moves, unmark } = await movesOf(shown);
+    const copy = seen(shown);
+    unmark();
+    return { all: moves, body: copy };
+  });
   const answer = inScript(told.answer ?? null);
   const entries = rows(told.entries ?? []);
   const moves = fitting(all, MOST - body.length - answer.length - entries.length - styles.length - 60_000);
@@ -95,23 +115,24 @@ export async function share(title, told) {
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="${POLICY}"><meta name="color-scheme" content="light dark">
 <title>${safe(title)}: ${safe(name)}</title><style>${styles}
-body { display: block; max-width: 1100px; margin: 0 auto; padding: 1rem; }
-.columns { display: block; } td { overflow-wrap: anywhere; } pre { overflow: auto; }
-.drawn { max-width: 100%; height: auto; }</style></head>
+body { display: block; max-width: 46rem; margin: 0 auto; padding: 1rem .75rem; }
+main { padding: 0; } .columns { display: block; } td { overflow-wrap: anywhere; } pre { overflow: auto; }
+.drawn { width: 100%; height: auto; } h1 + .says { margin: .3rem 0 .8rem; }</style></head>
 <body><main><h1>${safe(title)}: ${safe(name)}</h1>
 <p class="says">Made on ${day} by asperity ${safe(about.value?.version)}: <code>${safe(told.command)}</code></p>
 ${moves.length ? `<p><button type="button" id="play">let it move</button></p>` : ""}
 ${moves.length < all.length ? `<p class="says">Some of what moves on the page stands still here: it is too large for one
 file.</p>` : ""}
 ${body}${notes}
-<details><summary>all ${told.entries?.length ?? 0} numbers</summary><div class="scroll whole"><table>
+${entries ? `<details><summary>all ${told.entries.length} numbers</summary><div class="scroll whole"><table>
 <tr><th>what</th><th>symbol</th><th>value</th><th>unit</th><th>equation</th><th>source</th></tr>
-${entries}</table></div></details>
-<h2>The case</h2><p>Save it as <code>${safe(file)}</code>, and the command gives all of this again.
-<button type="button" id="take">save the case</button></p><pre id="case">${safe(told.toml)}</pre></main>
+${entries}</table></div></details>` : ""}
+${told.toml ? `<h2>The case</h2><p>Save it as <code>${safe(file)}</code>, and the command gives all of this again.
+<button type="button" id="take">save the case</button></p><pre id="case">${safe(told.toml)}</pre>` : ""}</main>
 <script type="application/json" id="answer">${answer}</script>
 <script type="application/json" id="moves">${within(played)}</script>
-<script>document.getElementById("take").onclick = () => {
+<script>const taken = document.getElementById("take");
+if (taken) taken.onclick = () => {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([document.getElementById("case").textContent]));
   link.download = ${inScript(file)};

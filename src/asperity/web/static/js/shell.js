@@ -14,6 +14,8 @@ import { visited } from "./visited.js";
 
 /** What was just done, for a moment. */
 const said = signal("");
+/** Whether a file of the screen is being made. */
+const sharing = signal(false);
 let timer = 0;
 
 /** Tell what was done. @param {string} text */
@@ -21,6 +23,20 @@ export function tell(text) {
   said.value = text;
   clearTimeout(timer);
   timer = setTimeout(() => (said.value = ""), 6000);
+}
+
+/** Make a file of the screen, and say so where that takes longer. */
+async function shared(title, answer) {
+  sharing.value = true;
+  tell("the file is being made");
+  try {
+    await share(title, answer);
+    tell("the file is made: all of this, for anyone, without server and network");
+  } catch (error) {
+    tell(`no file: ${error.message}`);
+  } finally {
+    sharing.value = false;
+  }
 }
 
 /** With which case each kind was last seen, so that a link leads back to it. */
@@ -95,8 +111,8 @@ function CasePicker({ kinds, first, start = {} }) {
     </select>
     ${[["undo", "↶", undo], ["redo", "↷", redo]].map(([word, sign, act]) => html`<button type="button" class="quiet"
       title=${word === "undo" ? "Ctrl-Z" : "Ctrl-Shift-Z"} disabled=${!undoable.value[word]} onClick=${act}>
-      <span aria-hidden="true">${sign}</span> ${word}</button>`)}
-    <button type="button" class="quiet" disabled=${!count} onClick=${() => reset(name, start)}
+      <span aria-hidden="true">${sign}</span> <span class="word">${word}</span></button>`)}
+    <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
       title=${count ? `${count} set` : ""}>as the case has it</button>
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
@@ -179,8 +195,8 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
         ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
         ${answer?.command ? html`<button type="button" title=${answer.command}
           onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
-        ${answer?.answer && answer.toml ? html`<button type="button" title="all of this as one file that anyone opens"
-          onClick=${unless(() => share(title, answer))}>share</button>` : null}
+        ${answer?.answer ? html`<button type="button" title="all of this as one file that anyone opens"
+          disabled=${sharing.value} onClick=${unless(() => shared(title, answer))}>share</button>` : null}
         ${actions}
         <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
       </div>

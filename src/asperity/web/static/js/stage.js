@@ -2,7 +2,9 @@
 import { html, signal, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
 import { useValue } from "./form.js";
 import { moving as moves } from "./frames.js";
-import { arrow, draw, HALF_X, HALF_Y, HEIGHT, motionOf, NAME, REACH, SHOWN, TILE, WIDTH, X, Y } from "./motion.js";
+import {
+  arrow, draw, HALF_X, HALF_Y, HEIGHT, MIDDLE, motionOf, NAME, NARROW, REACH, SHOWN, TILE, WIDTH, X, Y,
+} from "./motion.js";
 import { useCase } from "./state.js";
 import { anyWay, useTouch } from "./touch.js";
 import { digits, inUnit, split } from "./units.js";
@@ -16,7 +18,7 @@ const [NEAR, FAR] = [62, 138];
 const [LEAST, MOST] = [0.1, 100];
 
 /** What of the drawing is seen: on a phone its middle. @returns {[number, number]} from where, and how wide */
-const seen = () => (innerWidth < 600 ? [110, 500] : [0, WIDTH]);
+const seen = () => (innerWidth < NARROW ? MIDDLE : [0, WIDTH]);
 
 const turn = (degrees) => (degrees * Math.PI) / 180;
 const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -108,8 +108,7 @@ function Space({ gears, shown, options }) {
     put((Number(event.target.value) * Math.PI) / 180);
   };
   const touch = useTouch(turned);
-  return html`<section class="panel" aria-label="in space">
-    <div class="row">${options}</div>
+  return html`<section class="panel at-stage" aria-label="in space">
     ${without ? html`<p class="notes" role="status">This browser draws nothing in space (no WebGL); the maps beneath
       show the same.</p>` : null}
     <canvas ref=${canvas} class=${without ? "hidden" : "space"} tabindex="0" role="img"
@@ -122,6 +121,7 @@ function Space({ gears, shown, options }) {
         value=${degrees(phi)} aria-valuetext=${`${digits(degrees(phi), 3)} degrees`} ...${touch} />
       <output>${degrees(phi).toFixed(1)}° of a pitch of ${digits(degrees(header.pitch), 4)}°</output>
     </div>
+    <div class="row">${options}</div>
     <${Over} gears=${gears} shown=${shown} phi=${phi} />
   </section>`;
 }
@@ -228,13 +228,14 @@ export function view() {
   return html`<${Screen} title="Flanks" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${taken} error=${work.error ?? packed.error}
       lead="The wheel cut exactly as its hob cuts it: where it touches the worm, and what that does.">
-    <div class="columns">
+    <div class="columns headed moving">
       <section class="controls" aria-label="what is set"><${Work} work=${work} label="cut the wheel" />
         <${Files} job=${work.job} />
         <${Folded}><${Form} tables=${["hob", "mount", "modification"]} brief /><//></section>
+      <div class=${work.stale ? "headline before" : "headline"}><p class="big">${touches(of)}</p></div>
+      ${gears ? html`<${Space} gears=${gears} options=${options} shown=${shown} />` : null}
       <section class=${work.stale ? "shown before" : "shown"}>
-        ${gears ? html`<p class="big">${touches(of)}</p><${Space} gears=${gears} options=${options} shown=${shown} />
-          <div class="panel"><${Facts} found=${of} keys=${FACTS} />
+        ${gears ? html`<div class="panel"><${Facts} found=${of} keys=${FACTS} />
             ${of.backlash_normal_mm?.value < 0 ? html`<p class="says">A backlash below nothing: so far the teeth
               overlap.</p>` : null}</div>`
           : html`<p class="wait">${work.id ? "The wheel is being cut."
