@@ -23,14 +23,14 @@ function called(text) {
 /** Numbers as they lie in memory take the least room. */
 function packed(_, value) {
   if (!ArrayBuffer.isView(value)) return value;
-  const bytes = new Uint8Array(value.buffer, value.byteOffset, value.byteLength);
-  return { kind: value.constructor.name, base64: btoa(Array.from(bytes, (each) => String.fromCharCode(each)).join("")) };
+  const bytes = Array.from(new Uint8Array(value.buffer, value.byteOffset, value.byteLength));
+  return { kind: value.constructor.name, base64: btoa(bytes.map((each) => String.fromCharCode(each)).join("")) };
 }
 
 /**
  * What moves in an element of the page; each is marked with its number until `unmark` is called.
  * @param {Element} body
- * @returns {Promise<{moves: {at: number, module: string, text: string}[], unmark: () => void}>} `text` of what is played
+ * @returns {Promise<{moves: {at: number, module: string, text: string}[], unmark: () => void}>} `text`: what is played
  */
 export async function movesOf(body) {
   const all = [...body.querySelectorAll("*")].filter((each) => moving.has(each));

@@ -123,7 +123,8 @@ export function Field({ path, label, brief }) {
       : null}
     ${figures ? html`<p class="says figures">${printed(figures)}</p>` : null}
     <p class=${brief ? "says hidden" : "says"} id=${`${id}-says`}>
-      ${inWords(printed(meaningOf(field)))}${hint(field) ? ` (${printed(hint(field))})` : ""}${others ? ` Instead of ${others}.` : ""}
+      ${inWords(printed(meaningOf(field)))}${hint(field) ? ` (${printed(hint(field))})` : ""}${
+        others ? ` Instead of ${others}.` : ""}
     </p>
   </div>`;
 }

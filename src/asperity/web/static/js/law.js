@@ -47,8 +47,8 @@ export function Law({ work, segments }) {
   const sure = ({ identifiable, why }) => html`<span class=${identifiable ? "good" : "warn"}>
     ${identifiable ? "✓ both ends" : "~ an end is open"}</span> ${why}`;
   const most = Math.max(...found.residuals.map(Math.abs));
-  return html`<p class="big">The law <b>${found.law}</b> misses what was measured by at most <b>${digits(most, 2)}</b> of its
-      standard deviations.</p>
+  return html`<p class="big">The law <b>${found.law}</b> misses what was measured by at most${" "}
+      <b>${digits(most, 2)}</b> of its standard deviations.</p>
     ${data ? html`<${Against} data=${data} segments=${segments} />` : null}
     <${Table} region="parameters" rows=${found.parameters} columns=${[
       ["parameter", ({ key }) => key, "row"],
@@ -56,5 +56,5 @@ export function Law({ work, segments }) {
       ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],
       ["what the data tell", sure]]} />
     <p class="says">χ² ${digits(found.chi2, 4)} at ${found.dof} ${found.dof === 1 ? "degree" : "degrees"}${" "}
-      of freedom, ${found.points} measurements.</p>`;
+      of freedom, ${found.points} ${found.points === 1 ? "measurement" : "measurements"}.</p>`;
 }

@@ -15,6 +15,8 @@ export function playing(box, { lines, seconds }) {
   return (time) => {
     const part = (time / seconds) % 1;
     path?.setAttribute("d", lines[Math.floor(part * lines.length)]);
-    marks.forEach(({ mark, from, to, up }) => mark.setAttribute("d", `M${(from + part * (to - from)).toFixed(1)}${up}`));
+    for (const { mark, from, to, up } of marks) {
+      mark.setAttribute("d", `M${(from + part * (to - from)).toFixed(1)}${up}`);
+    }
   };
 }

@@ -122,7 +122,8 @@ export function useWidth() {
 
 /** Grid, ticks and names of an axis along and of one or two up. */
 export const Axes = ({ across, ups, right, bottom, along, upward, whole }) => html`
-  ${(whole ? across.ticks.filter(Number.isInteger) : across.ticks).map((tick) => html`<path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
+  ${across.ticks.filter((tick) => !whole || Number.isInteger(tick)).map((tick) => html`
+    <path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
     <text x=${across.at(tick)} y=${bottom + 16} text-anchor="middle">${digits(tick, 6)}</text>`)}
   ${ups.slice(0, 2).map((up, side) => up.ticks.map((tick) => html`
     ${side ? null : html`<path class="grid-line" d=${`M${LEFT} ${up.at(tick)}H${right}`} />`}

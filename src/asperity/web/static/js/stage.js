@@ -1,5 +1,6 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
 import { html, signal, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
+import { Ball } from "./ball.js";
 import { useValue } from "./form.js";
 import { moving as moves } from "./frames.js";
 import {
@@ -114,6 +115,7 @@ export function Stage({ series, ratio, k, limit }) {
   const [runs, setRuns] = useState(!still());
   const shaken = series?.force && k > 0 && limit > 0;
   const moving = useMemo(() => (shaken ? motionOf(series, limit) : null), [series, limit]);
+  const inSpace = Boolean(useValue("normal.stiffness").text);
   const frequency = inUnit(useValue("vibration.frequency").text, "Hz");
   const { place, direction, dragged, grasped } = useHandle(k);
   useMotion(picture, moving, runs);
@@ -166,13 +168,13 @@ export function Stage({ series, ratio, k, limit }) {
             ${digits(direction, 3)}°, k ${digits(k, 3)}</text>`}
       </g>
     </svg>
-    <p class="why">${words}</p>
+    <div class="told">${inSpace ? html`<${Ball} />` : null}<p class="why">${words}</p></div>
     <div class="row">
       <button type="button" onClick=${() => setRuns(!runs)}>${runs ? "stop the motion" : "let it move"}</button>
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
         value=${Math.round(STEPS * (moment.peek() % 1))}
         ...${touch} /></label>`}
-      <span class="says">${slower(frequency)}, seen ${from}. ${side ? "" : "Drag the round handle."}
+      <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? "" : "Drag the round handle."}
         <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
     </div>
   </section>`;

@@ -45,7 +45,7 @@ const less = (ratio) => (typeof ratio !== "number" ? "."
 const Ratio = ({ found, answer }) => html`
   <p class="large">${answer.settled ? null : "("}<${Num} entry=${found.torque_ratio} count=${4} />${
     answer.settled ? null : ")"}</p>
-  <div><p>of the worm's torque without vibration is left${less(answer.torque_ratio)}<br />
+  <div class="ratio"><p>of the worm's torque without vibration is left${less(answer.torque_ratio)}<br />
   <${Verdict} ok=${answer.settled} yes="settled" no="not settled" />${" "}
     <span class="of">balance of the wheel</span>${" "}<${Num} entry=${found.torque_balance} count=${3} /></p>
   ${answer.settled ? null : html`<p class="warn">▲ The wheel coasts or speeds up: this ratio is not what the

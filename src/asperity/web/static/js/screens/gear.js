@@ -119,7 +119,8 @@ function more(keys, { tables }, settings, times) {
   const written = (path) => path.split(".").reduce((at, key) => at?.[key], tables);
   const texts = keys.map((path) => [path, split(settings[path] ?? written(path))]);
   return texts.some(([, [number]]) => Number.isNaN(number)) ? null
-    : Object.fromEntries(texts.map(([path, [number, unit]]) => [path, text(Number((times * number).toPrecision(times === 1.01 ? 12 : 4)), unit)]));
+    : Object.fromEntries(texts.map(([path, [number, unit]]) =>
+      [path, text(Number((times * number).toPrecision(6)), unit)]));
 }
 
 /** Which answers are missing and why, and what lies outside a standard's range, as the screen of rate says it. */
@@ -137,7 +138,7 @@ function Headline({ verdict }) {
   const safety = safeties.find((each) => `${each.standard}.${each.key}` === first);
   const told = Object.values(holds).filter((ok) => ok !== null);
   const good = told.length > 0 && told.every(Boolean);
-  if (!safety) return html`<p class="big"><${Verdict} ok=${told.length ? good : null} other="no standard answers" /></p>`;
+  if (!safety) return html`<p class="big"><${Verdict} ok=${told.length ? good : null} other="no answer" /></p>`;
   const { name, standard, value, asked } = safety;
   const size = levers.find((lever) => lever.name === "size");
   // As it is moved by one percent: about.

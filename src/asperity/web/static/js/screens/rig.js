@@ -158,7 +158,8 @@ const shown = (value) => (value === null ? "–" : digits(value, 4));
 
 /** The segment in which the most was spared, in a sentence. */
 function Most({ segments }) {
-  const best = segments.filter(({ quality }) => quality !== "refused").toSorted((one, other) => one.torque_change_percent - other.torque_change_percent)[0];
+  const [best] = segments.filter(({ quality }) => quality !== "refused")
+    .toSorted((one, other) => one.torque_change_percent - other.torque_change_percent);
   if (!best) return html`<p class="big">No segment tells what vibration did.</p>`;
   const { torque_change_percent: change, torque_change_ci95_percent: ends, commanded_Hz: at } = best;
   return html`<p class="big"><b>${digits(Math.abs(change), 3)} %</b> ${change < 0 ? "less" : "more"} torque${

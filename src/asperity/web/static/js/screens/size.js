@@ -18,7 +18,8 @@ const COLUMNS = [
   ["efficiency", "efficiency", 4], ["margin", "margin", 3], ["mass_kg", "mass (kg)", 3],
 ];
 /** Of what is kept beside the safeties; the ratio is asked above. */
-const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs", "safety"];
+const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs",
+  "safety"];
 const RANKS = ["size", "efficiency", "margin"];
 const THROUGH = "operation.through_travel_torque";
 /** What is proposed, and what is asked: all else is as the case has it. */
@@ -34,7 +35,8 @@ const FREE = [["pressure_angle", "deg"], ["diameter_factor", ""], ["axial_module
 function smallest(proposals) {
   const [first] = proposals.filter(({ holds }) => holds)
     .toSorted((one, other) => one.centre_distance_mm - other.centre_distance_mm);
-  return first ? `; the smallest is ${first.wheel_teeth}:${first.starts} with a = ${digits(first.centre_distance_mm, 4)} mm` : "";
+  return first ? `; the smallest is ${first.wheel_teeth}:${first.starts} with a = ${
+    digits(first.centre_distance_mm, 4)} mm` : "";
 }
 
 const limit = (path) => {
@@ -186,9 +188,9 @@ export function view() {
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
       <${Kept} rest=${rest} />
-      ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil, materials,
-          roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is not, since
-          it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where
+      ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil,
+          materials, roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is not,
+          since it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where
           none is given` : null}.</p>
         <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
         : html`<p class="wait">One moment.</p>`}
