@@ -59,6 +59,7 @@ function circle(one, other) {
   return { seen: part(true), behind: part(false) };
 }
 const [X, Y, Z] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+/** @type {[string, {seen: string, behind: string}][]} */
 const CIRCLES = [["plane", circle(X, Y)], ["upright", circle(X, Z)], ["upright", circle(Y, Z)]];
 
 /** The ball of a body that may be shaken any way. */

@@ -36,7 +36,7 @@ export async function movesOf(body) {
   const all = [...body.querySelectorAll("*")].filter((each) => moving.has(each));
   const moves = [];
   for (const [at, element] of all.entries()) {
-    const { module, of } = moving.get(element);
+    const { module, of } = /** @type {{module: string, of: any}} */ (moving.get(element));
     element.setAttribute("data-moves", String(at));
     const played = typeof of === "function" ? await of() : of;
     moves.push({ at, module, text: JSON.stringify(played, packed) });

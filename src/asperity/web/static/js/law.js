@@ -37,7 +37,7 @@ function Against({ data, segments }) {
 }
 
 /**
- * @param {{work: {from: string, job?: any, data: any}, segments: any[]}} props `work` that fitted it, or whose answer
+ * @param {{work: any, segments: any[]}} props `work` that fitted it, or whose answer
  *   ships; `segments` that were measured
  */
 export function Law({ work, segments }) {

@@ -9,8 +9,8 @@ export const NAME = "lines.js";
 export function playing(box, { lines, seconds }) {
   const path = box.querySelector(".touching");
   const marks = [...box.querySelectorAll("path.here")].map((mark) => {
-    const [from, to] = mark.closest("svg").dataset.along.split(" ").map(Number);
-    return { mark, from, to, up: mark.getAttribute("d").replace(/^M[^V]*?(?= )/, "") };
+    const [from, to] = String(mark.closest("svg")?.dataset.along).split(" ").map(Number);
+    return { mark, from, to, up: String(mark.getAttribute("d")).replace(/^M[^V]*?(?= )/, "") };
   });
   return (time) => {
     const part = (time / seconds) % 1;

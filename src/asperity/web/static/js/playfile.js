@@ -18,7 +18,7 @@ export function playAll(modules, told, button) {
   const look = new IntersectionObserver((entries) => entries.forEach(({ target, isIntersecting }) =>
     (isIntersecting ? shown.add(target) : shown.delete(target))));
   const moves = JSON.parse(told, restored).map(({ at, module, of }) => {
-    const element = document.querySelector(`[data-moves="${at}"]`);
+    const element = /** @type {Element} */ (document.querySelector(`[data-moves="${at}"]`));
     look.observe(element);
     return { element, draw: modules[module].playing(element, of) };
   });

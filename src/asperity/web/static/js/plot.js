@@ -41,7 +41,11 @@ export function ticks(low, high, log, count) {
   return Array.from({ length: last - first + 1 }, (_, place) => Number(((first + place) * step).toPrecision(12)));
 }
 
-/** Where values lie between two places; `margin` is free beyond the least and the greatest. */
+/**
+ * Where values lie between two places; `margin` is free beyond the least and the greatest.
+ * @param {any[]} lists @param {{log?: boolean, range?: number[], margin?: number}} options
+ * @param {number} from @param {number} to
+ */
 export function scale(lists, { log, range, margin = 0 }, from, to) {
   const known = lists.flat().filter((value) => number(value) && (!log || value > 0));
   let [low, high] = range ?? (known.length ? [Math.min(...known), Math.max(...known)] : [0, 1]);
@@ -133,7 +137,7 @@ export const Axes = ({ across, ups, right, bottom, along, upward, whole }) => ht
     transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
   <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${along}</text>`;
 
-/** Marks that run along the lines with what moves beside them. @param {{part: any, dots: any[], top: number}} props */
+/** Marks that run along the lines with what moves beside them. @param {{part: any, places: number[], dots: any[], bottom: number}} props */
 function Running({ part, places, dots, bottom }) {
   const drawn = useRef(null);
   // At once with the lines: as many marks as there are.

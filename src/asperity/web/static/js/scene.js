@@ -58,6 +58,7 @@ export async function stage(canvas, { header, arrays }) {
   if (!document.createElement("canvas").getContext("webgl2")) return null;
   const three = await import("../vendor/three.js");
   const renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
+  /** @param {any[]} of points and index */
   const geometry = ([points, index]) => {
     const made = new three.BufferGeometry();
     made.setAttribute("position", new three.BufferAttribute(points, 3));
@@ -105,6 +106,7 @@ export async function stage(canvas, { header, arrays }) {
   const standing = new three.Matrix4().set(...rows, 0, 0, 0, 1);
   worm.matrixAutoUpdate = false;
 
+  /** @type {{part: string, side: string, worm: string, values: any, range: number[], phi: number}} */
   const now = { part: "", side: "", worm: "clear", values: null, range: [0, 1], phi: 0 };
   const controls = new three.OrbitControls(camera, canvas);
   controls.listenToKeyEvents(canvas);

@@ -56,7 +56,7 @@ export function App({ screens, children }) {
   }, [here]);
   useEffect(() => {
     // Not each place that a slider passes.
-    const note = () => visited(here.title, address({ screen, params }), params);
+    const note = () => here && visited(here.title, address({ screen, params }), params);
     const timer = here && params.case ? setTimeout(note, 1500) : 0;
     return () => clearTimeout(timer);
   }, [screen, params]);
@@ -87,6 +87,9 @@ export function App({ screens, children }) {
     <div role="status" class=${said.value ? "toast shown" : "toast"}>${said.value}</div>`;
 }
 
+/** @type {[string, string, () => void][]} */
+const STEPS = [["undo", "↶", undo], ["redo", "↷", redo]];
+
 /** Which case is open. */
 function CasePicker({ kinds, first, start = {} }) {
   const { name, settings, reset } = useCase();
@@ -109,7 +112,7 @@ function CasePicker({ kinds, first, start = {} }) {
           ${these.map(option)}</optgroup>` : null;
       })}
     </select>
-    ${[["undo", "↶", undo], ["redo", "↷", redo]].map(([word, sign, act]) => html`<button type="button" class="quiet"
+    ${STEPS.map(([word, sign, act]) => html`<button type="button" class="quiet"
       title=${word === "undo" ? "Ctrl-Z" : "Ctrl-Shift-Z"} disabled=${!undoable.value[word]} onClick=${act}>
       <span aria-hidden="true">${sign}</span> <span class="word">${word}</span></button>`)}
     <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
@@ -126,7 +129,7 @@ function Save({ toml, unless }) {
   const close = () => (setWrong(null), box.current.close());
   const save = async (event) => {
     event.preventDefault();
-    const wanted = new FormData(event.target).get("name").trim();
+    const wanted = String(new FormData(event.target).get("name")).trim();
     try {
       const saved = await post("/api/save", { name: wanted, toml, ...(wrong?.status === THERE && { replace: true }) });
       forgetCase(saved.name);
@@ -174,7 +177,7 @@ export async function copy(text) {
  * A screen: title, case, what to take along, what went wrong, what should be known.
  *
  * @param {{title: string, lead?: string, kinds?: string[], first?: string, start?: Record<string, string>,
- *   answer?: any, error?: Error | null, busy?: boolean, late?: boolean, now?: boolean, actions?: any,
+ *   answer?: any, error?: any, busy?: boolean, late?: boolean, now?: boolean, actions?: any,
  *   children: any}} props
  *   `kinds` of the cases it opens, the `first` one of them, and the settings that each starts with;
  *   `answer` as the server gives it, with command, toml and notes; `late` and `now` as of `useLive`

@@ -110,7 +110,7 @@ const slower = (frequency) => (frequency > 0 ? `${digits(frequency * SHOWN, 2)} 
  * The picture, with what stops it.
  * @param {{series?: Record<string, number[]>, ratio?: number, k?: number, limit?: number}} props
  */
-export function Stage({ series, ratio, k, limit }) {
+export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
   const picture = useRef(null);
   const [runs, setRuns] = useState(!still());
   const shaken = series?.force && k > 0 && limit > 0;

@@ -7,7 +7,7 @@ export const NAME = "turning.js";
 const MARKS = [0, 1, 2, 3, 4, 5].map((k) => (k * Math.PI) / 3);
 const DOTS = 4;
 
-/** What has a colour at a point of the section. @param {{speed: number, pressed?: any}} of as of Gears */
+/** What has a colour at a point of the section, by speed and pressure as of Gears. */
 export const valueIn = (section, { speed, pressed }) =>
   (pressed ? pressedBy(pressed) : (point) => sliding(section, point, speed));
 

@@ -99,7 +99,8 @@ function Loose({ numbers }) {
 }
 
 /** How the elastic block does beside the rigid body, in words. */
-function besides({ ratio: { value: elastic }, slider_ratio: { value: rigid } }) {
+function besides(numbers) {
+  const [elastic, rigid] = [numbers.ratio.value, numbers.slider_ratio.value];
   if (typeof elastic !== "number" || !rigid) return ".";
   const more = 100 * (elastic / rigid - 1);
   return `: ${digits(Math.abs(more), 2)} % ${more < 0 ? "less" : "more"} than of a rigid body.`;

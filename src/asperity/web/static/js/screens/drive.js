@@ -15,6 +15,7 @@ import { Table } from "../table.js";
 import { digits, inUnit } from "../units.js";
 import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
+/** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
   ["power_friction_W", "friction", -1], ["power_damping_W", "damping", -1], ["power_stored_W", "stored", -1]];
 const RANKINGS = {

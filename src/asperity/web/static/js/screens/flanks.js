@@ -196,7 +196,8 @@ const FACTS = ["contact_ratio", "contact_ratio_marked", "pattern_area_fraction",
   "ease_off_max_um", "backlash_normal_mm"];
 
 /** What the flanks do, in a sentence. */
-function touches({ contact_ratio: ratio, pattern_area_fraction: share }) {
+function touches(found) {
+  const { contact_ratio: ratio, pattern_area_fraction: share } = found;
   if (typeof ratio?.value !== "number" || typeof share?.value !== "number") return null;
   return html`<b>${digits(ratio.value, 3)}</b> teeth touch at a time, over${" "}
     ${digits(100 * share.value, 2)} % of a flank.`;

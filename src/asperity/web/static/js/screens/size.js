@@ -12,6 +12,7 @@ import { useJob, useTaken, WorkPanel } from "../work.js";
 
 const ASKED = [["ratio", "ratio", "15"], ["output_torque", "torque of the wheel", "300 N m"],
   ["worm_speed", "speed of the worm", "1500 rpm"]];
+/** @type {[string, string, number][]} */
 const COLUMNS = [
   ["centre_distance_mm", "a (mm)", 5], ["starts", "z₁", 3], ["wheel_teeth", "z₂", 4],
   ["axial_module_mm", "m (mm)", 4], ["diameter_factor", "q", 4], ["profile_shift", "x₂", 3],

@@ -37,6 +37,7 @@ const BOUNDS = {
   displacement_amplitude: { low: 0.001, high: 100, unit: "um" },
 };
 
+/** @type {Record<string, [string, object][]>} */
 const GROUPS = {
   body: [
     ["slider.drive_velocity", { low: 0.01, high: 100, unit: "mm/s", log: true }],
