@@ -288,6 +288,13 @@ def commercial():
 ALL = {
     each.__name__: each
     for each in (
-        closed_forms, asperities, shaken_base, lugre, master, ultrasonic_pin, textbook, commercial
+        closed_forms,
+        asperities,
+        shaken_base,
+        lugre,
+        master,
+        ultrasonic_pin,
+        textbook,
+        commercial,
     )
 }

@@ -12,6 +12,7 @@ from asperity.commands import case_tables
 from asperity.drive.static.loaded import Loaded, loaded
 from asperity.drive.static.spread import STRIPS, Spread, k_h_alpha
 from asperity.drive.studies import misalign, points
+from asperity.drive.studies.misalign_plots import over_axes
 from asperity.errors import ConvergenceError, InputError
 from asperity.runs import Interrupted, Run
 from asperity.runs.cache import Cache
@@ -176,3 +177,17 @@ def test_a_left_hand_gearset_is_off_as_the_right_hand_one_mirrored():
     for name in ("pressure_flank", "force_worm_tip", "k_h_beta", "line_load", "deflection"):
         assert getattr(left, name) == pytest.approx(getattr(right, name), rel=1e-6)
     assert right.centre_face != pytest.approx(numbers().centre_face, rel=1e-2)
+
+
+def test_each_axis_has_a_column_of_its_own_and_a_line_where_it_alone_is_off(cached):
+    made = study(over=["mount.axial_offset=-50,50 um", "mount.shaft_angle_error=0,0.1 deg"])
+    figure = over_axes(misalign.answer(made, Run()).to_dataset())
+    grid = figure.axes[0].get_gridspec()
+    assert (grid.nrows, grid.ncols) == (4, 2)
+    points_of = figure.axes[0].lines[0].get_xdata()
+    np.testing.assert_allclose(points_of, [0, -50, -50, 50, 50])
+    np.testing.assert_allclose(figure.axes[1].lines[0].get_xdata(), [0, 0, 0.1, 0, 0.1])
+    # Alone off by -50, 0 and 50 um, in that order.
+    np.testing.assert_allclose(figure.axes[0].lines[1].get_xdata(), [-50, 0, 50])
+    assert figure.axes[0].get_legend() is not None
+    assert all(axes.get_legend() is None for axes in figure.axes[1:])
