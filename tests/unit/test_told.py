@@ -80,7 +80,7 @@ def test_a_new_case_says_how_far_what_it_proposes_holds(monkeypatch, holding, ho
     assert list(values["gearset"]) == ["name", "starts", "wheel_material"]
 
 
-def test_cases_that_are_compared_have_a_unit_where_there_is_one():
+def test_cases_that_are_compared_say_what_was_asked_and_have_units_where_there_are_some():
     cases = [
         read_case("table-4.3", case_tables(), [
             "solve.method=periodic", f"vibration.velocity_ratio={ratio}",
@@ -90,6 +90,7 @@ def test_cases_that_are_compared_have_a_unit_where_there_is_one():
     found = compare.compare(
         cases, lambda command, case: slide(Model.from_case(case), history=False)
     )
+    assert found.asked == (("vibration.velocity_ratio", ("2", "6")),)
     meanings = {key: what for key, what, _ in found.numbers}
     assert meanings["drive_force_N"].endswith(" (N)")
     assert not meanings["ratio"].endswith(")")
