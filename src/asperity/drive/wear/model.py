@@ -94,9 +94,7 @@ class Taken:
         shift, turn = np.zeros(3), np.zeros((3, 3))
         for tooth in found.teeth:
             k = tooth.number - first
-            sliding(
-                contact.stand, rotation[k], translation[k], contact.side, 1.0, shift, turn
-            )
+            sliding(contact.stand, rotation[k], translation[k], contact.side, 1.0, shift, turn)
             on = tooth.force > 0.0
             points, out, force = (
                 tooth.strip.points[on], tooth.strip.normals[on], tooth.force[on]
