@@ -145,4 +145,4 @@ def test_another_system_is_one_line(asperity):
 def test_what_is_to_be_given_again_stays_as_it_is():
     text = 'rate it with --set "gearset.axial_module=1.75 mm", 25.4 mm wide'
     with shown_in("us"):
-        assert shown_text(text) == 'rate it with --set "gearset.axial_module=1.75 mm", 1.00 in wide'
+        assert shown_text(text) == 'rate it with --set "gearset.axial_module=1.75 mm", 1 in wide'
