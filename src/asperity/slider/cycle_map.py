@@ -27,7 +27,7 @@ _PUSH = 1e-3
 _WATCHED = 64  # cycles of a march that is pushed
 _LASTING = 1.0 - 1e-5  # a multiplier by differences is as exact
 _SURE = 1.0 + 2e-5  # above which it is not 1
-_MOST_CYCLES = 256  # over which a slow growth is told
+_LONGER = 64, 4  # times the cycles, and times these: over which a slow growth is told
 _FAR_PUSH = 0.1
 _SAME_RATIO, _SAME_IN_PLANE = 1e-6, 2e-5
 _MOST_WATCHED = 2000
@@ -129,13 +129,12 @@ class Cycle:
         """
         if not _SURE < growth <= UNSTABLE:
             return False
-        cycles = min(math.ceil(2.0 * (UNSTABLE - 1.0) / (growth - 1.0)), _MOST_CYCLES)
         longer = self.copied()
-        longer.repeat(cycles)
-        if not longer.find(0):
-            return False
-        whole = longer._by_differences()
-        return whole > UNSTABLE and 0.5 < math.log(whole) / (cycles * math.log(growth)) < 2.0
+        told = []
+        for cycles in _LONGER:
+            longer.repeat(cycles)
+            told.append(longer._by_differences() if longer.find(0) else 0.0)
+        return told[0] > UNSTABLE and math.log(max(told[1], 1.0)) > 3.0 * math.log(told[0])
 
     def one_of_many(self, growth: float) -> bool:
         """Whether a disturbance of a state lasts, and the drive force follows it."""
