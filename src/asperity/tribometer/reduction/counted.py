@@ -62,6 +62,8 @@ class _Fit:
     ) -> None:  # fmt: skip
         self.there, self.shaken, self.length = there, shaken, length
         self.give = 0.0, EXPECTED_GIVE
+        self.gives = 0.0
+        self.rates = -length * np.arange(there.shape[1])
         self.many = there.sum(axis=1)
         self.middle = signal.sum(axis=1) / self.many
         rest = np.where(there, signal - self.middle[:, None], 0.0)
@@ -100,39 +102,38 @@ class _Fit:
         self.columns[1] = swings
         return self
 
-    def _whiten(self, given: FloatArray) -> float:
-        """Fill factors, what is white and its products; returns the noise's log determinant."""
+    def unlikely(self, given: FloatArray) -> float:
+        """Return twice the restricted likelihood's negative; fills what is white."""
         variance, memory, ratio = self.noise(given)
-        lasts = np.exp(-self.length / memory * np.arange(self.there.shape[1]))
+        lasts = np.exp(self.rates / memory)
         lasts[1:] *= share_of_state(memory, self.length)
-        sizes = variance * np.where(self.shaken, ratio**2, 1.0)
+        sizes = np.where(self.shaken, variance * ratio**2, variance)
         logarithm = float(white_counts(
             self.many, lasts, sizes, self.of_steps, self.columns, self.factors, self.whitened,
             self.sums,
         ))  # fmt: skip
         if math.isnan(logarithm):
             raise np.linalg.LinAlgError("noise of counts has no covariance")
-        return logarithm
-
-    def solve(self, given: FloatArray) -> tuple[float, FloatArray, FloatArray]:
-        """Return twice the restricted likelihood's negative, the estimates, their information."""
-        logarithm = self._whiten(given)
-        ones, across, of_levels, swings, of_swings, square = self.sums.T
+        ones, across, of_levels = self.sums.T[:3]
         expected, weight = self.give[0], self.give[1] ** -2.0
         # Each level hangs together with the give alone, so that this is solved by hand.
-        bend = float(swings.sum()) + weight - float(across @ (across / ones))
-        right = float(of_swings.sum()) + weight * expected
-        give = (right - float(across @ (of_levels / ones))) / bend
-        estimate = np.append((of_levels - across * give) / ones, give)
-        rest = float(square.sum()) + weight * expected**2
-        _, memory, ratio = self.noise(given)
-        likelihood = (
-            logarithm + rest - float(estimate[:-1] @ of_levels) - give * right
+        bent, total = across / ones, self.sums.sum(axis=0)
+        bend = float(total[3]) + weight - float(across @ bent)
+        self.gives = (float(total[4]) + weight * expected - float(bent @ of_levels)) / bend
+        return float(
+            logarithm + float(total[5]) + weight * expected**2
+            - float(of_levels @ (of_levels / ones)) - bend * self.gives**2
             + float(np.log(ones).sum()) + math.log(bend)
             + unexpected(memory, math.log(ratio))
             + max(self.least - given[0], 0.0)
         )  # fmt: skip
-        information = np.diag(np.append(ones, float(swings.sum()) + weight))
+
+    def solve(self, given: FloatArray) -> tuple[float, FloatArray, FloatArray]:
+        """Return twice the restricted likelihood's negative, the estimates, their information."""
+        likelihood = self.unlikely(given)
+        ones, across, of_levels, swings, _, _ = self.sums.T
+        estimate = np.append((of_levels - across * self.gives) / ones, self.gives)
+        information = np.diag(np.append(ones, float(swings.sum()) + self.give[1] ** -2.0))
         information[:-1, -1] = information[-1, :-1] = across
         return likelihood, estimate, information
 
@@ -226,12 +227,12 @@ def estimate_counted(
     shown = [_counted(swings, places, there, first, behind, late) for late in delays]
     taken = -1
     for _ in range(_ROUNDS):
-        likelihoods = [fit.with_swings(one).solve(given)[0] for one in shown]
+        likelihoods = [fit.with_swings(one).unlikely(given) for one in shown]
         last, taken = taken, int(np.argmin(likelihoods))
         if taken == last:
             break
         fit.with_swings(shown[taken])
-        given = likeliest(lambda trial: fit.solve(trial)[0], given, free)
+        given = likeliest(fit.unlikely, given, free)
     slopes, spread = doubt(fit.solve, given, levels, range(free))
     estimate, covariance, steps, weights, left = _at_all_delays(fit, given, shown)
     gives, unsure_of_it = beyond_doubt(float(estimate[-1]), float(covariance[-1, -1])), 0.0
