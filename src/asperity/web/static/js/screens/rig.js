@@ -220,6 +220,6 @@ function Law({ found }) {
       ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
       ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],
       ["what the data tell", sure]]} />
-    <p class="says">chi² ${digits(found.chi2, 4)} at ${found.dof} ${found.dof === 1 ? "degree" : "degrees"}
-      of freedom, law ${found.law}, ${found.points} measurements.</p>`;
+    <p class="says">chi² ${digits(found.chi2, 4)} at ${found.dof} degree${found.dof === 1 ? "" : "s"} of freedom,
+      law ${found.law}, ${found.points} measurement${found.points === 1 ? "" : "s"}.</p>`;
 }
