@@ -59,7 +59,7 @@ def keep(served, at, asked, identity, slot):
 
 
 # Of these the answer alone is drawn.
-WITHOUT = ("flank", "optimise", "rig reduce", "fit")
+WITHOUT = ("flank", "optimise", "rig reduce")
 # Variables that the screens draw, of files that hold many more.
 NAMES = {
     "drive-static": [
@@ -69,6 +69,7 @@ NAMES = {
     "directions": ["torque_ratio"],
     "locking": ["amplitude", "creep_over", "creep_limit"],
     "block-settled": ["friction", "slider_friction"],
+    "fit": ["measured", "deviation", "predicted"],
     "block-march": ["pressure", "faces", "node_x", "node_y", "drive_force"],
 }
 

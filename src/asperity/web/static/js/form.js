@@ -2,6 +2,7 @@
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { forms, useCaseFile } from "./api.js";
 import { fault, instead, useCase } from "./state.js";
+import { inWords, printed } from "./symbols.js";
 import { useTouch } from "./touch.js";
 import { digits, factor, inUnit, split } from "./units.js";
 
@@ -120,9 +121,10 @@ export function Field({ path, label, brief }) {
       ? html`<button type="button" class="quiet" title="back to the case's own"
           aria-label=${`${said}: back to the case's own`} onClick=${() => unset(path)}>↺</button>`
       : null}
-    ${figures ? html`<p class="says figures">${figures}</p>` : null}
+    ${figures ? html`<p class="says figures">${printed(figures)}</p>` : null}
     <p class=${brief ? "says hidden" : "says"} id=${`${id}-says`}>
-      ${meaningOf(field)}${hint(field) ? ` (${hint(field)})` : ""}${others ? ` Instead of ${others}.` : ""}
+      ${inWords(printed(meaningOf(field)))}${hint(field) ? ` (${printed(hint(field))})` : ""}${
+        others ? ` Instead of ${others}.` : ""}
     </p>
   </div>`;
 }

@@ -1,4 +1,4 @@
-/** What moves while it is seen, unless the reader wants nothing to move. */
+/** What moves while it is seen, unless the reader wants nothing to move; and what of it a shared file takes along. */
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 
 export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -6,16 +6,25 @@ export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matche
 const MOST = 100;
 
 /**
- * Call a drawing with the time it has run, s, while its element is in the window and it plays.
- * @param {{current: Element | null}} element @param {(seconds: number) => void} draw
- * @param {unknown[]} of what makes the drawing another
+ * What moves each element that is shown: a module that needs nothing of the page, and what it plays.
+ * @type {WeakMap<Element, {module: string, of: any}>} `of` may be a function that makes it, at once or later
  */
-export function usePlayed(element, draw, of) {
+export const moving = new WeakMap();
+
+/**
+ * Play a module in an element while that is in the window.
+ * @param {{current: Element | null}} element
+ * @param {{playing: (element: Element, of: any) => (seconds: number) => void, NAME: string}} module
+ * @param {any} of what it plays @param {unknown[]} when what makes that another
+ */
+export function usePlayed(element, module, of, when) {
   const [plays, setPlays] = useState(!still());
   const time = useRef(0);
   // By layout: an effect waits for the next picture, and what is stopped would still move in it.
   useLayoutEffect(() => {
     if (!element.current) return;
+    moving.set(element.current, { module: module.NAME, of });
+    const draw = module.playing(element.current, of);
     draw(time.current);
     if (!plays) return;
     let [frame, before] = [0, 0];
@@ -30,7 +39,7 @@ export function usePlayed(element, draw, of) {
     const seen = new IntersectionObserver(([entry]) => (entry.isIntersecting ? start() : stop()));
     seen.observe(element.current);
     return () => (seen.disconnect(), stop());
-  }, [plays, ...of]);
+  }, [plays, ...when]);
   return { plays, setPlays };
 }
 

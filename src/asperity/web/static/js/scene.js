@@ -1,5 +1,5 @@
 /** Worm and wheel in space: turned by their ratio, with the lines on which they touch. */
-import { colourAt } from "./map.js";
+import { colourAt } from "./colours.js";
 
 const STEEL = 0xaeb6bf;
 const BRONZE = [0.85, 0.66, 0.38];
@@ -50,13 +50,15 @@ function placed(out, at, p, thick) {
 
 /**
  * Draw a gearset on a canvas.
- * @returns {Promise<null | {show: (what: any) => void, turn: (phi: number) => void, close: () => void}>}
+ * @returns {Promise<null | {show: (what: any) => void, turn: (phi: number) => void,
+ *   picture: (phi: number) => string, close: () => void}>}
  *   null where there is no WebGL
  */
 export async function stage(canvas, { header, arrays }) {
   if (!document.createElement("canvas").getContext("webgl2")) return null;
   const three = await import("../vendor/three.js");
   const renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
+  /** @param {any[]} of points and index */
   const geometry = ([points, index]) => {
     const made = new three.BufferGeometry();
     made.setAttribute("position", new three.BufferAttribute(points, 3));
@@ -104,6 +106,7 @@ export async function stage(canvas, { header, arrays }) {
   const standing = new three.Matrix4().set(...rows, 0, 0, 0, 1);
   worm.matrixAutoUpdate = false;
 
+  /** @type {{part: string, side: string, worm: string, values: any, range: number[], phi: number}} */
   const now = { part: "", side: "", worm: "clear", values: null, range: [0, 1], phi: 0 };
   const controls = new three.OrbitControls(camera, canvas);
   controls.listenToKeyEvents(canvas);
@@ -206,6 +209,15 @@ export async function stage(canvas, { header, arrays }) {
     turn(phi) {
       now.phi = phi;
       pose();
+    },
+    /** What is seen at an angle, as the address of a picture. */
+    picture(phi) {
+      const before = now.phi;
+      now.phi = phi;
+      pose();
+      draw();
+      now.phi = before;
+      return canvas.toDataURL("image/webp", 0.8);
     },
     close() {
       cancelAnimationFrame(waiting);

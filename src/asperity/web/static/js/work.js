@@ -23,7 +23,7 @@ const ordered = (value) => (value?.constructor === Object
 /** A short name for what is asked. @param {object} body */
 export function nameOf(body) {
   let sum = 5381;
-  for (const sign of JSON.stringify(ordered(body))) sum = (sum * 33 + sign.codePointAt(0)) >>> 0;
+  for (const sign of JSON.stringify(ordered(body))) sum = (sum * 33 + Number(sign.codePointAt(0))) >>> 0;
   return sum.toString(36);
 }
 
@@ -148,6 +148,7 @@ export function useData({ from, job }, names) {
 
 /** A time in words. */
 export function lasting(seconds) {
+  /** @type {[number, string][]} */
   const sizes = [[86400, "days"], [3600, "hours"], [60, "min"]];
   const [size, unit] = sizes.find(([each]) => seconds >= 2 * each) ?? [1, "s"];
   return `${seconds < size ? "1" : (seconds / size).toFixed(0)} ${unit}`;

@@ -2,9 +2,10 @@
 import { html, useMemo } from "../../vendor/preact.js";
 import { useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
+import { span } from "../colours.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
 import { Gears, Way } from "../gears.js";
-import { FlankMap, span } from "../map.js";
+import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
@@ -14,6 +15,7 @@ import { Table } from "../table.js";
 import { digits, inUnit } from "../units.js";
 import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
+/** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
   ["power_friction_W", "friction", -1], ["power_damping_W", "damping", -1], ["power_stored_W", "stored", -1]];
 const RANKINGS = {
@@ -41,10 +43,11 @@ const less = (ratio) => (typeof ratio !== "number" ? "."
   : `: the motor gives ${digits(100 * Math.abs(1 - ratio), 3)} % ${ratio < 1 ? "less" : "more"}.`);
 
 /** A torque ratio never stands alone: beside it, whether it is balanced and settled. */
-const Ratio = ({ found, answer }) => html`<div class="ratio">
-  <p class="large"><${Num} entry=${found.torque_ratio} count=${4} /></p>
-  <p>of the worm's torque without vibration is left${less(answer.torque_ratio)}</p>
-  <p><${Verdict} ok=${answer.settled} yes="settled" no="not settled" />${" "}
+const Ratio = ({ found, answer }) => html`
+  <p class="large">${answer.settled ? null : "("}<${Num} entry=${found.torque_ratio} count=${4} />${
+    answer.settled ? null : ")"}</p>
+  <div class="ratio"><p>of the worm's torque without vibration is left${less(answer.torque_ratio)}<br />
+  <${Verdict} ok=${answer.settled} yes="settled" no="not settled" />${" "}
     <span class="of">balance of the wheel</span>${" "}<${Num} entry=${found.torque_balance} count=${3} /></p>
   ${answer.settled ? null : html`<p class="warn">▲ The wheel coasts or speeds up: this ratio is not what the
     gearset settles to.</p>`}</div>`;
@@ -159,18 +162,17 @@ export function view() {
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
       answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}
       lead="A gearset under load, shaken: what the motor is spared, what that costs, and what it does to the teeth.">
-    <div class="columns"><section class="controls" aria-label="what is set">
+    <div class="columns headed moving"><section class="controls" aria-label="what is set">
       <${Slider} path="vibration.frequency" low=${100} high=${100000} unit="Hz" log />
       <${Amplitude} bounds=${BOUNDS} />
       <${Folded}><${Form} tables=${["vibration", "drive", "actuator", "operation", "friction", "shaft"]} brief /><//>
     </section>
+    <div class="headline">${shaken.data ? html`<${Ratio} found=${of} answer=${shaken.data.answer} />` : null}</div>
+    ${geometry && speed ? html`<${Gears} geometry=${geometry} speed=${speed} mode=${mode} pressed=${pressed} />` : null}
     <section class="shown">
-      ${geometry && speed ? html`<${Gears} geometry=${geometry} speed=${speed} mode=${mode}
-        pressed=${pressed} />` : null}
       <${WorkPanel} title="Shaken" name="shaken" label="shake it" work=${shaken}
           says="A minute or several: the more the gearset must be shaken until it settles, the longer.">
-        ${shaken.data ? html`<${Ratio} found=${of} answer=${shaken.data.answer} />
-          <${Ledger} found=${of} answer=${shaken.data.answer} />
+        ${shaken.data ? html`<${Ledger} found=${of} answer=${shaken.data.answer} />
           <${Worth} found=${of} answer=${shaken.data.answer} />
           <${AllNumbers} entries=${shaken.data.entries} />` : null}<//>
       <${WorkPanel} title="Under load" name="under load" label="load it" work=${loaded}

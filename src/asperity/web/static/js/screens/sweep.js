@@ -30,7 +30,7 @@ export function view() {
   const file = useCaseFile(name);
   const kind = file && "gearset" in file.tables ? GEAR : SLIDE;
   const texts = ["x", "y"].map((key, place) => params[key] ?? kind.axes[place]);
-  const axes = texts.map(axisOf).filter(Boolean);
+  const axes = texts.flatMap((text) => axisOf(text) ?? []);
   const points = axes.reduce((product, { count }) => product * count, 1);
   const wrong = axes.find(({ count }) => !count);
   const refused = wrong && { message: `points of ${words(wrong.path.split(".")[1])}: ${JSON.stringify(wrong.points)}; `
