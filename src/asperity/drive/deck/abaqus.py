@@ -1,7 +1,8 @@
 """Loaded teeth as an input deck for Abaqus/Standard, in statics.
 
 The worm's flanks are a discrete rigid surface that turns by its reference node on its axis; the rim
-is coupled to a node on the wheel's axis, which turns. Friction is Abaqus's own for Coulomb, else
+is coupled to a node on the wheel's axis, which is turned against the worm and then turns freely
+under the load. Friction is Abaqus's own for Coulomb, else
 the user subroutine FRIC for Dahl's law, which follows the pressure at once: in statics, where the
 pressure only rises, that is as good as one that keeps its stiffness.
 """
@@ -94,15 +95,19 @@ def _deck(setup: TeethSetup, fric: FricSubroutine | None) -> Iterator[str]:
     for step, most in enumerate(_INCREMENTS, start=1):
         yield f"*STEP, NAME=step_{step}, NLGEOM=YES, UNSYMM=YES, INC={100 * most}"
         yield from ("*STATIC", numbers(1.0 / most, 1.0, 1e-6, 1.0 / most))
-        yield "*BOUNDARY"
-        yield f"wheel_centre, 6, 6, {numbers(setup.wheel_angles[step] - begun[0])}"
+        yield "*BOUNDARY, OP=NEW"
+        yield from ("wheel_centre, 1, 5", "worm_centre, 1, 3")
+        if step == 1:
+            yield f"wheel_centre, 6, 6, {numbers(setup.wheel_angles[step] - begun[0])}"
         turn = (setup.worm_angles[step] - begun[1]) * setup.axis
         for freedom, amount in enumerate(turn, start=4):
             yield f"worm_centre, {freedom}, {freedom}, {numbers(float(amount))}"
+        if step > 1:
+            yield from ("*CLOAD", f"wheel_centre, 6, {numbers(-setup.problem.load)}")
         yield from ("*OUTPUT, FIELD", "*NODE OUTPUT", "U,", "*CONTACT OUTPUT", "CSTRESS, CDISP")
         yield "*OUTPUT, HISTORY"
         for name in ("wheel_centre", "worm_centre"):
-            yield from (f"*NODE OUTPUT, NSET={name}", "RF1, RF2, RF3, RM1, RM2, RM3")
+            yield from (f"*NODE OUTPUT, NSET={name}", "RF1, RF2, RF3, RM1, RM2, RM3, UR3")
         yield "*END STEP"
 
 
