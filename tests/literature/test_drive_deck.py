@@ -113,6 +113,35 @@ def test_abaqus_is_told_of_the_same_motion_and_of_dahl_s_law_by_a_subroutine(set
     assert "law 'vector'" in files["user.f"]
 
 
+def test_abaqus_is_told_of_the_shaken_gearset_in_the_steps_of_the_thesis(setup):
+    assert setup.shaken is None
+    assert "axial" in setup.unshaken
+    given = case("drive.teeth=1", f"operation.output_torque={LOAD} N m", name="drive-thesis")
+    made = TeethSetup.from_case(given)
+    text = abaqus_files(made)["gear.inp"]
+    steps = text.split("*STEP, NAME=")[1:]
+    assert [step.split(",")[0] for step in steps] == ["touch", "load", "run_up", "vibration"]
+    told = {
+        "4394.0,": "*SPRING", "1, 47211.8": "DEFINITION=PERIODIC", "0.0032,": "*ROTARY INERTIA",
+        "7600.0,": "*DENSITY",
+    }  # fmt: skip
+    for number, keyword in told.items():
+        assert re.search(rf"{re.escape(keyword)}[^*]*\n{re.escape(number)}", text), keyword
+    assert steps[1].count(f"*CLOAD\nwheel_centre, 6, {-LOAD},") == 1
+    assert "wheel_centre, 6, 6" not in "".join(steps[1:])
+    # 1440 rpm at B, 0.16 mm at A in the last step alone.
+    assert re.search(r"AMPLITUDE=running_up\nmotor, 4, 4, 150\.796", steps[2])
+    assert re.search(r"AMPLITUDE=shaking\nworm_centre, 1, 1, 0\.00016", steps[3])
+    assert "worm_centre, 1, 3" not in steps[3]
+    # Either all boundaries of a step are new, or none.
+    assert text.count("*BOUNDARY,") == text.count("*BOUNDARY, OP=NEW")
+    # No node and no element has a number twice.
+    for kind in ("NODE", "ELEMENT"):
+        blocks = re.findall(rf"^\*{kind}[^\n]*\n((?:\s*\d[^\n]*\n)+)", text, re.MULTILINE)
+        numbers = [line.split(",")[0].strip() for block in blocks for line in block.splitlines()]
+        assert len(set(numbers)) == len(numbers)
+
+
 def test_the_rim_is_held_where_the_package_holds_it(setup):
     rim = setup.wheel.points[setup.wheel.node_set(RIM)]
     radius = np.hypot(rim[:, 0], rim[:, 1])

@@ -24,9 +24,12 @@ from asperity.drive.static.equilibrium import Balance, Equilibrium
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS
 from asperity.drive.teeth.sector import RIM
+from asperity.errors import InputError
 from asperity.flanks.worm.setting import Pair
 from asperity.mesh import HexMesh
 from asperity.runs import Run
+from asperity.vibration import Vibration
+from asperity.vibration.waveform import SINE
 
 _MILLIMETRES = 1e3
 SLID = 5e-3
@@ -51,11 +54,17 @@ class TeethSetup:
         The drive.
     model : StaticModel
         Its loaded contact, as the package itself solves it.
+    shaken : DriveProblem, optional
+        The same under its vibration, where a deck of it can be written.
+    unshaken : str
+        Why it cannot, else empty.
     """
 
     name: str
     problem: DriveProblem
     model: StaticModel
+    shaken: DriveProblem | None = None
+    unshaken: str = ""
 
     @classmethod
     def from_case(cls, case: Case, run: Run | None = None) -> "TeethSetup":
@@ -67,7 +76,8 @@ class TeethSetup:
             The case makes no drive, or its teeth cannot carry the torque.
         """
         problem = prepare(case, static=True)
-        return cls(case.source, problem, StaticModel(problem, run or Run(), phases=1))
+        model = StaticModel(problem, run or Run(), phases=1)
+        return cls(case.source, problem, model, *_shaken(case))
 
     @property
     def pair(self) -> Pair:
@@ -186,7 +196,9 @@ class TeethSetup:
             f" Its load is shared by {sharing} teeth, and this deck has {teeth}, which bear it "
             "alone: only the ratio of torques may be compared."
         )
+        left_out = [f"There is no gear.inp beside it: {self.unshaken}"] if self.unshaken else []
         return [
+            *left_out,
             "SI units: m, kg, s, N, Pa. The wheel's axis is Z through the origin, its middle tooth "
             "about +Y.",
             f"The worm's axis goes through ({', '.join(f'{x:.6g}' for x in self.origin)}) along "
@@ -214,3 +226,19 @@ def turned_about(
         + cosine * (away - along)
         + sine * np.cross(np.broadcast_to(axis, away.shape), away)
     )
+
+
+def _shaken(case: Case) -> tuple[DriveProblem | None, str]:
+    """Return a case's drive under a vibration that a deck can make, or why there is none."""
+    if Vibration.table not in case:
+        return None, ""
+    try:
+        problem = DriveProblem.from_case(case)
+    except InputError as error:
+        return None, str(error)
+    vibration, shape = problem.vibrated
+    if problem.mode != "axial" or vibration.applied_to != "worm" or shape.code != SINE:
+        return None, "it is of a worm that a sine shakes along its axis (vibration.mode = 'axial')"
+    if problem.shaft.torsion is None:
+        return None, "it takes the torsion of the shaft (shaft.torsional_stiffness)"
+    return problem, ""
