@@ -63,6 +63,8 @@ def _deck(setup: TeethSetup, fric: FricSubroutine | None) -> Iterator[str]:
     yield "*HEADING"
     yield f"Loaded teeth: {setup.name.replace(',', ' ')}"
     yield from (f"** {line}" for line in setup.notes())
+    if setup.unshaken:
+        yield f"** There is no {SHAKEN} beside it: {setup.unshaken}"
     yield from model_lines(setup, fric, DECK)
     yield from ("*BOUNDARY", "wheel_centre, 1, 6", "worm_centre, 1, 6")
     begun = setup.wheel_angles[0], setup.worm_angles[0]

@@ -196,9 +196,7 @@ class TeethSetup:
             f" Its load is shared by {sharing} teeth, and this deck has {teeth}, which bear it "
             "alone: only the ratio of torques may be compared."
         )
-        left_out = [f"There is no gear.inp beside it: {self.unshaken}"] if self.unshaken else []
         return [
-            *left_out,
             "SI units: m, kg, s, N, Pa. The wheel's axis is Z through the origin, its middle tooth "
             "about +Y.",
             f"The worm's axis goes through ({', '.join(f'{x:.6g}' for x in self.origin)}) along "
