@@ -224,6 +224,19 @@ COMMANDS = (
         ),
     ),
     Command(
+        "wear",
+        "Let a loaded worm wheel bed in: pressure, error, efficiency, pattern over its turns.",
+        "By Archard's law with [wear], or as ISO/TR 14521 has it. With --out also report.html, "
+        "wear.json, wear.nc and pictures.",
+        module="asperity.drive.wear.solve",
+        needs=("gearset", "operation", "drive"),
+        counts="steps",
+        options=(
+            Option("depth", "Largest depth at which it ends.", "LENGTH", default="20 um"),
+            Option("revolutions", "Turns of the wheel after which it ends.", "N"),
+        ),
+    ),
+    Command(
         "directions",
         "Shake a worm gearset each way: what a micrometre and a watt save, and what forces.",
         "With --out also directions.json, directions.nc and directions.png.",
