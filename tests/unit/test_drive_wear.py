@@ -109,7 +109,8 @@ def test_a_flank_worn_evenly_bears_as_it_did_the_wheel_turned_after():
     g = new.problem.geometry
     arm = 0.5e-3 * g.wheel_mean_diameter * np.cos(g.lead_angle) * np.cos(np.radians(20.0))
     further = (worn.touching - new.touching).mean()
-    assert further == pytest.approx(depth / arm, rel=0.05)
+    # It falls behind.
+    assert further == pytest.approx(-depth / arm, rel=5e-3)
 
 
 @pytest.mark.slow
