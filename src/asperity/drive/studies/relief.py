@@ -132,8 +132,13 @@ def answer(search: Search, run: Run) -> Relieved:
 
 
 def _start(search: Search) -> tuple[int, ...]:
-    """Return the case as it is: -1 of every axis."""
-    return (-1,) * len(search.axes)
+    """Return the case as it is: of every axis the number of its value, -1 where it is none."""
+    found = []
+    for axis in search.axes:
+        own = own_value(search.case, axis)
+        near = (n for n, v in enumerate(axis.shown) if math.isclose(float(v), own, rel_tol=1e-9))
+        found.append(next(near, -1))
+    return tuple(found)
 
 
 def _problems(search: Search, place: tuple[int, ...]) -> list[DriveProblem]:
@@ -152,10 +157,11 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
         own_value(search.case, axis) if n < 0 else float(axis.shown[n])
         for axis, n in zip(search.axes, place, strict=True)
     ]
-    name = ", ".join(axis.text(n) for axis, n in zip(search.axes, place, strict=True) if n >= 0)
+    own_names = [axis.text(n) for axis, n in zip(search.axes, place, strict=True) if n >= 0]
+    name = "as the case is" if place == _start(search) else ", ".join(own_names)
     failed = next((each for each in found if isinstance(each, str)), "")
     if failed:
-        return Design(name or "as the case is", tuple(own), failed=failed, merit=(math.inf,) * 2)
+        return Design(name, tuple(own), failed=failed, merit=(math.inf,) * 2)
     solved = [each for each in found if isinstance(each, Loaded)]
     edges = [each.force_worm_tip + each.force_wheel_tip + each.force_face_end for each in solved]
     share = max(edge / each.normal_force for edge, each in zip(edges, solved, strict=True))
@@ -165,7 +171,7 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
         for e in solved
     )
     return Design(
-        name or "as the case is",
+        name,
         tuple(own),
         edge_force=max(edges),
         edge_share=share,

@@ -164,7 +164,7 @@ class Relieved(Drawn):
         ]  # fmt: skip
         does = f"takes {' and '.join(gone)} away" if gone else "takes load off the edges"
         return (
-            f"{self.best} {does}: their force goes from {self.edge_force_before:.4g} to "
+            f"{self.best} {does}: the force on edges goes from {self.edge_force_before:.4g} to "
             f"{self.edge_force_after:.4g} N, the largest pressure from {self.peak_before:.4g} to "
             f"{self.peak_after:.4g} MPa, the transmission error from "
             f"{_MICRO * self.error_before:.3g} to {_MICRO * self.error_after:.3g} urad",
