@@ -183,7 +183,7 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
         error=max(each.transmission_error for each in solved),
         k_h_beta=max(each.k_h_beta for each in solved),
         worst=search.stands[int(np.argmax(edges))][0],
-        merit=(share if share > LITTLE else 0.0, flank),
+        merit=(max(edges) if share > LITTLE else 0.0, flank),
     )
 
 

@@ -35,7 +35,7 @@ def designs(dataset: "xr.Dataset") -> "Figure":
     legend(pressure)
     error.bar(at, 1e6 * dataset["error"].values, 0.6, color=BLUE)
     error.set_ylabel("error (µrad)")
-    best = int(dataset["best_number"])
+    best = int(np.argmax(dataset["is_best"].values))
     for panel in (force, pressure, error):
         panel.set_xticks(at, [])
         panel.set_xlim(-0.6, len(names) - 0.4)

@@ -61,7 +61,6 @@ class Relieved(Drawn):
 
     best: str = quantity("", "", "best design")
     tried: int = quantity("", "", "designs that were tried")
-    best_number: int = quantity("", "", "its number, the case as it is being 0", shown=False)
     edge_force_before: float = quantity("N", "N", "force on all edges, as the case is")
     edge_force_after: float = quantity("N", "N", "force on all edges, best design")
     peak_before: float = quantity(
@@ -78,6 +77,7 @@ class Relieved(Drawn):
     value: FloatArray = quantity(
         "", "", "value of each axis, in its own unit", dims=("design", "axis")
     )
+    is_best: npt.NDArray[np.int8] = quantity("", "", "1: the best", dims=_DESIGN)
     edge_force: FloatArray = quantity("N", "N", "force on all edges", dims=_DESIGN)
     edge_share: FloatArray = quantity("", "", "the same over the normal force", dims=_DESIGN)
     worm_tip: FloatArray = quantity("N", "N", "force on the worm's tip edge", dims=_DESIGN)
@@ -108,7 +108,7 @@ class Relieved(Drawn):
             failed=tuple(f"{each.name}: {each.failed}" for each in designs if each.failed),
             best=last.name,
             tried=len(designs),
-            best_number=best,
+            is_best=np.array([n == best for n in range(len(designs))], np.int8),
             edge_force_before=first.edge_force,
             edge_force_after=last.edge_force,
             peak_before=_MEGA * first.peak,
@@ -130,6 +130,11 @@ class Relieved(Drawn):
                 )
             },
         )  # fmt: skip
+
+    @property
+    def best_number(self) -> int:
+        """Number of the best design, the case as it is being 0."""
+        return int(np.argmax(self.is_best))
 
     @property
     def geometry(self) -> Geometry:
