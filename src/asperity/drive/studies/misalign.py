@@ -67,7 +67,7 @@ def prepare(case: Case, *, over: Sequence[str] | None = ()) -> Study:
     """
     require_all(case, shaken=False)
     nominal = DriveProblem.from_case(case, shaken=False)
-    axes = tuple(parse_axes(over, case)) if over else tuple(_of_tolerances(case, nominal))
+    axes = tuple(parse_axes(over, case)) if over else tuple(of_tolerances(case, nominal))
     if not axes:
         raise InputError(f"nothing says how far the gearset may be off: {_EXAMPLE}")
     if words := next((axis for axis in axes if not axis.numeric), None):
@@ -108,14 +108,14 @@ def answer(study: Study, run: Run) -> Misaligned:
         raise ConvergenceError(f"the gearset as the case has it: {found[0]}")
     if all(isinstance(each, str) for each in found[1:]):
         raise ConvergenceError(f"no point has an answer; the first: {found[1]}")
-    names = tuple(_described(study.axes, place.where) for place in study.places)
+    names = tuple(described(study.axes, place.where) for place in study.places)
     notes = [*rigid_parts(nominal)]
     notes.append(
         "the wheel's rim is held at its inside: what its web, its hub and the housing give is not "
         "in it but where [shaft] says so"
     )
     notes += [f"{n}: {e}" for n, e in zip(names, found, strict=True) if isinstance(e, str)]
-    own = [_own(study.case, axis) for axis in study.axes]
+    own = [own_value(study.case, axis) for axis in study.axes]
     where = [place.where for place in study.places]
     return Misaligned.of(
         nominal, study.axes, own, where, names, found,
@@ -130,13 +130,14 @@ def _flank(problem: DriveProblem) -> tuple[FloatArray, FloatArray, IntArray]:
     return radius, problem.gearset.hand_sign * points[:, 2], grid_faces()
 
 
-def _described(axes: Sequence[Axis], where: tuple[int, ...]) -> str:
+def described(axes: Sequence[Axis], where: tuple[int, ...]) -> str:
+    """Return a point in words; the case itself has no values."""
     if not where:
         return "as the case is"
     return ", ".join(axis.text(n) for axis, n in zip(axes, where, strict=True))
 
 
-def _own(case: Case, axis: Axis) -> float:
+def own_value(case: Case, axis: Axis) -> float:
     """Return the value that the case itself has of an axis, in its unit; NaN for none."""
     model = case.known[axis.table]
     table = case.get(model)
@@ -152,7 +153,7 @@ def _unit(model: type[Table], key: str) -> str:
     return quantity.unit if quantity is not None else ""
 
 
-def _of_tolerances(case: Case, problem: DriveProblem) -> Iterator[Axis]:
+def of_tolerances(case: Case, problem: DriveProblem) -> Iterator[Axis]:
     """Yield what may be off of how the worm stands: to either side, and not at all."""
     given = case.get(Tolerances)
     if given is None:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 _LEVELS = 24
 _MOST = 9
+# Beyond the largest, which rounding else leaves out.
+_ABOVE = 1.0 + 1e-6
 _SAME = 1e-9
 
 
@@ -79,15 +81,13 @@ def patterns(dataset: "xr.Dataset") -> "Figure":
     halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     mega = 1e-6 * dataset["pattern"].values
     most = float(np.nanmax(mega[chosen]))
+    levels = np.linspace(0.0, _ABOVE * most, _LEVELS)
     for number, panel in enumerate(axes):
         if number >= len(chosen):
             panel.set_visible(False)
             continue
         point = chosen[number]
-        panel.tricontourf(
-            Triangulation(z, r, halves), mega[point], levels=np.linspace(0.0, most, _LEVELS),
-            cmap="cividis", extend="max",
-        )  # fmt: skip
+        panel.tricontourf(Triangulation(z, r, halves), mega[point], levels=levels, cmap="cividis")
         panel.set_aspect("equal")
         panel.grid(visible=False)
         panel.set_title(_title(dataset, point), fontsize=9.0)
