@@ -2,6 +2,7 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
 import { between } from "./motion.js";
+import { printed } from "./symbols.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
 
@@ -189,7 +190,7 @@ export function Plot(props) {
           table beneath`}>
         ${bands.map(({ from, to }) => html`<rect class="band" x=${across.at(from)} y=${TOP}
           width=${across.at(to) - across.at(from)} height=${bottom - TOP} />`)}
-        <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} whole=${x.whole} />
+        <${Axes} ...${{ across, ups, right, bottom }} along=${printed(named(x))} upward=${axis.map(printed)} whole=${x.whole} />
         ${lines.map((line) => html`<${Drawn} key=${line.label} line=${line} colour=${line.colour} across=${across}
           places=${line.x ?? x.values} up=${upOf(line)} />`)}
         ${marks.filter((mark) => number(mark.x)).map((mark) => (number(mark.y)
