@@ -4,7 +4,6 @@ import { Figure } from "./figure.js";
 import { shade, span } from "./colours.js";
 import { Legend } from "./map.js";
 import { Axes, BOTTOM, LEFT, RIGHT, scale, TOP, useWidth } from "./plot.js";
-import { printed } from "./symbols.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
 
@@ -48,8 +47,8 @@ export function Heat({ title, unit, down, across, values }) {
     <div class="canvas" ref=${box}><svg class="drawn" width=${width} height=${HEIGHT} role="img"
         viewBox=${`0 0 ${width} ${HEIGHT}`} aria-label=${`${title} over ${named(across)} and ${named(down)}, from
           ${digits(range[0], 3)} to ${digits(range[1], 3)} ${unit}; the numbers are in the table beneath`}>
-      <${Axes} across=${along} ups=${[up]} right=${right} bottom=${bottom} along=${printed(named(across))}
-        upward=${[printed(named(down))]} />
+      <${Axes} across=${along} ups=${[up]} right=${right} bottom=${bottom} along=${named(across)}
+        upward=${[named(down)]} />
       ${places.filter(({ value }) => value !== null).map(rectangle)}</svg></div>
     <${Legend} range=${range} unit=${unit} label=${title} />
   <//>`;

@@ -135,10 +135,13 @@ export const Axes = ({ across, ups, right, bottom, along, upward, whole }) => ht
     <text x=${side ? right + 6 : LEFT - 6} y=${up.at(tick) + 4} text-anchor=${side ? "start" : "end"}>
       ${digits(tick, 6)}</text>`))}
   ${upward.slice(0, 2).map((said, side) => html`<text text-anchor="middle"
-    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
-  <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${along}</text>`;
+    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${printed(said)}</text>`)}
+  <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${printed(along)}</text>`;
 
-/** Marks that run along the lines with what moves beside them. @param {{part: any, places: number[], dots: any[], bottom: number}} props */
+/**
+ * Marks that run along the lines with what moves beside them.
+ * @param {{part: any, places: number[], dots: any[], bottom: number}} props
+ */
 function Running({ part, places, dots, bottom }) {
   const drawn = useRef(null);
   // At once with the lines: as many marks as there are.
@@ -190,7 +193,7 @@ export function Plot(props) {
           table beneath`}>
         ${bands.map(({ from, to }) => html`<rect class="band" x=${across.at(from)} y=${TOP}
           width=${across.at(to) - across.at(from)} height=${bottom - TOP} />`)}
-        <${Axes} ...${{ across, ups, right, bottom }} along=${printed(named(x))} upward=${axis.map(printed)} whole=${x.whole} />
+        <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} whole=${x.whole} />
         ${lines.map((line) => html`<${Drawn} key=${line.label} line=${line} colour=${line.colour} across=${across}
           places=${line.x ?? x.values} up=${upOf(line)} />`)}
         ${marks.filter((mark) => number(mark.x)).map((mark) => (number(mark.y)

@@ -106,7 +106,7 @@ export async function stage(canvas, { header, arrays }) {
   const standing = new three.Matrix4().set(...rows, 0, 0, 0, 1);
   worm.matrixAutoUpdate = false;
 
-  /** @type {{part: string, side: string, worm: string, values: any, range: number[], phi: number}} */
+  /** @type {any} */
   const now = { part: "", side: "", worm: "clear", values: null, range: [0, 1], phi: 0 };
   const controls = new three.OrbitControls(camera, canvas);
   controls.listenToKeyEvents(canvas);
@@ -210,13 +210,10 @@ export async function stage(canvas, { header, arrays }) {
       now.phi = phi;
       pose();
     },
-    /** What is seen at an angle, as the address of a picture. */
+    /** As the address of a picture. */
     picture(phi) {
-      const before = now.phi;
-      now.phi = phi;
-      pose();
+      this.turn(phi);
       draw();
-      now.phi = before;
       return canvas.toDataURL("image/webp", 0.8);
     },
     close() {

@@ -3,7 +3,6 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
-import { share } from "./share.js";
 import { inWords } from "./symbols.js";
 import { visited } from "./visited.js";
 
@@ -30,6 +29,7 @@ async function shared(title, answer) {
   sharing.value = true;
   tell("the file is being made");
   try {
+    const { share } = await import("./share.js");
     await share(title, answer);
     tell("the file is made: all of this, for anyone, without server and network");
   } catch (error) {

@@ -60,7 +60,8 @@ export function Strips({ powers, label }) {
   const Name = ({ one, x, anchor }) => html`<text text-anchor=${anchor}>
     <tspan x=${x} y=${one.from + one.wide / 2 - 2}>${one.name}</tspan>
     <tspan x=${x} y=${one.from + one.wide / 2 + 15}>${said(one).slice(one.name.length + 1)}</tspan></text>`;
-  return html`<svg class="strips" ref=${picture} viewBox=${`0 0 ${WIDTH} ${high}`} role="img" aria-label=${`${label}: ${words}`}>
+  return html`<svg class="strips" ref=${picture} viewBox=${`0 0 ${WIDTH} ${high}`} role="img"
+      aria-label=${`${label}: ${words}`}>
     <rect class="middle" x=${MIDDLE[0]} y="24" width=${MIDDLE[1] - MIDDLE[0]} height=${HIGH} />
     ${left.map((one, n) => html`<path class=${`strip in-${n}`}
         d=${band(ENDS[0], one.from, MIDDLE[0], one.to, one.wide)} />

@@ -59,7 +59,8 @@ export function view() {
         <${AllKeys} tables=${[...kind.tables, ...kind.rest]} brief />
       </section>
       <section class="shown" aria-label="what is found">
-        ${found.names.length ? null : html`<p class="says">${running || work.asking ? "The first points are being solved."
+        ${found.names.length ? null : html`<p class="says">${running || work.asking
+            ? "The first points are being solved."
             : "Nothing is solved yet: choose the axes and begin."}</p>`}
         ${found.data ? html`<${Found} ...${found} />` : null}
         <${Files} job=${work.job} />
@@ -147,7 +148,8 @@ function Least({ title, unit, values, loose, axes }) {
   const [value, at] = known.reduce((best, one) => (one[0] < best[0] ? one : best));
   const count = axes.at(-1).values.length;
   const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
-  const where = axes.map(({ label, unit: of, values: all }, k) => printed(`${label} ${digits(all[places[k]], 4)} ${of}`.trim()));
+  const where = axes.map(({ label, unit: of, values: all }, k) =>
+    printed(`${label} ${digits(all[places[k]], 4)} ${of}`.trim()));
   return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}${" "}
     <span class="says">${inWords(title)}</span></p>`;
 }
