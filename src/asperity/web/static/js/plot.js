@@ -135,7 +135,8 @@ export const Axes = ({ across, ups, right, bottom, along, upward, whole }) => ht
     <text x=${side ? right + 6 : LEFT - 6} y=${up.at(tick) + 4} text-anchor=${side ? "start" : "end"}>
       ${digits(tick, 6)}</text>`))}
   ${upward.slice(0, 2).map((said, side) => html`<text text-anchor="middle"
-    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${printed(said)}</text>`)}
+    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>
+      ${printed(said)}</text>`)}
   <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${printed(along)}</text>`;
 
 /**

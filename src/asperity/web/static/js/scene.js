@@ -58,7 +58,7 @@ export async function stage(canvas, { header, arrays }) {
   if (!document.createElement("canvas").getContext("webgl2")) return null;
   const three = await import("../vendor/three.js");
   const renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
-  /** @param {any[]} of points and index */
+  /** @param {any[]} of */
   const geometry = ([points, index]) => {
     const made = new three.BufferGeometry();
     made.setAttribute("position", new three.BufferAttribute(points, 3));
@@ -94,13 +94,13 @@ export async function stage(canvas, { header, arrays }) {
   lamp.position.set(0.4, 0.8, 1);
   scene.add(new three.HemisphereLight(0xffffff, 0x8890a0, 1.6), camera, wheel, worm, lines);
 
-  const turn = new three.Matrix4();
+  const spin = new three.Matrix4();
   for (let k = 0; k < teeth; k += 1) {
-    // The one in the middle first, then those beside it in turn.
+    // The middle one first, then its neighbours.
     const place = k % 2 ? (k + 1) / 2 : -k / 2;
-    turn.makeRotationZ(place * step);
-    if (k < count) fine.setMatrixAt(k, turn);
-    else coarse.setMatrixAt(k - count, turn);
+    spin.makeRotationZ(place * step);
+    if (k < count) fine.setMatrixAt(k, spin);
+    else coarse.setMatrixAt(k - count, spin);
   }
   const rows = header.worm.rotation.flatMap((row, k) => [...row, header.worm.place[k]]);
   const standing = new three.Matrix4().set(...rows, 0, 0, 0, 1);
@@ -166,7 +166,7 @@ export async function stage(canvas, { header, arrays }) {
     const ahead = header.sides[side].ahead;
     const turned = (phi * starts) / teeth + ahead;
     wheel.rotation.z = part === "tooth" ? 0 : turned;
-    worm.matrix.copy(standing).multiply(turn.makeRotationZ(phi));
+    worm.matrix.copy(standing).multiply(spin.makeRotationZ(phi));
     const n = nearest(header, phi);
     const [from, to] = arrays[`lines.begin.${side}`].slice(n, n + 2);
     const [ends, tooth] = [arrays[`lines.points.${side}`], arrays[`lines.tooth.${side}`]];
@@ -191,6 +191,11 @@ export async function stage(canvas, { header, arrays }) {
     soon();
   }
 
+  function turn(phi) {
+    now.phi = phi;
+    pose();
+  }
+
   return {
     show(what) {
       const moved = what.part !== now.part || what.side !== now.side;
@@ -206,13 +211,10 @@ export async function stage(canvas, { header, arrays }) {
       if (moved) look();
       pose();
     },
-    turn(phi) {
-      now.phi = phi;
-      pose();
-    },
-    /** As the address of a picture. */
+    turn,
+    /** As a data URL. */
     picture(phi) {
-      this.turn(phi);
+      turn(phi);
       draw();
       return canvas.toDataURL("image/webp", 0.8);
     },
