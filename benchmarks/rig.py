@@ -110,6 +110,9 @@ class Handed:
         self.inputs, self._counts = inputs, counts
         self._now, self._given, self._begun = 0.0, 0, 0.0
 
+    def identify(self):
+        return self.name
+
     def now(self):
         return self._now
 

@@ -69,7 +69,12 @@ def asked(name, lot):
         "flank": (["gearset-3b", "--density", "coarse"], []),
         "drive": (["drive-screw"], [*TEETH, *shake]),
         "directions": (["drive-screw"], [*TEETH, *shake]),
+        "misalign": (
+            ["drive-screw", "--over", f"mount.axial_offset=0,{lot.uniform(5.0, 50.0):.4g} um"],
+            ["drive.teeth=1", "drive.phases=2"],
+        ),
         "locking": (["drive-actuator"], [*TEETH]),
+        "control": (["drive-actuator"], [*TEETH, "drive.stroke=16 deg", "control.failures=dead"]),
         "fit": ([ANSWERS / "ratios.csv", "table-4.3", "--free", "friction.max_deflection"], []),
         "rig plan": (["rig-final"], [f"plan.repeats={lot.randint(1, 4)}"]),
         "rig check": ([ANSWERS / "rig.nc"], []),

@@ -32,6 +32,7 @@ EXPECTED_GIVE = 1.0  # what a signal gives to the whole torque, as a share: loos
 _ROUNDS = 2
 _LOOK = 0.35  # first step of the search, in the logarithms of what is sought
 _ENOUGH = 200
+_TOLD = 6  # decimals of a likelihood
 _STEP = 0.05  # for differences
 _LEAST_INFORMATION = 0.25  # of a logarithm: nobody doubts it by more than a factor of e squared
 _NEAR_NONE = -9.0  # logarithm of a share that is as good as none
@@ -294,10 +295,14 @@ def likeliest(unlikely: Callable[[FloatArray], float], given: FloatArray, free: 
     """Return parameters of noise, of which the first ones are free, where something is least."""
     from scipy.optimize import minimize
 
+    def told(sought: FloatArray) -> float:
+        # Where it is flat the last digits, which differ from one processor to another, would lead.
+        return round(unlikely(np.concatenate((sought, fixed))), _TOLD)
+
     fixed, start = given[free:], given[:free]
     simplex = np.vstack((start, start + np.diag([3.0 * _LOOK, 2.0 * _LOOK, _LOOK][:free])))
     found = minimize(
-        lambda sought: unlikely(np.concatenate((sought, fixed))), start, method="Nelder-Mead",
+        told, start, method="Nelder-Mead",
         options={"initial_simplex": simplex, "maxfev": _ENOUGH, "xatol": 0.02, "fatol": 0.02},
     )  # fmt: skip
     return np.concatenate((found.x, fixed))

@@ -220,30 +220,44 @@ class Tare:
     ----------
     zeros : mapping of str to Zero
         Those of them that are.
+    left : mapping of str to Zero
+        Those that are so far off that something else may have been seen, and are not.
     """
 
     zeros: Mapping[str, Zero]
+    left: Mapping[str, Zero] = dataclasses.field(default_factory=dict)
 
     def off(self, blocks: Blocks) -> Blocks:
         """Return blocks without zeros."""
         means = dict(blocks.means)
         for signal, zero in self.zeros.items():
-            knots = np.linspace(blocks.time[0], blocks.time[-1], 200)
-            means[signal] = means[signal] - np.interp(blocks.time, knots, zero.at(knots))
+            means[signal] = means[signal] - _over(blocks, zero)
         return dataclasses.replace(blocks, means=means)
+
+    def at_rest(self, blocks: Blocks, signal: str) -> FloatArray | float:
+        """Return what a signal shows at rest over time, whether it is taken off or not."""
+        zero = self.zeros.get(signal) or self.left.get(signal)
+        return 0.0 if zero is None else _over(blocks, zero)
+
+
+def _over(blocks: Blocks, zero: Zero) -> FloatArray:
+    knots = np.linspace(blocks.time[0], blocks.time[-1], 200)
+    found: FloatArray = np.interp(blocks.time, knots, zero.at(knots))
+    return found
 
 
 def tare(of: Material, zeros: Mapping[str, Zero]) -> tuple[Tare, list[Finding]]:
     """Return zeros that are taken off, and what is to be told of zeros."""
     taken: dict[str, Zero] = {}
+    left: dict[str, Zero] = {}
     told: list[Finding] = []
     for signal, zero in zeros.items():
         level = _running(of, signal)
         size = float(np.abs(zero.values).max())
-        if signal in TARED and size <= _TOO_MUCH * level:
-            taken[signal] = zero
+        if signal in TARED:
+            (taken if size <= _TOO_MUCH * level else left)[signal] = zero
         told += _findings(of, signal, zero, level, mended=signal in taken)
-    return Tare(taken), told
+    return Tare(taken, left), told
 
 
 def _running(of: Material, signal: str) -> float:
