@@ -4,10 +4,10 @@ import { colourAt } from "./colours.js";
 const STEEL = 0xaeb6bf;
 const BRONZE = [0.85, 0.66, 0.38];
 const SIDES = 6;
-/** From the body to the eye, for each part that is shown. */
+/** From the body to the eye, by part. */
 const VIEWS = { whole: [0.55, 0.45, 1], mesh: [0.75, 0.3, 1], tooth: [1.2, 0.5, 0.8] };
 
-/** Which of the angles that have contact lines is nearest. */
+/** The nearest angle that has contact lines. */
 export const nearest = ({ pitch, angles }, phi) => Math.round((phi / pitch) * angles) % angles;
 
 /** Points and triangles of several pieces as one. */
