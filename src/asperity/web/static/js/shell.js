@@ -3,7 +3,6 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
-import { share } from "./share.js";
 import { inWords } from "./symbols.js";
 import { visited } from "./visited.js";
 
@@ -30,6 +29,7 @@ async function shared(title, answer) {
   sharing.value = true;
   tell("the file is being made");
   try {
+    const { share } = await import("./share.js");
     await share(title, answer);
     tell("the file is made: all of this, for anyone, without server and network");
   } catch (error) {
@@ -195,12 +195,14 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
       ${lead ? html`<p class="lead">${lead}</p>` : null}
       ${kinds ? html`<${CasePicker} kinds=${kinds} first=${first} start=${start} />` : null}
       <div class="actions">
-        ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
-        ${answer?.command ? html`<button type="button" title=${answer.command}
-          onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
         ${answer?.answer ? html`<button type="button" title="all of this as one file that anyone opens"
           disabled=${sharing.value} onClick=${unless(() => shared(title, answer))}>share</button>` : null}
         ${actions}
+        ${answer?.answer ? html`<button type="button" title="on paper, or as a PDF"
+          onClick=${unless(() => print())}>print</button>` : null}
+        ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
+        ${answer?.command ? html`<button type="button" title=${answer.command}
+          onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
         <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
       </div>
     </header>

@@ -15,7 +15,7 @@ import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
-import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
+import { Files, placeOf, Report, useJob, useTaken, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
@@ -228,6 +228,7 @@ export function view() {
   const shown = { part, layer: told?.key, side, worm, ...values };
   return html`<${Screen} title="Flanks" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${taken} error=${work.error ?? packed.error}
+      actions=${html`<${Report} command="flank" body=${body} />`}
       lead="The wheel cut exactly as its hob cuts it: where it touches the worm, and what that does.">
     <div class="columns headed moving">
       <section class="controls" aria-label="what is set"><${Work} work=${work} label="cut the wheel" />
