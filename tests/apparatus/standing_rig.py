@@ -12,6 +12,7 @@ import threading
 import time
 
 import numpy as np
+
 from apparatus import rigs
 from apparatus.forked_guardian import OwnTime, forked_guardians
 from asperity.errors import AsperityError
