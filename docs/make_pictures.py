@@ -125,12 +125,14 @@ def two_states() -> "Figure":
     return answer(prepare(case, over=[over]), Run()).figure()
 
 
-def of_command(name: str, shipped: str, *settings: str, picture: str | None = None) -> "Figure":
-    """A picture of a command's answer to a case that ships, the first if none is named."""
+def of_command(
+    name: str, shipped: str, *settings: str, picture: str | None = None, **options: Any
+) -> "Figure":
+    """A picture of a command's answer to a case that ships; the first if none is named."""
     command = next(each for each in COMMANDS if each.name == name)
     run = Run()
     run.detailed = True
-    problem = command.prepared(read_case(shipped, case_tables(), settings))
+    problem = command.prepared(read_case(shipped, case_tables(), settings), **options)
     return command.solved(problem, run).figure(picture)
 
 
@@ -306,6 +308,12 @@ if __name__ == "__main__":
         ),
         "drive_locking": of_command("locking", "drive-actuator"),
         "control_failures": of_command("control", "drive-actuator", picture="control_failures"),
+        "loaded_error": of_command("drive", "drive-screw", picture="drive_error", static=True),
+        "misalign": of_command(
+            "misalign", "drive-screw", "tolerances.centre_distance=js8",
+            "tolerances.axial_offset=30 um", "tolerances.shaft_angle=0.02 deg",
+        ),
+        "wear_flank": of_command("wear", "drive-screw", "drive.phases=12", picture="wear_flank"),
         "shafts": of_command("shafts", "actuator-shafts"),
         "catalogue": catalogues(),
     }  # fmt: skip

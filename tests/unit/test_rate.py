@@ -151,7 +151,7 @@ def test_results_say_when_they_rest_on_memory():
 
 def test_a_number_is_trusted_no_more_than_those_in_its_equation():
     rated = rate(*minimal())
-    levels = ["verified", "one source", "from memory"]
+    levels = ["verified", "one source", "own choice", "from memory"]
     for rating in rated.ratings:
         trust = {e.symbol: e.source.confidence for e in rating if not e.assumed}
         given = {e.symbol for e in rating if e.source.name == "the case"}

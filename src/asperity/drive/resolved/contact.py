@@ -241,6 +241,8 @@ class _Teeth:
         for approach in self.approaches:
             moved = flank.on_grid @ approach.moved
             gap, *_ = approach.gaps(points + moved)
+            if flank.worn is not None:
+                gap = gap + flank.worn
             size = float(np.linalg.norm(moved, axis=1).max())
             near = gap < max(_NEAR * size, _LEAST_NEAR)
             if not near.any():

@@ -8,6 +8,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy import sparse
@@ -16,7 +17,11 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.drive.resolved.smooth import smoothed
 from asperity.drive.teeth.sector import Sector, lattice
 from asperity.drive.teeth.threads import thread_flexibility
+from asperity.flanks.wheel.enveloped import Wheel
 from asperity.gearset.materials import Material
+
+if TYPE_CHECKING:
+    from scipy.interpolate import RectBivariateSpline
 
 _MILLIMETRES = 1e3
 _ROWS, _COLUMNS = 41, 61
@@ -43,6 +48,8 @@ class ExactFlank:
     #: (1 + b, n, n): Inward motion of the nodes under forces along the normals on the same tooth,
     #: less that of a half-space, and on one 1 .. b pitches before it, m/N
     smooth: FloatArray
+    #: (k,): Depth worn off at the points of `grid`, m; None: new
+    worn: FloatArray | None = None
 
     @classmethod
     def of(cls, sector: Sector, wheel: Material, flexibility: FloatArray) -> ExactFlank:
@@ -62,17 +69,7 @@ class ExactFlank:
     @cached_property
     def grid(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Exact points (k, 3), their normals, shares of the flank's height, and face places."""
-        wheel = self.sector.wheel
-        shares = np.linspace(0.0, 1.0, _ROWS)
-        z = wheel.blank.columns(_COLUMNS)
-        made = wheel.flank(1).at_shares(shares, z)
-        share = np.repeat(shares, z.size)
-        return (
-            made.points.reshape(-1, 3) / _MILLIMETRES,
-            made.normals.reshape(-1, 3),
-            share,
-            made.z.reshape(-1) / _MILLIMETRES,
-        )
+        return grid_of(self.sector.wheel)
 
     @cached_property
     def on_grid(self) -> sparse.csr_array:
@@ -88,9 +85,7 @@ class ExactFlank:
     @property
     def faces(self) -> IntArray:
         """Faces between the points of `grid`, (m, 4)."""
-        at = np.arange(self.nodes).reshape(_ROWS, -1)
-        corners = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
-        return np.stack([corner.ravel() for corner in corners], axis=1)
+        return grid_faces()
 
     def nearest(self, share: FloatArray, z: FloatArray) -> IntArray:
         """Return the number of the nearest point of `grid` to places on the flank."""
@@ -154,6 +149,24 @@ class ExactFlank:
         shape = count, len(self.sector.surface.positions)
         return sparse.csr_array((values.ravel(), columns.ravel(), starts), shape=shape)
 
+    @cached_property
+    def _worn_at(self) -> RectBivariateSpline | None:
+        from scipy.interpolate import RectBivariateSpline
+
+        if self.worn is None:
+            return None
+        _, _, share, z = self.grid
+        rows = share.reshape(_ROWS, -1)[:, 0], z.reshape(_ROWS, -1)[0]
+        # Smooth: a kink in the gap would bear.
+        return RectBivariateSpline(*rows, self.worn.reshape(_ROWS, -1))
+
+    def depth_at(self, share: FloatArray, z: FloatArray) -> FloatArray:
+        """Return the depth worn off at places on the flank, m."""
+        if self._worn_at is None:
+            return np.zeros(len(share))
+        half = self.half_face
+        return np.asarray(self._worn_at.ev(np.clip(share, 0.0, 1.0), np.clip(z, -half, half)))
+
     def heights(
         self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray
     ) -> Heights:
@@ -200,6 +213,27 @@ class ExactFlank:
         matrix[first, second] = found
         (px, dx), (py, dy) = powers(x, 0), powers(y, 1)
         return Heights(px @ matrix @ py.T, dx @ matrix @ py.T, px @ matrix @ dy.T, off)
+
+
+def grid_of(wheel: Wheel) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return exact points of a wheel's flank, as `ExactFlank.grid`."""
+    shares = np.linspace(0.0, 1.0, _ROWS)
+    z = wheel.blank.columns(_COLUMNS)
+    made = wheel.flank(1).at_shares(shares, z)
+    share = np.repeat(shares, z.size)
+    return (
+        made.points.reshape(-1, 3) / _MILLIMETRES,
+        made.normals.reshape(-1, 3),
+        share,
+        made.z.reshape(-1) / _MILLIMETRES,
+    )
+
+
+def grid_faces() -> IntArray:
+    """Return the faces between the points of `grid_of`, (m, 4)."""
+    at = np.arange(_ROWS * _COLUMNS).reshape(_ROWS, -1)
+    corners = at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]
+    return np.stack([corner.ravel() for corner in corners], axis=1)
 
 
 @functools.cache

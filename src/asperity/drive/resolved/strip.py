@@ -150,6 +150,8 @@ class Strip:
         below = np.full(len(points), np.inf)
         gap[inside], kinds[inside], below[inside] = approach.gaps((points + moved)[inside])
         gap[inside] += np.einsum("ki,ki->k", moved, normals)[inside]
+        if flank.worn is not None:
+            gap[inside] += flank.depth_at(share[inside], points[inside, 2])
         arm = -(points[:, 0] * normals[:, 1] - points[:, 1] * normals[:, 0])
         return cls(
             frame, points, normals, steep * np.prod(frame.spacing), inside, share,

@@ -12,7 +12,7 @@ from asperity.drive.static.sweep import Course
 _MEGA, _MICRO = 1e6, 1e6
 # Of the normal force, from which on an edge is told of.
 _BEARS = 1e-3
-# Of the error under load: without load there is none but the mesh's, with flanks like these.
+# Of the error under load, over what the mesh makes of it by itself.
 _NOISE = 3.0
 _FEW = 8
 _EDGES = {
@@ -22,12 +22,13 @@ _EDGES = {
 }
 
 
-def notes_of(problem: DriveProblem, seen: Seen, forward: Course) -> tuple[str, ...]:
-    """Return the notes of a loaded gearset."""
-    return (*_rigid(problem), *_pressures(problem, seen), *_error(problem, forward))
+def notes_of(problem: DriveProblem, seen: Seen, forward: Course, noise: float) -> tuple[str, ...]:
+    """Return the notes of a loaded gearset; ``noise`` is the mesh's part of the error, rad."""
+    return (*rigid_parts(problem), *_pressures(problem, seen), *_error(problem, forward, noise))
 
 
-def _rigid(problem: DriveProblem) -> Iterator[str]:
+def rigid_parts(problem: DriveProblem) -> Iterator[str]:
+    """Yield what of the drive is taken as rigid."""
     left_out = [
         what
         for what, there in (
@@ -86,16 +87,15 @@ def _pressures(problem: DriveProblem, seen: Seen) -> Iterator[str]:
         yield "a peak still changed by more than 5 % with the finest patches"
 
 
-def _error(problem: DriveProblem, forward: Course) -> Iterator[str]:
+def _error(problem: DriveProblem, forward: Course, noise: float) -> Iterator[str]:
     if problem.drive.phases < _FEW:
         yield (
             f"drive.phases is {problem.drive.phases}: a transmission error needs {_FEW} phases or "
             "more, and peaks between them are not seen"
         )
         return
-    noise = float(np.ptp(forward.touching))
     if float(np.ptp(forward.error)) < _NOISE * noise:
         yield (
-            f"without load the error is {_MICRO * noise:.3g} urad, the points of the mesh among "
-            "it: the error under this load is hardly more"
+            f"the points of the mesh make an error of {_MICRO * noise:.3g} urad by themselves: "
+            "that under this load is hardly more"
         )

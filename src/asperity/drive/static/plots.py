@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, legend, panels
 from asperity.results.panels import Panel, drawn, line
 
 if TYPE_CHECKING:
@@ -52,6 +52,30 @@ def over_pitch(dataset: "xr.Dataset") -> "Figure":
         ],
         height=8.0,
     )  # fmt: skip
+
+
+def error(dataset: "xr.Dataset") -> "Figure":
+    """Draw the amplitudes of the transmission error's orders, at rising load."""
+    order, loads = dataset["order"].values, dataset["error_load"].values
+    amplitude = 1e6 * dataset["error_amplitude"].values
+    noise = 1e6 * dataset["error_noise"].values
+    figure, (axes,) = panels(height=4.2)
+    width = 0.8 / len(loads)
+    for k, (torque, values) in enumerate(zip(loads, amplitude, strict=True)):
+        place = order + (k - 0.5 * (len(loads) - 1)) * width
+        words = f"{torque:.4g} N m" if torque else "no load, rigid"
+        axes.bar(place, values, 0.9 * width, color=COLOURS[k % len(COLOURS)], label=words)
+    axes.hlines(
+        noise, order - 0.45, order + 0.45, color=BLACK, linewidth=1.0, linestyles=(0, (1, 1.5)),
+        label="the mesh's own",
+    )  # fmt: skip
+    axes.set_xticks(order)
+    axes.grid(visible=False, axis="x")
+    axes.set_xlabel("order, times in a pitch")
+    axes.set_ylabel("amplitude of the error (µrad)")
+    axes.margins(y=0.15)
+    legend(axes)
+    return figure
 
 
 def pattern(dataset: "xr.Dataset") -> "Figure":

@@ -14,9 +14,12 @@ from asperity.drive.teeth.sector import Sector
 from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import labelled, quantity
+from asperity.results.table import Table
 
 _PLOTS = "asperity.drive.static.plots"
 _PHASE, _PART = ("phase",), ("part",)
+_MICRO = 1e6
+_ORDERS = 5  # that a table has
 PATTERNS = (1.0 / 9.0, 1.0 / 3.0, 1.0)
 """Torques that patterns are drawn at, over the load."""
 
@@ -39,12 +42,14 @@ class StaticResult(Drawn):
     drawings: ClassVar[Mapping[str, str]] = {
         "drive": f"{_PLOTS}:over_pitch",
         "drive_pattern": f"{_PLOTS}:pattern",
+        "drive_error": f"{_PLOTS}:error",
         "drive_stiffness": f"{_PLOTS}:stiffness",
     }
 
     captions: ClassVar[Mapping[str, str]] = {
         "drive": "Torque, transmission error and the teeth's shares over a pitch of the worm.",
         "drive_pattern": "Where a flank bears over a pitch, and how hard, at three torques.",
+        "drive_error": "The transmission error by its orders, at rising load.",
         "drive_stiffness": "What gives way between motor and wheel.",
     }
     reported: ClassVar[bool] = True
@@ -94,6 +99,9 @@ class StaticResult(Drawn):
         "v_g", "m/s", "sliding speed, mean by force", key="sliding_speed_m_s"
     )
     transmission_error: float = quantity("", "rad", "transmission error under load, peak to peak")
+    error_noise_range: float = quantity(
+        "", "rad", "of it, what the points of the mesh make by themselves", key="error_noise_rad"
+    )
     deflection: float = quantity(
         "", "rad", "turn of the wheel under load against the worm, mean over a pitch"
     )
@@ -110,6 +118,15 @@ class StaticResult(Drawn):
     loaded_teeth_min: int = quantity("", "", "teeth under load, least over a pitch")
     loaded_teeth_max: int = quantity("", "", "teeth under load, most over a pitch")
     load_share_max: float = quantity("", "", "largest share of a tooth in the normal force")
+    k_h_beta: float = quantity(
+        "K_Hbeta", "", "force by width of the face, largest over mean, of a pitch"
+    )
+    k_h_alpha: float = quantity(
+        "K_Halpha", "", "largest force of a tooth over that of an even share"
+    )
+    line_load: float = quantity(
+        "w", "N/mm", "largest force by length along a contact", key="line_load_N_mm"
+    )
     pressure_flank: float = quantity(
         "p", "MPa", "largest pressure on the flank, away from edges", key="pressure_flank_MPa"
     )
@@ -163,7 +180,25 @@ class StaticResult(Drawn):
         "", "rad", "the wheel ahead of the worm under load", dims=_PHASE
     )
     error_unloaded: FloatArray = quantity(
-        "", "rad", "the wheel ahead of the worm without load", dims=_PHASE
+        "", "rad", "the wheel ahead of the worm without load, flanks exact and rigid", dims=_PHASE
+    )
+    error_torque: FloatArray = quantity(
+        "T_R", "N m", "torque of the wheel under which the error has harmonics; 0: rigid flanks",
+        dims=("error_load",), coordinate=True, variable="error_load",
+    )  # fmt: skip
+    error_order: IntArray = quantity(
+        "n", "", "order of the error: times in a pitch", dims=("order",), coordinate=True,
+        variable="order",
+    )  # fmt: skip
+    error_amplitude: FloatArray = quantity(
+        "a_n", "rad", "amplitude of the transmission error", dims=("error_load", "order")
+    )
+    error_phase: FloatArray = quantity(
+        "psi_n", "rad", "phase of the transmission error, as cos(n theta - psi_n)",
+        dims=("error_load", "order"),
+    )  # fmt: skip
+    error_noise: FloatArray = quantity(
+        "", "rad", "amplitude that the points of the mesh make by themselves", dims=("order",)
     )
     tooth_force: FloatArray = quantity(
         "N", "N", "normal force on each tooth", dims=(*_PHASE, "tooth")
@@ -225,7 +260,25 @@ class StaticResult(Drawn):
         parts = zip(self.part.tolist(), self.part_stiffness.tolist(), strict=True)
         return super().to_json() | {
             "stiffness_by_part_Nm_per_rad": dict(parts),
-        }
+            "error_harmonics": [
+                {"output_torque_Nm": torque, "amplitude_rad": amplitude, "phase_rad": phase}
+                for torque, amplitude, phase in zip(
+                    self.error_torque.tolist(), self.error_amplitude.tolist(),
+                    self.error_phase.tolist(), strict=True,
+                )
+            ],
+        }  # fmt: skip
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return the scalars, and the transmission error by its orders."""
+        whole, *others = super().tables()
+        if not len(self.error_order):
+            return (whole, *others)
+        heads = ("order", *(f"at {torque:.4g} N m" for torque in self.error_torque), "mesh's own")
+        columns = np.round(_MICRO * np.vstack([self.error_amplitude, self.error_noise]), 4)
+        rows = [(int(n), *column) for n, column in zip(self.error_order, columns.T, strict=True)]
+        said = "Amplitudes of the transmission error by order in a pitch (urad)"
+        return (whole, *others, Table.of(heads, rows[:_ORDERS], title=said))
 
     def heading(self) -> str:
         """Return what was solved."""

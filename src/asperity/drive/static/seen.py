@@ -12,6 +12,7 @@ from asperity.drive.resolved.contact import Resolved, ResolvedContact, ToothPres
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.pressure import nodal_pressure
+from asperity.drive.static.spread import Spread
 from asperity.drive.teeth.contact import TeethContact
 
 
@@ -67,6 +68,7 @@ class Seen:
     def __init__(self, owner: ResolvedContact) -> None:
         self.owner = owner
         self.pattern = Pattern(owner)
+        self.spread = Spread(owner.flank)
         self.weight = self.radius = self.speed = 0.0
         self.nodal = 0.0  #: Largest pressure at a node of the mesh, Pa
         self.turns: list[FloatArray] = []
@@ -91,6 +93,7 @@ class Seen:
         self.speed += force * speed
         found = resolved(self.owner, balance)
         self.pattern.keep(found)
+        self.spread.take(found)
         peaks = np.array([tooth.peaks() for tooth in found.teeth])
         self.peaks.append(peaks.max(axis=0))
         self.forces.append(np.sum([tooth.forces() for tooth in found.teeth], axis=0))

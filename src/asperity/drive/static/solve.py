@@ -21,10 +21,12 @@ from asperity.drive.resolved.flank import ExactFlank
 from asperity.drive.resolved.strip import ZONES
 from asperity.drive.shafts import compliances_of
 from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
+from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
 from asperity.drive.static.pressure import modulus_of
 from asperity.drive.static.result import PATTERNS, StaticResult
 from asperity.drive.static.seen import Pattern, Seen, contact_means
+from asperity.drive.static.spread import LOADED, k_h_alpha
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
@@ -46,18 +48,22 @@ _MILLIMETRES = 1e3
 _MEGA, _MICRO = 1e6, 1e6
 # Torques beside the load, between which the tangent stiffness is taken.
 _BESIDE = 0.01
-# A tooth with less of the normal force counts as unloaded.
-_LOADED = 1e-3
 # For the stiffness each third of the phases, where there are many.
 _EVERY, _MANY = 3, 12
 
 
+def wheel_of(problem: DriveProblem) -> Wheel:
+    """Return the wheel of a drive, cut and mounted as its case says."""
+    return Wheel.cut(
+        Pair.of(problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc)
+    )
+
+
 def condensed(problem: DriveProblem, run: Run) -> Sector:
     """Return the elastic teeth of a drive, condensed or from those that are kept."""
-    pair = Pair.of(problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc)
     drive = problem.drive
     found = sector(
-        Wheel.cut(pair),
+        wheel_of(problem),
         problem.gearset.wheel_material,
         density=drive.density,
         teeth=drive.teeth,
@@ -216,7 +222,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
             ],
             lambda done: run.checkpoint(done, total, what="phases"),
         )
-        model.courses(
+        lighter = model.courses(
             [
                 LoadCase(share * load, evaluate=part.evaluate)
                 for share, part in zip(PATTERNS[:-1], less_loaded, strict=True)
@@ -224,11 +230,12 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
             lambda done: run.checkpoint(count + done, total, what="phases"),
         )
         back = _back_patterns(model, 2 * count, total) if run.detailed else None
+    error = ErrorHarmonics.of(sector_.wheel, [*lighter, forward])
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, np.array(seen.turns[::every]), more, less)
     share = forward.tooth_force / forward.tooth_force.sum(axis=1, keepdims=True)
-    loaded = (share > _LOADED).sum(axis=1)
+    loaded = (share > LOADED).sum(axis=1)
     axes = contact.stand.axes
     on_worm = -forward.wrench[:, :3].mean(axis=0)
     places = model.resolved.flank.grid[0]
@@ -254,6 +261,9 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         loaded_teeth_min=int(loaded.min()),
         loaded_teeth_max=int(loaded.max()),
         load_share_max=float(share.max()),
+        k_h_beta=seen.spread.k_h_beta,
+        k_h_alpha=k_h_alpha(forward.tooth_force),
+        line_load=seen.spread.line_load / _MILLIMETRES,
         **_pressures(model, seen),
         residual=max(forward.residual, frictionless.residual, reversed_.residual),
         teeth_nodes=sector_.body.nodes,
@@ -263,7 +273,13 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         torque_frictionless=frictionless.worm_torque,
         torque_reversed=reversed_.worm_torque,
         error_loaded=forward.error,
-        error_unloaded=forward.touching,
+        error_unloaded=error.unloaded,
+        error_torque=error.torque,
+        error_order=error.order,
+        error_amplitude=error.amplitude,
+        error_phase=error.phase,
+        error_noise=error.noise,
+        error_noise_range=error.noise_range,
         tooth_force=forward.tooth_force,
         part=np.array(list(parts)),
         part_stiffness=np.array(list(parts.values())),
@@ -273,7 +289,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         node_radius=np.hypot(places[:, 0], places[:, 1]),
         node_face=problem.gearset.hand_sign * places[:, 2],
         faces=model.resolved.flank.faces,
-        notes=notes_of(problem, seen, forward),
+        notes=notes_of(problem, seen, forward, error.noise_range),
     )
 
 

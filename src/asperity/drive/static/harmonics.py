@@ -1,0 +1,112 @@
+r"""The transmission error of a loaded mesh by its orders, beside that of rigid flanks.
+
+Over a pitch of the worm, from one tooth to the next, the wheel is ahead of the ratio's angle by
+
+.. math:: e(\theta) = \bar e + \sum_n a_n\cos(2\pi n\,\theta/\theta_p - \psi_n) .
+
+Without load it is that of the exact flanks, which `asperity flank` has. Points of the mesh find the
+first touch a little late: what is between both is the mesh's own, and no harmonic under load that
+is not above it tells of the gearset.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from asperity.arrays import FloatArray, IntArray
+from asperity.drive.static.sweep import Course
+from asperity.errors import ConvergenceError
+from asperity.flanks.meshing.transmission import ToothSearch
+from asperity.flanks.wheel.enveloped import Wheel
+
+_STEPS = 30
+# To which the worm's angle is met, rad: a wheel's angle to a millionth of a microradian.
+_CLOSE = 1e-12
+
+
+def harmonics(error: FloatArray) -> tuple[FloatArray, FloatArray]:
+    r"""Return amplitudes and phases of the orders of a function over its period.
+
+    Parameters
+    ----------
+    error : ndarray, shape (p,)
+        At places that divide the period evenly.
+
+    Returns
+    -------
+    amplitude, phase : ndarray, shape (n,)
+        Of the orders 1, 2 .. (p - 1) // 2, of which p places tell both; the phase in rad, from 0 to
+        :math:`2\pi`.
+    """
+    count = len(error)
+    turned = np.fft.rfft(error)[1 : (count - 1) // 2 + 1] * (2.0 / count)
+    phase = np.mod(-np.angle(turned), 2.0 * math.pi)
+    return np.abs(turned), np.asarray(np.where(turned == 0.0, 0.0, phase))
+
+
+def exact_error(wheel: Wheel, worm_angle: FloatArray) -> FloatArray:
+    """Return the transmission error of the rigid, exact flanks at angles of the worm, rad.
+
+    Parameters
+    ----------
+    wheel : Wheel
+        As it is cut and mounted; its flank ``s = 1`` bears.
+    worm_angle : ndarray, shape (p,)
+        rad.
+
+    Raises
+    ------
+    ConvergenceError
+        The worm reaches no tooth.
+    """
+    search = ToothSearch(wheel.pair, wheel.flank(1))
+    ratio = wheel.pair.ratio
+    found = np.empty(len(worm_angle))
+    lead = 0.0
+    for place, angle in enumerate(worm_angle):
+        # The lead changes by little from place to place.
+        beta = (angle - lead) / ratio
+        for _ in range(_STEPS):
+            lead = search.least_lead(beta)
+            off = ratio * beta + lead - angle
+            if not abs(off) > _CLOSE:
+                break
+            beta -= off / ratio
+        if not math.isfinite(lead):
+            raise ConvergenceError(
+                "the worm reaches no tooth of the wheel in a part of the pitch: look at "
+                "mount.centre_distance_error and mount.axial_offset"
+            )
+        found[place] = -lead / ratio
+    return found
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class ErrorHarmonics:
+    """The error by its orders at several loads."""
+
+    torque: FloatArray  #: (t,): Of the wheel, N m, the first 0: rigid flanks
+    order: IntArray  #: (n,): Times in a pitch
+    amplitude: FloatArray  #: (t, n): rad
+    phase: FloatArray  #: (t, n): rad
+    unloaded: FloatArray  #: (p,): Error of the exact flanks at the phases, rad
+    noise: FloatArray  #: (n,): Amplitudes of what the mesh's points make of it, rad
+    noise_range: float  #: The same, peak to peak, rad
+
+    @classmethod
+    def of(cls, wheel: Wheel, courses: Sequence[Course]) -> ErrorHarmonics:
+        """Return it of courses over the same phases under rising loads."""
+        first = courses[0]
+        unloaded = exact_error(wheel, first.worm_angle)
+        off = first.touching - unloaded
+        found = [harmonics(error) for error in (unloaded, *(each.error for each in courses))]
+        amplitude, phase = (np.array(part) for part in zip(*found, strict=True))
+        return cls(
+            np.array([0.0, *(each.torque for each in courses)]),
+            np.arange(1, amplitude.shape[1] + 1, dtype=np.int64), amplitude, phase, unloaded,
+            harmonics(off)[0], float(np.ptp(off)),
+        )  # fmt: skip

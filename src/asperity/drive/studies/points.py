@@ -1,0 +1,82 @@
+"""Loaded gearsets solved by the dozen: over all cores, each kept as soon as it is there."""
+
+import functools
+from collections.abc import Sequence
+
+from asperity.drive.problem import DriveProblem
+from asperity.drive.static.loaded import Loaded, loaded
+from asperity.errors import AsperityError
+from asperity.runs import Run
+from asperity.runs.cache import Cache
+from asperity.runs.key import code_key, key
+from asperity.runs.workers import Task, cores, done
+
+_SECONDS_A_PHASE = 0.3
+_LOADED = "asperity.drive.static.loaded"
+_ROOM = "teeth"
+
+
+def solve_points(
+    problems: Sequence[DriveProblem], run: Run, *, what: str = "points"
+) -> list[Loaded | str]:
+    """Return what loaded gearsets come to, or why one comes to nothing.
+
+    What was solved before, by whichever study, is not solved again.
+
+    Parameters
+    ----------
+    problems : sequence of DriveProblem
+        Each of a case.
+    run : Run
+        Who is told how many are done, and who may interrupt: what is done is kept.
+    what : str
+        What they are called.
+    """
+    kept = Cache.of_this_user("loaded", run.notify)
+    names = [_name(problem) for problem in problems]
+    found: dict[str, Loaded | str] = {}
+    for name in names:
+        if name not in found and (tree := kept.get(name)) is not None:
+            found[name] = Loaded.from_tree(tree)
+    missing = {
+        name: problem for name, problem in zip(names, problems, strict=True) if name not in found
+    }
+    total = len(set(names))
+    seconds = _SECONDS_A_PHASE * sum(problem.drive.phases for problem in missing.values())
+    processes = min(cores(), len(missing))
+    run.forecast(seconds / max(processes, 1), f"{len(missing)} {what}")
+
+    def take(name: str, answer: Loaded | str) -> None:
+        found[name] = answer
+        if isinstance(answer, Loaded):
+            kept.put(name, answer.to_tree())
+        run.checkpoint(len(found), total, what=what)
+
+    with run.interruptible():
+        run.checkpoint(len(found), total, what=what)
+        if processes <= 1:
+            for name, problem in missing.items():
+                take(name, solved(problem))
+        else:
+            # The first condenses the teeth, which others then find.
+            tasks = [
+                Task(name, functools.partial(solved, problem), _ROOM)
+                for name, problem in missing.items()
+            ]
+            tell = functools.partial(run.checkpoint, what=what)
+            for task, future in done(tasks, processes, lambda: tell(len(found), total)):
+                take(task.name, future.result())
+    return [found[name] for name in names]
+
+
+def solved(problem: DriveProblem) -> Loaded | str:
+    """Return what a gearset comes to, or why it comes to nothing."""
+    try:
+        return loaded(problem, Run())
+    except AsperityError as error:
+        return str(error)
+
+
+def _name(problem: DriveProblem) -> str:
+    assert problem.case is not None
+    return key(code_key(_LOADED), problem.case.canonical())

@@ -1,0 +1,178 @@
+"""Loaded gearsets wherever their mounting may bring them: points, what is kept, mirrored ones."""
+
+import functools
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.drive.static.loaded import Loaded, loaded
+from asperity.drive.static.spread import STRIPS, Spread, k_h_alpha
+from asperity.drive.studies import misalign, points
+from asperity.errors import ConvergenceError, InputError
+from asperity.runs import Interrupted, Run
+from asperity.runs.cache import Cache
+
+TOLERANCES = (
+    "tolerances.centre_distance=20 um", "tolerances.axial_offset=30 um",
+    "tolerances.shaft_angle=0.02 deg",
+)  # fmt: skip
+SMALL = ("drive.teeth=1", "drive.phases=2")
+
+
+def study(*settings, over=()):
+    case = read_case("drive-screw", case_tables(), (*SMALL, *settings))
+    return misalign.prepare(case, over=over)
+
+
+def of(problem):
+    """An answer that follows from where the worm stands."""
+    mount = problem.mount
+    off = 1e6 * mount.axial_offset + 10.0 * math.degrees(mount.shaft_angle_error)
+    numbers = dict.fromkeys(Loaded.__dataclass_fields__, 1.0)
+    numbers |= {"force_worm_tip": 100.0 + off, "centre_face": 1e-6 * off}
+    return Loaded(**numbers | {"pattern": np.linspace(0.0, 1e9, 41 * 61)})
+
+
+@pytest.fixture
+def cached(monkeypatch, tmp_path):
+    """Answers that cost nothing, in a cache of their own; returns what was solved."""
+    asked = []
+
+    def solved(problem):
+        asked.append(problem)
+        return of(problem)
+
+    own = Cache(tmp_path)
+    monkeypatch.setattr(points.Cache, "of_this_user", lambda *_: own)
+    monkeypatch.setattr(points, "solved", solved)
+    monkeypatch.setattr(points, "cores", lambda: 1)
+    return asked
+
+
+def test_tolerances_are_gone_through_at_corners_sides_and_in_the_middle_of_the_mount():
+    found = study(*TOLERANCES, "mount.axial_offset=10 um")
+    assert len(found.places) == 1 + 27
+    shown = {axis.path: axis.shown for axis in found.axes}
+    assert shown["mount.axial_offset"] == (-20.0, 10.0, 40.0)
+    assert shown["mount.centre_distance_error"] == (-20.0, 0.0, 20.0)
+    assert shown["mount.shaft_angle_error"] == pytest.approx((-0.02, 0.0, 0.02))
+    middle = found.places[1 + 13].problem
+    assert middle.mount.axial_offset == pytest.approx(10e-6)
+    assert found.places[1].problem.mount.centre_distance_error == pytest.approx(-20e-6)
+
+
+def test_points_are_counted_from_the_case_as_it_is(cached):
+    made = study(over=["mount.axial_offset=-50,50 um", "mount.shaft_angle_error=0,0.1 deg"])
+    found = misalign.answer(made, Run())
+    assert found.name[0] == "as the case is"
+    assert found.value.tolist() == [[0, 0], [-50, 0], [-50, 0.1], [50, 0], [50, 0.1]]
+    np.testing.assert_allclose(found.edge_force, [100, 50, 51, 150, 151])
+    np.testing.assert_allclose(found.shift_face, 1e-6 * np.array([0, -50, -49, 50, 51]))
+    rows = found.to_json()["points"]
+    assert rows[4]["values"] == {
+        "mount.axial_offset [um]": 50.0, "mount.shaft_angle_error [deg]": 0.1
+    }  # fmt: skip
+    assert rows[4]["force_worm_tip_N"] == pytest.approx(151.0)
+    assert (
+        "at most 151 N (mount.axial_offset=50 um, mount.shaft_angle_error=0.1 deg)"
+        in (found.headline()[0])
+    )
+
+
+def test_what_was_solved_before_it_was_interrupted_is_not_solved_again(cached):
+    made = study(over=["mount.axial_offset=-20,-10,0,10,20 um"])
+
+    class Stopped(Run):
+        def checkpoint(self, done, total, state=None, what="steps"):
+            if done == 3:
+                raise Interrupted("")
+
+    with pytest.raises(Interrupted):
+        misalign.answer(made, Stopped())
+    assert len(cached) == 3
+    told = []
+    whole = misalign.answer(made, Run(progress=lambda done, total: told.append((done, total))))
+    # The case as it is stands among the five.
+    assert len(cached) == 5
+    assert told[0] == (3, 5)
+    assert told[-1] == (5, 5)
+    np.testing.assert_allclose(whole.edge_force, [100, 80, 90, 100, 110, 120])
+
+
+def test_a_point_without_an_answer_is_a_gap_with_its_reason(monkeypatch, cached):
+    def solved(problem):
+        return "no balance" if problem.mount.axial_offset > 0.0 else of(problem)
+
+    monkeypatch.setattr(points, "solved", solved)
+    found = misalign.answer(study(over=["mount.axial_offset=-20,20 um"]), Run())
+    assert np.isfinite(found.k_h_beta).tolist() == [True, True, False]
+    assert "mount.axial_offset=20 um: no balance" in found.notes
+    assert found.to_json()["points"][2]["k_h_beta"] is None
+    for table in found.tables():
+        assert "none" in table.rows[2]
+    with pytest.raises(ConvergenceError, match="no point has an answer; the first: no balance"):
+        misalign.answer(study(over=["mount.axial_offset=20,30 um"]), Run())
+
+
+@pytest.mark.parametrize(
+    ("over", "said"),
+    [
+        ((), "nothing says how far the gearset may be off: give \\[tolerances\\]"),
+        (["drive.density=coarse,fine"], "words have no order"),
+        (["mount.axial_offset=-500:500:0.5 um"], "2001 points; a study has at most 1000"),
+        (["mount.axial_offset=1,1 um"], "given twice"),
+    ],
+)
+def test_what_is_no_study_is_refused_in_a_line(over, said):
+    with pytest.raises(InputError, match=said):
+        study(over=over)
+
+
+def strip(force, z):
+    count = len(force)
+    points = np.column_stack([np.zeros(count), np.full(count, 65e-3), z])
+    frame = SimpleNamespace(shape=(1, count), spacing=(1e-4, 1e-3))
+    return SimpleNamespace(
+        teeth=[SimpleNamespace(force=force, strip=SimpleNamespace(points=points, frame=frame))]
+    )
+
+
+def test_an_even_load_has_factors_of_one_and_an_uneven_one_what_it_is_above_it():
+    geometry = SimpleNamespace(wheel_mean_diameter=129.0)
+    pair = SimpleNamespace(geometry=geometry, mirror=-1)
+    sector = SimpleNamespace(wheel=SimpleNamespace(pair=pair))
+    flank = SimpleNamespace(half_face=10e-3, sector=sector)
+    z = (np.arange(STRIPS) + 0.5) * 1e-3 - 10e-3
+    even, sloped = Spread(flank), Spread(flank)
+    even.take(strip(np.full(STRIPS, 3.0), z))
+    sloped.take(strip(1.0 + z / 10e-3, z))
+    assert even.k_h_beta == pytest.approx(1.0)
+    assert even.centre == pytest.approx((0.0, 0.5e-3))
+    assert even.line_load == pytest.approx(3.0 / 1e-3)
+    assert sloped.k_h_beta == pytest.approx(1.95)
+    # A load that grows to twice the mean has its middle a sixth of the width off.
+    assert sloped.centre[0] == pytest.approx(-20e-3 / 6.0, rel=5e-3)
+    assert k_h_alpha(np.full((4, 2), 7.0)) == pytest.approx(1.0)
+    assert k_h_alpha(np.array([[3.0, 1.0], [4.0, 0.0]])) == pytest.approx(1.5)
+
+
+@functools.cache
+def numbers(*settings):
+    case = read_case("drive-screw", case_tables(), ("drive.teeth=1", "drive.phases=3", *settings))
+    return loaded(misalign.DriveProblem.from_case(case, shaken=False), Run())
+
+
+@pytest.mark.slow
+def test_a_left_hand_gearset_is_off_as_the_right_hand_one_mirrored():
+    off = "mount.centre_distance_error=30 um", "mount.axial_offset=40 um"
+    angle = "mount.shaft_angle_error"
+    right = numbers(*off, f"{angle}=0.1 deg")
+    left = numbers(off[0], "mount.axial_offset=-40 um", f"{angle}=-0.1 deg", "gearset.hand=left")
+    assert left.centre_face == pytest.approx(-right.centre_face, rel=1e-6)
+    for name in ("pressure_flank", "force_worm_tip", "k_h_beta", "line_load", "deflection"):
+        assert getattr(left, name) == pytest.approx(getattr(right, name), rel=1e-6)
+    assert right.centre_face != pytest.approx(numbers().centre_face, rel=1e-2)
