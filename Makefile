@@ -15,7 +15,7 @@ SHARE ?= 1
 # Compiled modules are kept: the tests start hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
 
-.PHONY: help run test slow lint types floors docs examples bench vendor clean
+.PHONY: help run test slow lint types page-types floors docs examples bench vendor clean
 
 run: .venv/.runtime  ## reproduce the thesis: claims, figures and tables into out/thesis/index.html
 	$(BIN)/asperity thesis
@@ -35,6 +35,9 @@ lint: .venv/.dev  ## look at format, style and docstrings
 
 types: .venv/.dev  ## check the types
 	$(BIN)/mypy
+
+page-types: .venv/bin/python  ## check the types of the page's modules; needs npm
+	$(BIN)/python vendored/check_types.py
 
 floors: .venv/.dev  ## check that rooms import only from below, and in no circles
 	$(BIN)/lint-imports
@@ -56,7 +59,7 @@ vendor: .venv/bin/python  ## make the page's vendored files anew, of the version
 	$(BIN)/python vendored/make.py
 
 help:  ## say what can be made
-	@sed -n 's/^\([a-z]*\):.*  ## \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | expand -t 12
+	@sed -n 's/^\([a-z-]*\):.*  ## \(.*\)/\1\t\2/p' $(MAKEFILE_LIST) | expand -t 12
 
 clean:  ## remove everything that was made
 	rm -rf .venv out dist build docs/_build docs/api docs/gallery docs/sg_execution_times.rst

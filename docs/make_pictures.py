@@ -307,6 +307,7 @@ if __name__ == "__main__":
             "vibration.displacement_amplitude=20 um",
         ),
         "drive_locking": of_command("locking", "drive-actuator"),
+        "control_failures": of_command("control", "drive-actuator", picture="control_failures"),
         "loaded_error": of_command("drive", "drive-screw", picture="drive_error", static=True),
         "misalign": of_command(
             "misalign", "drive-screw", "tolerances.centre_distance=js8",

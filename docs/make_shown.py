@@ -59,7 +59,7 @@ def keep(served, at, asked, identity, slot):
 
 
 # Of these the answer alone is drawn.
-WITHOUT = ("flank", "optimise", "rig reduce", "fit")
+WITHOUT = ("flank", "optimise", "rig reduce")
 # Variables that the screens draw, of files that hold many more.
 NAMES = {
     "drive-static": [
@@ -69,6 +69,7 @@ NAMES = {
     "directions": ["torque_ratio"],
     "locking": ["amplitude", "creep_over", "creep_limit"],
     "block-settled": ["friction", "slider_friction"],
+    "fit": ["measured", "deviation", "predicted"],
     "block-march": ["pressure", "faces", "node_x", "node_y", "drive_force"],
 }
 
@@ -135,7 +136,36 @@ def jobs_of(served, seen, screen):
         yield keep(served, asked["command"].replace(" ", "-") + slot, asked, identity, slot)
 
 
-OTHERS = {"rig": rig, "thesis": thesis}
+OPENS = {"slide": ("slide", "curve"), "gear": ("rate",), "size": ("size",)}
+"""What a screen asks as it opens, of what computes."""
+
+
+def live(served, seen):
+    """Keep what is answered as screens open: a fresh machine compiles for a minute first."""
+    folder = SHOWN / "live"
+    folder.mkdir(exist_ok=True)
+    lines = []
+    for screen, verbs in OPENS.items():
+        told = {}
+
+        def heard(response, told=told):
+            verb = response.url.rpartition("/do/")[2]
+            if verb != response.url and response.status == 200:
+                told[verb] = json.loads(response.request.post_data), response.text()
+
+        seen.page.on("response", heard)
+        page = seen.open(screen)
+        page.wait_for_timeout(5000)
+        seen.page.remove_listener("response", heard)
+        for verb in verbs:
+            body, answer = told[verb]
+            (folder / f"{verb}.json").write_text(answer + "\n")
+            lines.append({"verb": verb, "body": body, "at": f"{verb}.json"})
+    (folder / "index.json").write_text(json.dumps(lines, indent=1, ensure_ascii=False) + "\n")
+    return ()
+
+
+OTHERS = {"rig": rig, "thesis": thesis, "live": live}
 
 
 def main(names):

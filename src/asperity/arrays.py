@@ -1,6 +1,7 @@
 """Numbers and arrays of numbers: what they are called in annotations, and small words on both."""
 
-from typing import Any, TypeAlias
+from collections.abc import Callable, Iterable
+from typing import Any, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +14,11 @@ Real: TypeAlias = Any
 """A number, or an array of numbers."""
 
 
+T = TypeVar("T")
+EQUAL = 1e-9
+"""Below which two numbers that were reached differently are the same one."""
+
+
 def plain(value: Real) -> Any:
     """Return an array as it is, and anything without dimensions as a Python float."""
     return value if np.ndim(value) else float(value)
@@ -21,3 +27,18 @@ def plain(value: Real) -> Any:
 def smaller(one: Real, other: Real) -> Any:
     """Return the smaller of two numbers, or of each pair of two arrays; NaN where either is."""
     return plain(np.minimum(one, other))
+
+
+def first_least(things: Iterable[T], key: Callable[[T], float]) -> T:
+    """Return the first of the things that are least, within rounding.
+
+    Which of two mirrored ones has the last digit smaller hangs on the processor.
+
+    Examples
+    --------
+    >>> first_least([0.1 + 0.2, 0.3, 0.4], float)
+    0.30000000000000004
+    """
+    every = list(things)
+    least = min(map(key, every))
+    return next(thing for thing in every if key(thing) <= least + EQUAL * abs(least))

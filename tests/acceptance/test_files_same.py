@@ -79,6 +79,7 @@ def asked(name, lot):
         ),
         "wear": (["drive-screw", "--revolutions", "20"], ["drive.teeth=1", "drive.phases=2"]),
         "locking": (["drive-actuator"], [*TEETH]),
+        "control": (["drive-actuator"], [*TEETH, "drive.stroke=16 deg", "control.failures=dead"]),
         "fit": ([ANSWERS / "ratios.csv", "table-4.3", "--free", "friction.max_deflection"], []),
         "rig plan": (["rig-final"], [f"plan.repeats={lot.randint(1, 4)}"]),
         "rig check": ([ANSWERS / "rig.nc"], []),

@@ -70,6 +70,7 @@ COMMANDS = {
     "drive": (["drive-screw", "drive-thesis", "drive-actuator"], TEETH, 4),
     "directions": (["drive-screw"], TEETH, 1),
     "locking": (["drive-actuator"], TEETH, 1),
+    "control": (["drive-actuator"], [*TEETH, "drive.stroke=16 deg", "control.failures="], 2),
     "rig plan": (["rig-final"], [], 4),
     "rig run": (["rig-final"], RIG, 4),
 }
@@ -91,6 +92,7 @@ ROOMS = {
     "drive": DRIVE,
     "directions": DRIVE,
     "locking": DRIVE,
+    "control": [*DRIVE, "control", "control"],
     "rig plan": ["plan", "limits", "twin", "drives", "rig"],
     "rig run": ["plan", "limits", "twin", "drives", "rig", "sonotrode", "channels", "steel_disc"],
 }

@@ -5,14 +5,13 @@ manual does not have, or that ends otherwise, is an error of the device and gets
 """
 
 import contextlib
-import os
-import pty
 import re
 import socket
 import threading
 import time
-import tty
 import typing
+
+from apparatus.line import Line
 
 LOAD = 2.0  # ohm
 
@@ -195,7 +194,7 @@ class Korad(Device):
 
     answers_end = b""
     name = "KORADKA3005PV2.0"
-    deaf = 0.01  # s after a command
+    deaf = 0.001  # s after a command, by a clock that a busy machine keeps badly
 
     def __init__(self):
         super().__init__(1)
@@ -303,32 +302,16 @@ class SiglentSDG(Generator):
     }
 
 
-class OnPty:
+class OnPty(Line):
     """A device on a pseudo-terminal."""
 
     def __init__(self, device):
-        self.device = device
-        self._end, self._other = pty.openpty()
-        tty.setraw(self._other)
-        self.port = os.ttyname(self._other)
-        threading.Thread(target=self._serve, daemon=True).start()
+        self.device, self._rest = device, b""
+        super().__init__(self._hear)
 
-    def _serve(self):
-        rest = b""
-        while True:
-            try:
-                rest += os.read(self._end, 4096)
-                lines, rest = self.device.lines(rest)
-                for line in lines:
-                    os.write(self._end, self.device.hear(line))
-            except OSError:
-                return
-
-    def pull(self):
-        """Pull the cable out."""
-        for end in (self._end, self._other):
-            with contextlib.suppress(OSError):
-                os.close(end)
+    def _hear(self, came):
+        lines, self._rest = self.device.lines(self._rest + came)
+        return b"".join(map(self.device.hear, lines))
 
 
 class OnSocket:

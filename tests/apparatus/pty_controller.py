@@ -1,10 +1,6 @@
 """A vibration controller at the other end of a pseudo-terminal, with faults."""
 
-import contextlib
-import os
-import pty
-import threading
-import tty
+from apparatus.line import Line
 
 DIALECT = {
     "set_waveform": "WAVE {waveform}",
@@ -20,7 +16,7 @@ DIALECT = {
 }
 
 
-class PtyController:
+class PtyController(Line):
     """Answers lines that end with CR LF.
 
     Attributes
@@ -32,39 +28,20 @@ class PtyController:
     """
 
     def __init__(self):
-        self._end, self._other = pty.openpty()
-        tty.setraw(self._other)
-        self.port = os.ttyname(self._other)
         self.fault, self.frequency, self.waveform, self.vibrates = "", 0.0, "", False
         self.heard = []
-        self._thread = threading.Thread(target=self._serve, daemon=True)
-        self._thread.start()
+        self._rest = b""
+        super().__init__(self._hear)
 
-    def pull(self):
-        """Pull the cable out."""
-        for end in (self._end, self._other):
-            with contextlib.suppress(OSError):
-                os.close(end)
+    def _hear(self, came):
+        *lines, self._rest = (self._rest + came).split(b"\r\n")
+        return b"".join(map(self._said, lines))
 
-    def _serve(self):
-        text = b""
-        while True:
-            try:
-                text += os.read(self._end, 256)
-            except OSError:
-                return
-            while b"\r\n" in text:
-                line, text = text.split(b"\r\n", 1)
-                answer = self._answer(line.decode("utf-8", "replace"))
-                if self.fault == "silent":
-                    continue
-                sent = answer.encode() + b"\r\n"
-                if self.fault == "half":
-                    sent = sent[: len(sent) // 2]
-                try:
-                    os.write(self._end, sent)
-                except OSError:
-                    return
+    def _said(self, line):
+        sent = self._answer(line.decode("utf-8", "replace")).encode() + b"\r\n"
+        if self.fault == "silent":
+            return b""
+        return sent[: len(sent) // 2] if self.fault == "half" else sent
 
     def _answer(self, line):
         self.heard.append(line)

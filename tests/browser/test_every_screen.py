@@ -78,6 +78,23 @@ def too_wide(page):
     return wide
 
 
+FIRST = {"flanks": ".headline b", "drive": ".headline b", "block": ".headline b",
+         "slide": ".headline b", "gear": ".headline .verdict", "size": "main .big b",
+         "rig": "main .big b", "thesis": "main .big b", "sweep": "main .big b"}  # fmt: skip
+
+
+def test_on_a_phone_the_answer_stands_before_what_is_set_on_every_screen(seen_as):
+    seen = seen_as(viewport={"width": 360, "height": 740}, reduced_motion="reduce")
+    for screen, answer in FIRST.items():
+        page = seen.open(screen)
+        top = page.locator(answer).first
+        expect(top).to_be_visible()
+        settled(page)
+        assert top.bounding_box()["y"] < 300, screen
+        for below in page.locator(".controls, main .panel").all():
+            assert below.bounding_box()["y"] > top.bounding_box()["y"], screen
+
+
 @pytest.mark.campaign
 @pytest.mark.parametrize("screen", SCREENS)
 def test_reload_and_back_lead_to_the_same_screen(seen, screen):

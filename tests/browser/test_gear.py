@@ -1,6 +1,7 @@
 """A worm gearset in a browser: rated, sized, cut and shaken, as the command line does."""
 
 import io
+import re
 import shutil
 from contextlib import closing
 from pathlib import Path
@@ -219,6 +220,44 @@ def test_a_torque_ratio_stands_beside_its_balance_and_whether_it_settled(seen, s
         expect(page.get_by_text(then).first).to_be_visible()
     page.set_viewport_size({"width": 360, "height": 900})
     assert page.evaluate("document.documentElement.scrollWidth") == 360
+
+
+def test_a_gearset_that_fails_says_how_much_larger_it_must_be_and_a_click_makes_it_so(seen):
+    page = seen.open("gear", case="gearset-3")
+    expect(page.get_by_text("it does not hold")).to_be_visible()
+    expect(page.get_by_text("It needs about")).to_contain_text("64 % more size")
+    before = shown(page, "iso14521.safety_deflection")
+    page.get_by_role("button", name="do it").click()
+    settled(page)
+    size = page.locator("#field-gearset-centre_distance").input_value()
+    assert float(size.split()[0]) == pytest.approx(1.64 * 74.93, rel=0.01)
+    # About: by what the first percent of it brings.
+    assert shown(page, "iso14521.safety_deflection") > 3.0 * before
+
+
+def of(counted):
+    """Return how many gearsets were rated, of the sentence that says how many of them hold."""
+    return int(re.search(r"of (\d+)", counted.inner_text())[1])
+
+
+def test_sizing_keeps_what_the_case_or_the_reader_requires(seen):
+    page = seen.open("size", ratio="40", output_torque="300 N m", worm_speed="1500 rpm")
+    counted = page.get_by_text("gearsets hold by every standard")
+    settled(page)
+    free = of(counted)
+    page.get_by_text("what must be kept", exact=True).click()
+    page.get_by_label("hobs", exact=True).select_option("standard")
+    page.get_by_label("ratio tolerance", exact=True).fill("1 %")
+    page.get_by_label("ratio tolerance", exact=True).press("Enter")
+    settled(page)
+    expect(page.get_by_role("columnheader", name="hob", exact=True)).to_be_visible()
+    expect(page.get_by_text("kept as [requirements] has it")).to_have_count(1)
+    assert 0 < of(counted) < free
+    page.get_by_role("button", name="take a =").first.click()
+    settled(page)
+    assert float(page.get_by_label("ratio", exact=True).input_value()) == pytest.approx(
+        40, rel=0.01
+    )
 
 
 def test_a_job_says_that_something_was_set_since(seen):

@@ -70,12 +70,47 @@ def test_a_shared_file_holds_the_numbers_and_the_case_that_gives_them(
     assert saved == page.locator("#case").text_content()
 
 
-def test_a_shared_body_moves_without_a_server(shared):
-    _, page = shared("slide", case="body-shaken-across")
+# Of each screen that moves: what of it does, and which of its attributes says where.
+MOVING = {
+    "slide": (".stage .dot", "cy", {"case": "body-shaken-across"}),
+    "gear": (".mesh [data-of=wheel]", "transform", {}),
+    "drive": (".mesh [data-of=threads]", "transform", {}),
+    "block": (".deformed [data-of=skin] path", "d", {}),
+    "flanks": (".map .touching", "d", {}),
+}
+
+
+@pytest.mark.parametrize("screen", MOVING)
+def test_what_moves_on_a_screen_moves_in_its_file_without_a_server_and_stops(shared, screen):
+    one, attribute, params = MOVING[screen]
+    path, page = shared(screen, **params)
+    assert path.stat().st_size < MOST_BYTES
+    moving = page.locator(one).first
+    # What moves is never at rest, as playwright would have it.
+    moving.evaluate("each => each.scrollIntoView({block: 'center'})")
+    page.get_by_role("button", name="stop the motion").wait_for()
+    expect(moving).not_to_have_attribute(attribute, moving.get_attribute(attribute))
+    page.get_by_role("button", name="stop the motion").click()
+    page.wait_for_timeout(100)
+    there = page.locator("[data-moves]").evaluate_all("all => all.map((one) => one.outerHTML)")
+    page.wait_for_timeout(300)
+    assert there == page.locator("[data-moves]").evaluate_all(
+        "all => all.map((one) => one.outerHTML)"
+    )
+
+
+def test_a_shared_file_of_a_reader_who_wants_nothing_to_move_stands_still(shared, browser):
+    path, _ = shared("slide", case="body-shaken-across")
+    context = browser.new_context(reduced_motion="reduce", offline=True)
+    page = context.new_page()
+    page.goto(path.as_uri())
     dot = page.locator(".stage .dot")
     before = dot.get_attribute("cy")
-    page.wait_for_timeout(400)
-    assert dot.get_attribute("cy") != before
+    page.wait_for_timeout(300)
+    assert dot.get_attribute("cy") == before
+    page.get_by_role("button", name="let it move").click()
+    expect(dot).not_to_have_attribute("cy", before)
+    context.close()
 
 
 @pytest.mark.campaign

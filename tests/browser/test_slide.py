@@ -144,7 +144,7 @@ def test_a_number_of_another_base_is_refused_and_a_meaning_names_no_other_unit(s
     assert alert.inner_text().count("vibration.velocity_ratio") == 1
     slide.get_by_text("every key of the case").click()
     says = slide.locator("#field-slider-drive_velocity-says")
-    expect(says).to_contain_text("v_d > 0. (")
+    expect(says).to_contain_text("vd > 0. (")
 
 
 def test_a_case_is_replaced_only_when_that_is_said(slide):
@@ -285,6 +285,49 @@ def test_the_best_elevation_of_a_pin_is_taken_by_a_click(seen):
     settled(page)
     assert shown(page, "ratio") < 0.2 * before
     expect(page.get_by_text("No other elevation leaves less.")).to_be_visible()
+
+
+AROUND = """async () => {
+  const { anglesAt, lineOf, seenAt } = await import("/js/ball.js");
+  const apart = (one, other) => {
+    const dot = one.reduce((sum, each, k) => sum + each * other[k], 0);
+    return (Math.acos(Math.min(1, Math.abs(dot))) * 180) / Math.PI;
+  };
+  const found = [];
+  for (let direction = 0; direction < 180; direction += 13) {
+    for (let elevation = 1; elevation < 180; elevation += 11) {
+      const line = lineOf(direction, elevation);
+      const [again, up] = anglesAt(...seenAt(line));
+      const inside = again >= 0 && again < 180 && up >= 0 && up < 180;
+      found.push(inside ? apart(line, lineOf(again, up)) : 180);
+    }
+  }
+  return found;
+}"""
+
+
+def test_the_place_on_the_ball_is_the_line_in_space_that_it_was_drawn_from(slide):
+    # Whole degrees are set: each angle is half of one off at most.
+    apart = slide.evaluate(AROUND)
+    assert len(apart) == 14 * 17
+    assert max(apart) < 1.0
+
+
+def test_a_ball_turns_the_direction_in_space(seen, server):
+    page = seen.open("slide", case="pin-on-disc")
+    settled(page)
+    before = shown(page, "ratio")
+    box = page.locator(".ball .grip").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 15, y + 12, steps=4)
+    page.mouse.up()
+    settled(page)
+    words = copied(page)
+    assert [each for each in words if each.startswith("vibration.elevation=")]
+    assert shown(page, "ratio") < before
+    assert shown(page, "ratio") == pytest.approx(answered(words, server.folder)["ratio"], rel=1e-9)
 
 
 def test_changes_are_undone_and_done_again_one_at_a_time(slide):

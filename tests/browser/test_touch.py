@@ -15,6 +15,7 @@ def phone(seen_as):
     seen = seen_as(**PHONE)
     page = seen.open("slide")
     expect(page.locator("[data-key=ratio]").first).to_be_visible()
+    page.get_by_text("what is set", exact=True).click()
     settled(page)
     return page
 
@@ -75,6 +76,8 @@ def test_no_handle_of_another_screen_is_moved_by_a_finger_that_scrolls(seen_as, 
     expect(handles.first).to_be_visible()
     expect(page.get_by_text("an answer that ships").first).to_be_visible()
     settled(page)
+    for fold in page.get_by_text("what is set", exact=True).all():
+        fold.click()
     # What plays moves by itself.
     for button in page.get_by_role("button", name=re.compile("pause|stop the motion")).all():
         button.click()
@@ -113,3 +116,17 @@ def test_a_finger_on_the_round_handle_turns_the_direction_and_scrolls_nothing(ph
     settled(phone)
     assert phone.evaluate("scrollY") == before
     assert "set.vibration.direction" in phone.url
+
+
+def test_a_finger_on_the_ball_turns_the_direction_in_space_and_scrolls_nothing(seen_as):
+    page = seen_as(**PHONE).open("slide", case="pin-on-disc")
+    grip = page.locator(".ball .grip")
+    expect(grip).to_be_visible()
+    settled(page)
+    grip.evaluate("each => each.scrollIntoView({block: 'center'})")
+    x, y = middle(grip)
+    before = page.evaluate("scrollY")
+    swipe(page, (x, y), (x + 20, y + 30))
+    settled(page)
+    assert page.evaluate("scrollY") == before
+    assert "set.vibration.elevation" in page.url

@@ -90,5 +90,7 @@ def test_from_a_recording_to_a_fitted_law_takes_five_clicks(seen):
     walk.click("button", re.compile("^fit$"))
     law = page.get_by_role("region", name="fit")
     expect(law.get_by_role("row", name=re.compile("transfer"))).to_be_visible(timeout=300_000)
-    expect(law).to_contain_text("chi²")
+    expect(law).to_contain_text("χ²")
+    # The law is seen against what was measured.
+    expect(law.locator("figure .point").first).to_be_visible()
     assert walk.clicks <= 5

@@ -151,7 +151,7 @@ def test_results_say_when_they_rest_on_memory():
 
 def test_a_number_is_trusted_no_more_than_those_in_its_equation():
     rated = rate(*minimal())
-    levels = ["verified", "one source", "from memory"]
+    levels = ["verified", "one source", "own choice", "from memory"]
     for rating in rated.ratings:
         trust = {e.symbol: e.source.confidence for e in rating if not e.assumed}
         given = {e.symbol for e in rating if e.source.name == "the case"}
@@ -189,6 +189,20 @@ def test_factor_multiplies_every_standards_tooth_friction():
     plain, halved = rate(*minimal()), rate(*minimal(options={"friction_factor": 0.5}))
     for one, other, key in zip(plain.ratings, halved.ratings, ("mu_zm", "mu", "mu"), strict=True):
         assert other[key] == 0.5 * one[key]
+
+
+def test_a_coating_s_factors_act_on_wear_and_pitting_of_iso_alone():
+    plain = rate(*minimal())
+    coated = rate(*minimal(options={"wear_factor": 0.1, "pitting_factor": 1.77**0.5}))
+    for key, factor in (("safety_wear", 10.0), ("safety_pitting", 1.77**0.5)):
+        assert coated.iso14521[key] == pytest.approx(factor * plain.iso14521[key], rel=1e-12)
+    # Less worn teeth are thicker at their root.
+    assert coated.iso14521["safety_root"] > plain.iso14521["safety_root"]
+    for key in ("W_ML", "sigma_HlimT_MPa"):
+        assert coated.iso14521.entry(key).source.name == "the case"
+        assert plain.iso14521.entry(key).source.name != "the case"
+    assert coated.bs721.to_json() == plain.bs721.to_json()
+    assert coated.agma6034.to_json() == plain.agma6034.to_json()
 
 
 def test_base_friction_acts_on_iso_alone():

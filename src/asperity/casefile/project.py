@@ -20,6 +20,8 @@ class Project(Table):
         What else a reader of the report should know.
     units : {'si', 'us'}
         What screen, report, workbook and CSV are in; JSON and netCDF are in SI whatever it says.
+    language : str
+        What screen and report are in: ``en``, ``de``, or a file of sentences that ends in .toml.
     """
 
     table: ClassVar[str] = "project"
@@ -30,3 +32,4 @@ class Project(Table):
     author: str | None = None
     note: str | None = None
     units: Literal["si", "us"] = "si"
+    language: str = "en"

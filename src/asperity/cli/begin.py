@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from asperity.cli.outcome import reported
-from asperity.cli.registered import JsonOption, OutOption, SetOption
+from asperity.cli.registered import JsonOption, LanguageOption, OutOption, SetOption, UnitsOption
 
 _TORQUE = typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
 _SPEED = typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
@@ -66,6 +66,8 @@ def size(
         bool, typer.Option("--uncut", help="Do not look whether a hob cuts each wheel.")
     ] = False,
     settings: SetOption = None,
+    units: UnitsOption = "",
+    language: LanguageOption = "",
     as_json: JsonOption = False,
     out: OutOption = None,
 ) -> None:
@@ -79,4 +81,8 @@ def size(
     from asperity.cli.size import size as run
 
     asked = {"output_torque": output_torque, "worm_speed": worm_speed}
-    run(case, ratio, asked, settings or (), rank, locks, cut=not uncut, as_json=as_json, out=out)
+    shown = units, language
+    run(
+        case, ratio, asked, settings or (), rank, locks, shown,
+        cut=not uncut, as_json=as_json, out=out,
+    )  # fmt: skip

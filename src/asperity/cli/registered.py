@@ -44,6 +44,12 @@ UnitsOption = Annotated[
         "--units", metavar="SYSTEM", help="Show it in si or us units; JSON and netCDF are SI."
     ),
 ]
+LanguageOption = Annotated[
+    str,
+    typer.Option(
+        "--language", metavar="LANGUAGE", help="Show it in en, de, or by a file of sentences."
+    ),
+]
 FormatOption = Annotated[
     str, typer.Option("--format", metavar="FORMAT", help="Of pictures: png, svg or pdf.")
 ]
@@ -79,6 +85,7 @@ def _command(command: Command, into: typer.Typer) -> None:
         **({"pictures": (FormatOption, "png")} if command.draws else {}),
         "settings": (SetOption, None),
         "units": (UnitsOption, ""),
+        "language": (LanguageOption, ""),
         "as_json": (JsonOption, False),
         "out": (_out(command), None),
     }

@@ -4,9 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from asperity.casefile.case import Case, naming_source
+from asperity.casefile.project import Project
 from asperity.cli import show
 from asperity.cli.new import OTHER_FORMS, given_to
 from asperity.commands import case_tables
+from asperity.commands.shown import check_shown, shown_as
 from asperity.files.store import output_folder, write_text
 from asperity.start.duty import complete, duty
 from asperity.start.gear import proposals, ratio_of
@@ -22,6 +24,7 @@ def size(
     settings: Sequence[str],
     rank: str,
     locks: str,
+    shown: tuple[str, str],
     *,
     cut: bool,
     as_json: bool,
@@ -30,8 +33,10 @@ def size(
     """Print gearsets for a duty, and write each one as a case.
 
     The duty is that of a case, if one is named, with what is asked by key of the operation and set
-    in its place. An empty ratio is that of ``requirements``; ``cut`` leaves out what no hob cuts.
+    in its place. An empty ratio is that of ``requirements``; ``cut`` leaves out what no hob cuts;
+    units and language, where they are ``shown``, take the place of the project's.
     """
+    check_shown(*shown)
     values = duty(case)
     given_to(values, asked, settings)
     wanted = ratio_of(ratio) if ratio else None
@@ -39,12 +44,14 @@ def size(
     with naming_source(Case(case or "size", Path(), {}, values, case_tables(), origin)):
         complete(values)
         found = proposals(values, wanted, rank, cut=cut, locks=locks)
-    if as_json:
-        show.print_json(found.to_json())
-    else:
-        show.print_tables(found.tables())
-    if out is not None:
-        show.note(_written(found, values, out))
+    folder = Path(case).parent if case else Path()
+    with shown_as(Project.model_validate(values.get("project", {})), folder, *shown):
+        if as_json:
+            show.print_json(found.to_json())
+        else:
+            show.print_tables(found.tables())
+        if out is not None:
+            show.note(_written(found, values, out))
 
 
 def _written(found: Proposals, values: Values, out: Path) -> str:

@@ -9,15 +9,15 @@ import contextlib
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, get_args
+from typing import TYPE_CHECKING, Any, Protocol
 
 from asperity.casefile import naming_source
 from asperity.casefile.project import Project
 from asperity.commands.command import Command
-from asperity.errors import ConvergenceError, InputError, StorageError, choices, plain, shown
+from asperity.commands.shown import check_shown, shown_as
+from asperity.errors import ConvergenceError, InputError, StorageError, plain, shown
 from asperity.files.store import output_folder, reason, write_text
 from asperity.results.files import picture_format
-from asperity.results.system import System, shown_in
 from asperity.runs import Run
 
 if TYPE_CHECKING:
@@ -62,6 +62,7 @@ def execute(
     out: Path | None,
     pictures: str = "png",
     units: str = "",
+    language: str = "",
     **options: Any,
 ) -> None:
     """Do what a command does with a case, tell the answer and write its files.
@@ -84,11 +85,12 @@ def execute(
         What pictures are written as; empty: none are.
     units : str
         What people are shown it in, ``si`` or ``us``; empty: as the case says.
+    language : str
+        What people are shown it in, ``en``, ``de`` or a file of sentences; empty: as the case says.
     **options
         What the command takes beside a case.
     """
-    if units not in ("", *get_args(System)):
-        raise InputError(f"--units {units}: it must be one of {choices(get_args(System))}")
+    check_shown(units, language)
     pictures = pictures and picture_format(pictures)
     file = out if command.out != "DIR" else None
     if file is not None:
@@ -96,6 +98,7 @@ def execute(
     found = command.case_of(case, settings, **options)
     given = [options[argument.name] for argument in command.arguments if not argument.many]
     teller.read(found)
+    shown_so = shown_as(found.get(Project, Project()), found.folder, units, language)
     with naming_source(found, *given):
         problem = command.prepared(found, **options)
     if out is None and command.into:
@@ -115,7 +118,7 @@ def execute(
             raise
     # What was measured is what an answer is about, rather than how it is read.
     source = plain(given[0]) if given else found.source
-    with shown_in(_system(units, found)):
+    with shown_so:
         shown = teller.show(source, found, result)
         if file is not None:
             teller.written(result.save(file), ())
@@ -133,13 +136,6 @@ def execute(
         raise shown
     if result.failure is not None:
         raise result.failure
-
-
-def _system(units: str, case: "Case") -> System | None:
-    """Return the system of units that is asked for, or that of the case."""
-    project = case.get(Project)
-    own: System | None = None if project is None else project.units
-    return "us" if units == "us" else "si" if units == "si" else own
 
 
 def _check_new(file: Path, command: Command) -> None:

@@ -1,7 +1,7 @@
 """The commands, in the order of the help."""
 
 from asperity.commands.command import Addition, Argument, Command, Option
-from asperity.commands.listed_rig import RIG
+from asperity.commands.of_rig import RIG_COMMANDS
 
 GROUPS = {"rig": "A disc-on-disc tribometer: plan, procedure, recordings and their reduction."}
 """Commands that have a name in common, and what they are about."""
@@ -278,6 +278,14 @@ COMMANDS = (
         counts="amplitudes",
     ),
     Command(
+        "control",
+        "Switch a drive's vibration in a stroke, by a sensor or a clutch, and let each part fail.",
+        "With --out also control.json, control.nc and pictures.",
+        module="asperity.drive.control.study",
+        needs=("gearset", "operation", "drive", "control"),
+        counts="thousandths of strokes",
+    ),
+    Command(
         "fit",
         "Fit a friction law to measured ratios or forces: intervals, and what data cannot tell.",
         "With --out also fit.json, fit.nc and fit.png.",
@@ -306,6 +314,6 @@ COMMANDS = (
             ),
         ),
     ),
-    *RIG,
+    *RIG_COMMANDS,
 )
 """In the order of the help."""

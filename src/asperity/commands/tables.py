@@ -53,6 +53,7 @@ _TABLES = {
     "drive": "asperity.drive.parameters:Drive",
     "shaft": "asperity.drive.parameters:Shaft",
     "actuator": "asperity.drive.parameters:Actuator",
+    "control": "asperity.drive.control.parameters:Control",
 }
 
 

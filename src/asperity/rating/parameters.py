@@ -343,6 +343,11 @@ class RatingOptions(Table):
         Coefficient of friction in place of the mean tooth friction of every standard.
     friction_factor : float
         Multiplies the tooth friction of every standard: the way in for vibration.
+    wear_factor : float
+        Multiplies :math:`W_{ML}` of ISO/TR 14521: how fast the wheel wears beside the standard's
+        materials, as against a coated worm, 0.1 where it wears ten times less.
+    pitting_factor : float
+        Multiplies :math:`\sigma_{HlimT}` of ISO/TR 14521; a capacity goes with its square.
     """
 
     table: ClassVar[str] = "rating"
@@ -372,6 +377,12 @@ class RatingOptions(Table):
     friction_factor: Annotated[float, Quantity("", what="a factor", example="1.0", ge=0, le=10)] = (
         1.0
     )
+    wear_factor: Annotated[float, Quantity("", what="a factor", example="0.1", ge=1e-6, le=1e6)] = (
+        1.0
+    )
+    pitting_factor: Annotated[
+        float, Quantity("", what="a factor", example="1.33", ge=1e-3, le=1e3)
+    ] = 1.0
 
     @property
     def assumed(self) -> Mapping[str, str]:

@@ -3,6 +3,8 @@
 import math
 from typing import Any, NamedTuple
 
+from asperity.results.language import Spoken, said
+
 
 class Row(NamedTuple):
     """What there is of what is asked.
@@ -35,9 +37,10 @@ class Row(NamedTuple):
     def line(self) -> str:
         """It in a line of the screen."""
         unit = f" {self.unit}" if self.unit else ""
-        said = f"{self.value:.3g}{unit} of {self.asked:.4g}{'' if self.holds else '  FAILS'}"
-        by = f"; {self.by}" if self.by else ""
-        return f"{f'{self.standard} {self.name}':24} {said}{by}"
+        fails = "" if self.holds else f"  {said('FAILS')}"
+        stands = f"{self.value:.3g}{unit} {said('of')} {self.asked:.4g}{fails}"
+        by = f"; {said(self.by)}" if self.by else ""
+        return Spoken(f"{f'{self.standard} {said(self.name)}':24} {stands}{by}")
 
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""

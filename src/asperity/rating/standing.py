@@ -11,6 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 from asperity.rating.demands import DEMANDS
 from asperity.rating.result import Rating
+from asperity.results.language import Spoken, said
 from asperity.results.system import shown_text
 from asperity.results.terminal import lines_of_text
 
@@ -169,10 +170,11 @@ def _shortened(text: str) -> str:
     >>> _shortened("ISO/TR 14521: h* is 0.05; it must be above 0.07. " + "any one of these, " * 9)
     'ISO/TR 14521: h* is 0.05; it must be above 0.07 ...'
     """
+    text = said(text)
     if len(text) <= _MOST:
-        return text
+        return Spoken(text)
     room = text[: _MOST - len(_CUT) + 1]
     ends = [found.start() for found in _PART.finditer(room)]
     if ends:
-        return room[: ends[-1]] + _CUT
-    return textwrap.shorten(text, _MOST, placeholder=_CUT)
+        return Spoken(room[: ends[-1]] + _CUT)
+    return Spoken(textwrap.shorten(text, _MOST, placeholder=_CUT))

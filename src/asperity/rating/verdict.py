@@ -12,11 +12,13 @@ from asperity.rating.result import Rating
 from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
+from asperity.results.language import said
 from asperity.results.system import shown_text
 from asperity.results.words import Number, Sentence
 
 _LONGEST = 3.0
 _BAR = 27
+_NAMES = 24
 _MOST_LEVERS = 3
 _MOST_REMARKS = 3
 _MOST_LINES = 23
@@ -51,7 +53,8 @@ class Safety(NamedTuple):
     def said(self) -> str:
         """What there is of what is asked, and that it fails where it does."""
         d = self.demand
-        return f"{d.symbol} {_short(self.value)} of {d.asked:g}{'' if self.holds else '  FAILS'}"
+        fails = "" if self.holds else f"  {said('FAILS')}"
+        return f"{d.symbol} {_short(self.value)} {said('of')} {d.asked:g}{fails}"
 
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""
@@ -234,13 +237,13 @@ class Verdict(NamedTuple):
         """
         if not self.safeties:
             return
+        names = [f"{NAMES[one.demand.standard]} {said(one.demand.name)}" for one in self.safeties]
+        wide = max(_NAMES, *map(len, names))
         unit = _BAR // int(_LONGEST)
         scale = "".join(f"{number:>{unit}}" for number in range(1, int(_LONGEST) + 1))
-        yield f"{'':25}{scale}  times what is asked"
-        for safety in self.safeties:
-            d = safety.demand
-            name = f"{NAMES[d.standard]} {d.name}"
-            yield f"{name:24} {bar(safety.margin)} {safety.said}"
+        yield f"{'':{wide + 1}}{scale}  {said('times what is asked')}"
+        for name, safety in zip(names, self.safeties, strict=True):
+            yield f"{name:{wide}} {bar(safety.margin)} {safety.said}"
         for row in self.rows:
             yield from wrapped(row.line)
         yield from wrapped(self.wear_assumed)
@@ -351,10 +354,10 @@ def screen(
     more = len(kept["remarks"]) - shown
     rest = "number rests" if memory == 1 else "numbers rest"
     further = f", {more} remark{'s' * (more > 1)}" if more > 0 else ""
-    lines["end"] = [
+    lines["end"] = wrapped(
         f"assumed {assumed} key{'s' * (assumed != 1)}, {memory} {rest} on sources from memory"
         f"{further}: --full"
-    ]
+    )
     order = (
         "stands", "first", "best", "bars", "power", "duty", "film", "locking", "play", "remarks",
         "end",

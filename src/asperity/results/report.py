@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from asperity.casefile.case import Case
 from asperity.casefile.project import Project
+from asperity.results.language import language, said
 from asperity.results.page import environment
 from asperity.results.system import shown_table, shown_text
 from asperity.results.table import Table
@@ -68,7 +69,9 @@ class Picture:
             kind, content = "png", self.png.read_bytes()
         elif self.figure is not None:
             drawn = io.BytesIO()
-            self.figure.savefig(drawn, format="svg", metadata={"Date": None})
+            from asperity.results.figures import spoken_figure
+
+            spoken_figure(self.figure).savefig(drawn, format="svg", metadata={"Date": None})
             content = drawn.getvalue()
         encoded = base64.b64encode(content).decode("ascii")
         return Markup('<img alt="{}" src="data:image/{};base64,{}">').format(
@@ -166,7 +169,7 @@ class Heading:
             ("Date", self.date.isoformat()), ("Case file", self.case),
             ("Made with", self.made_with), ("Note", project.note),
         )  # fmt: skip
-        return tuple((name, text) for name, text in lines if text)
+        return tuple((said(name), text) for name, text in lines if text)
 
     def table(self) -> Table:
         """Return what the case says."""
@@ -191,20 +194,30 @@ def report(title: str, sections: Iterable[Section], heading: Heading | None = No
     """Return a report as text: a page without requests, which prints on A4."""
     heading = heading or Heading()
     template = environment().get_template("report.html.j2")
+    title = said(title)
     named = f"{heading.project.name}: {title}" if heading.project.name else title
     parts = [*map(_shown, sections), *_given(heading)]
-    return template.render(title=named, heading=heading, sections=parts)
+    words = {"lang": language(), "page": said("page"), "of": said("of")}
+    return template.render(title=named, heading=heading, sections=parts, **words)
 
 
 def _shown(section: Section) -> Section:
     """Return a part as people are shown it; the case stands as it was written."""
     return dataclasses.replace(
         section,
+        title=said(section.title),
+        pictures=tuple(map(_captioned, section.pictures)),
         texts=tuple(map(shown_text, section.texts)),
         tables=tuple(map(shown_table, section.tables)),
     )
 
 
+def _captioned(picture: Picture) -> Picture:
+    return dataclasses.replace(
+        picture, title=said(picture.title), caption=shown_text(picture.caption)
+    )
+
+
 def _given(heading: Heading) -> Iterator[Section]:
     if heading.given:
-        yield Section("The case file", tables=(heading.table(),))
+        yield Section(said("The case file"), tables=(shown_table(heading.table()),))

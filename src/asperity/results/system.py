@@ -1,4 +1,4 @@
-"""The system of units that people are shown: SI and the standards' own, or that of the US.
+"""What people are shown: in SI and the standards' own units or those of the US, in their language.
 
 Answers are calculated and kept in SI, and JSON and netCDF have them so. What is shown is converted
 as it is shown: a table by its column ``unit`` and by units in headings, a sentence by the keys of
@@ -13,7 +13,8 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal, NamedTuple
 
-from asperity.results.table import Column, Table
+from asperity.results.language import ENGLISH, language, said
+from asperity.results.table import Bar, Column, Table
 from asperity.results.words import Number, Sentence
 
 System = Literal["si", "us"]
@@ -59,7 +60,7 @@ US: dict[str, Shown] = {
 
 _LARGE = 1e7
 _PITCH, _PER_INCH = "diametral pitch pi/p", "1/in"
-_KEPT = ("equation", "source")
+_KEPT = ("equation", "source", "as written", "key", "keys", "unit")
 _EQUATIONS = "equations are written for the units of their standards: mm, N, N m, MPa, degC"
 # What a key of JSON ends with, the longer first. Without the metre, which "m" of others would be.
 _SUFFIXES = {
@@ -70,9 +71,10 @@ _SUFFIXES = {
 _TEXT = sorted((unit for unit in US if unit != "m"), key=len, reverse=True)
 _NUMBER = r"[+-]{0,2}\d+(?:\.\d+)?(?:[eE][+-]?\d+)?"
 _UNIT = "|".join(map(re.escape, _TEXT))
-# "3 to 4 mm", "1.2 of 3 W", "10, 20 and 30 N m": what a unit at the end is of.
+# "3 to 4 mm", "1.2 of 3 W", "10, 20 and 30 N m": what a unit at the end is of; but not what is to
+# be given as it stands, "key=3 mm".
 _RUN = re.compile(
-    rf"(?<![\w.+/*^-])(?P<numbers>{_NUMBER}(?:(?:, | to | of | and |/){_NUMBER})*)"
+    rf"(?<![\w.+/*^=-])(?P<numbers>{_NUMBER}(?:(?:, | to | of | and |/){_NUMBER})*)"
     rf"(?P<space> )(?P<unit>{_UNIT})(?![\w/^*(]|\s*/)"
 )
 _HEAD = re.compile(rf"\((?P<unit>{_UNIT})\)$")
@@ -111,7 +113,31 @@ def converted(value: float, unit: str) -> tuple[float, str]:
 
 
 def shown_text(text: str) -> str:
-    """Return a sentence as people are shown it."""
+    """Return a sentence as people are shown it, in their units and language."""
+    return said(_in_units(text))
+
+
+def shown_table(table: Table) -> Table:
+    """Return a table as people are shown it, in their units and language."""
+    return _translated(_table_in_units(table))
+
+
+def _translated(table: Table) -> Table:
+    if language() == ENGLISH:
+        return table
+    stays = [column.typeset or column.heading in _KEPT for column in table.columns]
+    rows = tuple(
+        tuple(cell if kept or isinstance(cell, Bar) else said(cell)
+              for cell, kept in zip(row, stays, strict=True))
+        for row in table.rows
+    )  # fmt: skip
+    columns = tuple(
+        dataclasses.replace(column, heading=said(column.heading)) for column in table.columns
+    )
+    return Table(columns, rows, said(table.title), tuple(map(said, table.remarks)))
+
+
+def _in_units(text: str) -> str:
     if system() == "si":
         return text
     if not isinstance(text, Sentence):
@@ -129,8 +155,7 @@ def shown_text(text: str) -> str:
     return Sentence(*parts)
 
 
-def shown_table(table: Table) -> Table:
-    """Return a table as people are shown it."""
+def _table_in_units(table: Table) -> Table:
     if system() == "si":
         return table
     headings = [column.heading for column in table.columns]
@@ -144,10 +169,10 @@ def shown_table(table: Table) -> Table:
         for column in table.columns
     )
     rows = tuple(_row(row, table.columns, place, own) for row in table.rows)
-    remarks = tuple(map(shown_text, table.remarks))
+    remarks = tuple(map(_in_units, table.remarks))
     if "equation" in headings:
         remarks = (_EQUATIONS, *remarks)
-    title = _TITLE.sub(_of_title, table.title) if of_all else shown_text(table.title)
+    title = _TITLE.sub(_of_title, table.title) if of_all else _in_units(table.title)
     return Table(columns, rows, title, remarks)
 
 
@@ -168,7 +193,7 @@ def _row(
         elif n == place or column.typeset or column.heading in _KEPT:
             cells.append(text)
         else:
-            cells.append(shown_text(text))
+            cells.append(_in_units(text))
     # A unit whose row has no number that is known stays, and so does the number.
     if place is not None and changed:
         cells[place] = _PER_INCH if pitch else US[unit].unit

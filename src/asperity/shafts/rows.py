@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+from asperity.arrays import first_least
 from asperity.rating.rows import Row
 from asperity.shafts.shaft import ShaftFound, least
 from asperity.shafts.strength.din743 import ASKED
@@ -35,7 +36,7 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
     for end, lives in zip(_ENDS, found.lives, strict=True):
         if lives is None:
             continue
-        condition, worst = min(lives.items(), key=lambda pair: pair[1].told)
+        condition, worst = first_least(lives.items(), lambda pair: pair[1].told)
         by = [condition.short]
         if len(worst.damage) > 1:
             most = max(range(len(worst.damage)), key=worst.damage.__getitem__)
@@ -50,7 +51,7 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
 def _strength(name: str, found: ShaftFound) -> Iterator[Row]:
     if not found.sections:
         return
-    worst = min(found.sections, key=lambda each: least(each.judged))
+    worst = first_least(found.sections, lambda each: least(each.judged))
     kind = "fatigue" if worst.judged.fatigue_2 <= worst.judged.yielding else "yield"
     yield Row(
         name, "DIN 743", least(worst.judged), ASKED, "",

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from asperity.arrays import EQUAL, first_least
 from asperity.errors import InputError
 from asperity.shafts.beam import Deflection, at_place, deflection, places_of
 from asperity.shafts.bearings import Carried, Life, life_of
@@ -159,7 +160,7 @@ class ShaftFound:
     @functools.cached_property
     def worst(self) -> Loaded:
         """The case that bends it most at the mesh under the greatest torque."""
-        return max(self.hardest, key=lambda each: each.at_mesh[0])
+        return first_least(self.hardest, lambda each: -each.at_mesh[0])
 
     @functools.cached_property
     def sections(self) -> tuple[Section, ...]:
@@ -181,7 +182,7 @@ class ShaftFound:
                 )
                 own = Section(detail, actions, safeties, place, each.condition)
                 known = found.get(detail.name)
-                if known is None or least(own.judged) < least(known.judged):
+                if known is None or least(own.judged) < (1.0 - EQUAL) * least(known.judged):
                     found[detail.name] = own
         return tuple(found.values())
 
@@ -191,7 +192,8 @@ class ShaftFound:
         Every safety falls with each of moment, torque and axial force.
         """
         every = [(place, each) for case in self.every for place, each in enumerate(case)]
-        every.sort(key=lambda pair: pair[1].actions[detail], reverse=True)
+        # Those of mirrored cases are the same but for rounding: they keep their order.
+        every.sort(key=lambda pair: [-float(f"{a:.9g}") for a in pair[1].actions[detail]])
         kept: list[tuple[int, Loaded]] = []
         for pair in every:
             own = pair[1].actions[detail]

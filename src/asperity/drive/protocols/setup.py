@@ -124,7 +124,7 @@ def system(
         shifts=seat is not None,
         rolls=not held,
         bends=gives,
-        **(dict.fromkeys(_SHAKES, 0.0) | (shakes(problem, model) if shaken else {})),
+        **(dict.fromkeys(SHAKES, 0.0) | (shakes(problem, model) if shaken else {})),
         wave=shape.wave() if shaken else AT_REST,
         frequency=shape.frequency,
         corners=corners_of(shape) if shaken else _SMOOTH,
@@ -135,7 +135,7 @@ def system(
 
 
 _RIGID = Bending(np.zeros(3), np.ones(3))
-_SHAKES = ("shake_worm_turn", "shake_worm_shift", "shake_seat", "shake_wheel", "shake_motor")
+SHAKES = ("shake_worm_turn", "shake_worm_shift", "shake_seat", "shake_wheel", "shake_motor")
 
 
 def _longest(problem: DriveProblem, model: MeshModel, found: System) -> float:
@@ -294,7 +294,7 @@ def switched_off(
     """
     still = system(problem, model, shaken=False, motor=False)
     wave, rate = float(states[0]["wave"]), float(states[0]["wave_rate"])
-    places = {name: getattr(moving, name) for name in _SHAKES}
+    places = {name: getattr(moving, name) for name in SHAKES}
     still = still._replace(wave=Wave(SAMPLED, 0.0, np.full(2, wave)), **places)
     left = states.copy()
     state = left[0]

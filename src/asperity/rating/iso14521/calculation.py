@@ -309,7 +309,8 @@ def _pitting(given: Inputs, v: Values) -> None:
     v["Z_S"] = pitting.pitting_size_factor(given.centre_distance)
     v["Z_u"] = pitting.pitting_ratio_factor(given.gear_ratio, edition=edition)
     v["Z_oil"] = given.operation.lubricant.base.pitting_factor
-    v["sigma_HlimT_MPa"] = given.gearset.wheel_material.pitting_strength * FROM_SI["MPa"]
+    strong = given.gearset.wheel_material.pitting_strength * given.options.pitting_factor
+    v["sigma_HlimT_MPa"] = strong * FROM_SI["MPa"]
     v["sigma_HG_MPa"] = pitting.pitting_limit(
         v["sigma_HlimT_MPa"],
         v["Z_h"],

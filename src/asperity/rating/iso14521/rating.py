@@ -250,6 +250,10 @@ def _sources(given: Inputs) -> dict[str, Source]:
         "mu_zm": given.friction,
         "theta_S_degC": given.oil_temperature,
     }
+    changed = {
+        "W_ML": given.options.wear_factor, "sigma_HlimT_MPa": given.options.pitting_factor,
+    }  # fmt: skip
+    in_place |= {key: None if factor == 1.0 else factor for key, factor in changed.items()}
     housing = operation.housing
     if housing is not None:
         own = {"A_h_m2": "area", "loss_idle_W": "idle_loss", "loss_seal_W": "seal_loss"}

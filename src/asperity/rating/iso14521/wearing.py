@@ -81,7 +81,7 @@ def wear_of(given: Inputs, v: Values) -> None:
         base_oil=base_oil,
     )
     v["W_NS"] = wear.start_factor(given.starts_per_hour)
-    v["W_ML"] = wheel.wear_factor.get(lubricant.base_oil, 1.0)
+    v["W_ML"] = wheel.wear_factor.get(lubricant.base_oil, 1.0) * given.options.wear_factor
     v["J_W"] = wear.wear_intensity(v["J_0T"], v["W_NS"], v["W_ML"])
     v["s_star"] = contact.path_parameter(
         given.gear_ratio, given.lead_angle, flank=given.gearset.flank

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 
-from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.tribometer import discs
 from asperity.tribometer.channels import Channels
@@ -33,13 +32,12 @@ from asperity.tribometer.reduction.result import (
     SegmentResult,
 )
 from asperity.tribometer.reduction.segments import Segment
+from asperity.tribometer.reduction.windows import FEWEST, Windows, of_segment
 from asperity.tribometer.uncertainty import Cause, Kind
 from asperity.units import to_si
 
 _LEVEL_BLOCK = 0.1  # s, in which noise and run-out are told apart
-_FEWEST = 10  # of these in a window; reduction.least_window has as many blocks at least
 _DATED = TORQUE, STEEL, BRONZE, CURRENT, "acceleration"  # what numbers rest on
-_LEAST_OF_SPEED = 1.0  # s of it that have settled, in a window
 _COUNTS = 3.0  # in the time a speed takes to settle: one begun before, one behind, and a filter
 _WIDE = 5.0  # points to either side, above which an interval is wide
 _PART_TURN = 1.0
@@ -57,9 +55,9 @@ def reduce_file(
     """Reduce a recording whose segments are found, by what was heard without its zeros."""
     pair, blocks = Pair.from_case(case), heard.blocks
     usable = [one for one in segments if not one.refused]
-    windows = _Windows.of(blocks, usable, given) if usable else None
+    windows = Windows.of(blocks, usable, given) if usable else None
     joint = _joint(blocks, windows, pair, given) if windows else None
-    zeros = _zeros(heard, windows) if windows else {}
+    zeros, left = windows.zeros(heard) if windows else ({}, {})
     found: list[SegmentResult] = []
     asked: list[Any] = []
     for number, segment in enumerate(segments):
@@ -75,10 +73,7 @@ def reduce_file(
             pair, common["motor_voltage"], joint, place, given.confidence, blocks.lines,
             windows.seconds[place], given.speed_settling if windows.hurried[place] else 0.0,
             powered=not any(windows.unpowered[2 * place : 2 * place + 2]),
-            zeros={
-                name: of[2 * place : 2 * place + 2, 2 * place : 2 * place + 2]
-                for name, of in zeros.items()
-            },
+            zeros=of_segment(zeros, place), left=of_segment(left, place),
         )  # fmt: skip
         values, question = _numbers(
             recording, case, heard, segment, following, sonotrode, heard.tones.get(number)
@@ -98,52 +93,10 @@ def reduce_file(
     return dataclasses.replace(whole, findings=heard.told(segments)), found
 
 
-@dataclasses.dataclass(frozen=True)
-class _Windows:
-    """The windows of a file's segments, before and with vibration in turns.
-
-    Attributes
-    ----------
-    parts : list of Stretch
-        Of each window.
-    unsettled : list of int
-        Blocks at the beginning of each in which speeds still change on their way through the
-        encoder's counter.
-    seconds : list of (float, float)
-        That the speeds of each segment are taken over.
-    hurried : tuple of bool
-        Of each segment whether speeds had no time to settle, and are taken all the same.
-    unpowered : list of bool
-        Of each window whether its current is missing or past its range somewhere.
-    """
-
-    parts: Sequence[Stretch]
-    unsettled: Sequence[int]
-    seconds: Sequence[tuple[float, float]]
-    hurried: Sequence[bool]
-    unpowered: Sequence[bool]
-
-    @classmethod
-    def of(cls, blocks: Blocks, segments: Sequence[Segment], given: Reduction) -> "_Windows":
-        """Lay out the windows of segments."""
-        parts = [part for one in segments for part in (one.before, one.shaken)]
-        late = blocks.at_least(max(given.speed_settling - given.settling, 0.0))
-        least = max(blocks.at_least(_LEAST_OF_SPEED), _FEWEST)
-        unsettled = [late if part.count - late >= least else 0 for part in parts]
-        lasts = [(one.count - n) * blocks.length for one, n in zip(parts, unsettled, strict=True)]
-        hurried = [late > n for n in unsettled]
-        return cls(
-            parts, unsettled, list(zip(lasts[::2], lasts[1::2], strict=True)),
-            [a or b for a, b in zip(hurried[::2], hurried[1::2], strict=True)],
-            [CURRENT in blocks.lost and bool(blocks.lost[CURRENT][part.first : part.last].any())
-             for part in parts],
-        )  # fmt: skip
-
-
-def _joint(blocks: Blocks, windows: _Windows, pair: Pair, given: Reduction) -> Joint:
+def _joint(blocks: Blocks, windows: Windows, pair: Pair, given: Reduction) -> Joint:
     """Estimate torque, speeds and current of all windows of a file together."""
     # Of a short window there are still as many as tell its noise.
-    least = min(part.count for part in windows.parts) // _FEWEST
+    least = min(part.count for part in windows.parts) // FEWEST
     every = max(1, min(round(_LEVEL_BLOCK / blocks.length), least))
     names = [TORQUE, STEEL, BRONZE]
     if CURRENT in blocks.means and not all(windows.unpowered):
@@ -272,13 +225,6 @@ def _amplitude(blocks: Blocks, tones: Tones | None, doubt: float) -> Cause:
     freedom = blocks.lines["acceleration"].degrees_of_freedom
     kind: Kind = "B" if freedom == math.inf else "A"
     return Cause("v_a: calibration of the accelerometer", kind, np.array([[doubt**2]]), freedom)
-
-
-def _zeros(heard: Listened, windows: _Windows) -> dict[str, FloatArray]:
-    """Return what is not known of the zeros that were taken off, in the middle of all windows."""
-    times = [0.5 * (one.first + one.last) * heard.blocks.length for one in windows.parts]
-    zeros = heard.tare.zeros.items()
-    return {signal: zero.covariance_at(np.array(times)) for signal, zero in zeros}
 
 
 def _turns(blocks: Blocks, signal: str, ratio: float, window: Stretch) -> float:

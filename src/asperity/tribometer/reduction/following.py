@@ -48,6 +48,8 @@ class Following:
         Whether the current is right in both windows.
     zeros : mapping of str to ndarray, shape (2, 2)
         Of signals whose zero was seen at rest and taken off, what is not known of it.
+    left : mapping of str to ndarray, shape (2, 2)
+        Of signals whose zero was seen at rest and not taken off, what that may have been.
     """
 
     pair: Pair
@@ -60,6 +62,7 @@ class Following:
     hurried: float = 0.0
     powered: bool = True
     zeros: Mapping[str, FloatArray] = dataclasses.field(default_factory=dict)
+    left: Mapping[str, FloatArray] = dataclasses.field(default_factory=dict)
 
     @property
     def levels(self) -> Pairs:
@@ -157,6 +160,8 @@ class Following:
             covariance = np.array([[one, both], [both, other]])
         kind: Kind = "B" if line.degrees_of_freedom == math.inf else "A"
         yield Cause(f"{name}: calibration", kind, covariance, line.degrees_of_freedom)
+        if name in self.left:
+            yield Cause(f"{name}: zero at rest, not taken off", "B", self.left[name])
         for what, most in line.limits:
             yield Cause(f"{name}: {what}", "B", np.diag([most**2 / 3.0] * 2))
         if (told := self.joint.levels[name].steps) is not None:

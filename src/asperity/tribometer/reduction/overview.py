@@ -7,8 +7,7 @@ from asperity.results.dataset import rounded
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.reduction.blocks import Blocks, blocks_of
 from asperity.tribometer.reduction.drive_signal import Stretch
-from asperity.tribometer.reduction.segments import segments_of
-from asperity.tribometer.reduction.study import Reducible
+from asperity.tribometer.reduction.study import Reducible, heard_in
 from asperity.tribometer.signals import SIGNALS
 
 _SPREAD = "drive_deviation"
@@ -52,7 +51,7 @@ def overview(one: Reducible, points: int) -> dict[str, Any]:
             "refused": segment.refused,
             "flags": list(segment.flags),
         }
-        for segment in segments_of(recording, blocks, one.plan, given)
+        for segment in heard_in(one)[0]
     ]
     return {
         "recording": recording.name,

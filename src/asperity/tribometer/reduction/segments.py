@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.recording import Event, Recording
 from asperity.tribometer.reduction import drive_signal
@@ -52,14 +53,25 @@ class Segment:
     flags: tuple[str, ...] = ()
 
 
+def running_of(
+    blocks: Blocks, given: Reduction, at_rest: FloatArray | float = 0.0
+) -> list[Stretch]:
+    """Return where the steel disc's motor turns, that shows ``at_rest`` where it does not."""
+    speed = np.abs(blocks.means["speed_steel"] - at_rest)
+    speed = np.where(blocks.lost["speed_steel"], 0.0, speed)
+    return drive_signal.switched(speed, given.running_speed, 0.5 * given.running_speed)
+
+
 def segments_of(
-    recording: Recording, blocks: Blocks, plan: Plan, given: Reduction
+    recording: Recording,
+    blocks: Blocks,
+    plan: Plan,
+    given: Reduction,
+    running: Sequence[Stretch],
 ) -> list[Segment]:
-    """Find the segments of a recording, in time's order."""
+    """Find the segments of a recording, in time's order, whose motor turns in some stretches."""
     deviation = np.where(blocks.lost["drive_voltage"], np.nan, blocks.drive_deviation)
     shaking = drive_signal.vibrating(deviation, given.threshold, given.least_drive)
-    speed = np.where(blocks.lost["speed_steel"], 0.0, np.abs(blocks.means["speed_steel"]))
-    running = drive_signal.switched(speed, given.running_speed, 0.5 * given.running_speed)
     return [
         _segment(recording, blocks, plan, given, shaking[:place], one, running)
         for place, one in enumerate(shaking)

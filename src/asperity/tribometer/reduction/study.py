@@ -18,12 +18,13 @@ from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Rig, Sonotrode
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import wear
-from asperity.tribometer.reduction.blocks import blocks_of
+from asperity.tribometer.reduction.blocks import Blocks, blocks_of
 from asperity.tribometer.reduction.budgets import not_counted
+from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.file import reduce_file
 from asperity.tribometer.reduction.heard.listen import Listened, listen
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
-from asperity.tribometer.reduction.segments import Segment, segments_of
+from asperity.tribometer.reduction.segments import Segment, running_of, segments_of
 from asperity.tribometer.sheets import broken_classes
 
 _OFTEN = 0.01  # share of samples
@@ -162,7 +163,19 @@ def _not_counted(problem: Sequence[Reducible]) -> Iterator[str]:
 def heard_in(one: Reducible) -> tuple[list[Segment], Listened]:
     """Return the segments of a recording, and what its sensors say of themselves."""
     blocks = blocks_of(one.recording, one.case.require(Channels), one.reduction.block)
-    segments = segments_of(one.recording, blocks, one.plan, one.reduction)
+    running = running_of(blocks, one.reduction)
+    segments, heard = _heard(one, blocks, running)
+    # A speed whose zero is far off seems to turn at rest: windows would hold the seconds there.
+    seen = running_of(blocks, one.reduction, heard.tare.at_rest(blocks, "speed_steel"))
+    if len(seen) > len(running):
+        segments, heard = _heard(one, blocks, seen)
+    return segments, heard
+
+
+def _heard(
+    one: Reducible, blocks: Blocks, running: Sequence[Stretch]
+) -> tuple[list[Segment], Listened]:
+    segments = segments_of(one.recording, blocks, one.plan, one.reduction, running)
     return segments, listen(one.recording, one.case, blocks, segments, one.reduction)
 
 

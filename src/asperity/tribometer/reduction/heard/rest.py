@@ -14,7 +14,8 @@ LEAST = {"torque": 0.02, "speed": 0.5, "current": 0.1}
 """By which a signal changes at least as its motor is switched, N m, rad/s and A."""
 _OFF = 0.25  # of a signal's level, below which its motor is off, whatever zero is still taken off
 _SMOOTH = 5  # blocks
-_AGREES = 0.4  # of the time in which current and torque are nothing, a speed is too
+_FAR_OFF = 0.2  # of a speed's level that it shows at rest: no zero is taken off that is so far off
+_SHOWN = 1.0  # s at the end of a rest, in which speeds show it
 _LEAST_OFF = 0.5  # s
 _LEAST_REST = 1.0  # s
 _AFTER = 1.0  # s left out behind a stop
@@ -55,7 +56,7 @@ def resting(of: Material) -> Rest:
     masks: dict[str, BoolArray] = {}
     for disc, signals in _TELLING.items():
         found = {signal: off for signal in signals if (off := _off(of, signal)) is not None}
-        for signal in _far_off(found):
+        for signal in _far_off(of, found):
             del found[signal]
         if found:
             answering += found
@@ -96,17 +97,29 @@ def _off(of: Material, signal: str) -> BoolArray | None:
     return off if seen >= of.blocks.at_least(_LEAST_OFF) else None
 
 
-def _far_off(found: Mapping[str, BoolArray]) -> list[str]:
-    """Return speeds that only pass by nothing as they start and stop, their zeros far off."""
+def _far_off(of: Material, found: Mapping[str, BoolArray]) -> list[str]:
+    """Return speeds that others say should be nothing, and that are not: their zeros are far off.
+
+    So near the bound of what counts as off their noise would make pieces of every rest.
+    """
     others = [off for signal, off in found.items() if not signal.startswith("speed")]
     if not others:
         return []
-    still = np.logical_and.reduce(others)
-    least = _AGREES * np.count_nonzero(still)
-    return [
-        signal for signal, off in found.items()
-        if signal.startswith("speed") and np.count_nonzero(off & still) < least
-    ]  # fmt: skip
+    end = of.blocks.at_least(_SHOWN)
+    still = of.within([
+        Stretch(max(first, last - end), last)
+        for first, last in _runs(np.logical_and.reduce(others) & ~of.vibrating)
+    ])  # fmt: skip
+    return [signal for signal in found if signal.startswith("speed")
+            and still.any() and _share(of, signal, still) > _FAR_OFF]  # fmt: skip
+
+
+def _share(of: Material, signal: str, still: BoolArray) -> float:
+    """Return what a signal shows at rest over what it shows as the discs slide."""
+    values, lost = np.abs(of.blocks.means[signal]), of.blocks.lost[signal]
+    at_rest = values[still & ~lost]
+    level = float(np.median(values[of.sliding & ~lost]))
+    return float(np.median(at_rest)) / level if at_rest.size else 0.0
 
 
 def _runs(marked: BoolArray) -> list[tuple[int, int]]:

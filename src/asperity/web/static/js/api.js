@@ -42,19 +42,25 @@ async function ask(path, options = {}) {
   throw refused;
 }
 
-/** @param {string} path such as "/api/about" */
+/** @param {string} path such as "/api/about" @param {{signal?: AbortSignal}} [options] */
 export async function get(path, { signal: stop } = {}) {
   return (await ask(path, { signal: stop })).json();
 }
 
-/** Send an object and return the one that is answered. */
+/**
+ * Send an object and return the one that is answered.
+ * @param {string} path @param {any} body @param {{signal?: AbortSignal}} [options]
+ */
 export async function post(path, body, { signal: stop } = {}) {
   const headers = { "Content-Type": "application/json" };
   const text = JSON.stringify(body);
   return (await ask(path, { method: "POST", headers, body: text, signal: stop })).json();
 }
 
-/** Ask a live verb. @param {string} verb @param {{case?: string, settings?: object}} body */
+/**
+ * Ask a live verb.
+ * @param {string} verb @param {{case?: string, settings?: object}} body @param {{signal?: AbortSignal}} [options]
+ */
 export const call = (verb, body, options) => post(`/api/do/${verb}`, body, options);
 
 /** What does the same on a terminal. @param {string} command @param {object} body as of a job */
@@ -71,7 +77,10 @@ export function commandLine(command, { case: name, settings = {}, options = {} }
 /** Start a job, or find the one that is the same. */
 export const job = (body) => post("/api/jobs", body);
 
-/** What is in a file of the server, as it is. @returns {Promise<Response>} */
+/**
+ * What is in a file of the server, as it is.
+ * @param {string} path @param {{signal?: AbortSignal}} [options] @returns {Promise<Response>}
+ */
 export const fetchRaw = (path, { signal: stop } = {}) => ask(path, { signal: stop });
 
 /** Take something away for good. */
@@ -92,7 +101,7 @@ export async function upload(file, replace = false) {
 /** Hear of a job until it ends. @param {(event: object) => void} onEvent @param {AbortSignal} stop */
 export async function follow(id, onEvent, stop) {
   const response = await ask(`/api/jobs/${id}/events`, { signal: stop });
-  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
+  const reader = /** @type {ReadableStream} */ (response.body).pipeThrough(new TextDecoderStream()).getReader();
   let rest = "";
   for (;;) {
     const { value, done } = await reader.read();
@@ -185,6 +194,16 @@ export function forgetCase(name) {
   opened.value = rest;
 }
 
+/** Answers that ship, of what screens ask as they open: until what computes has started, they are what it answers. */
+const shipped = signal([]);
+get("shown/live/index.json").then((found) => (shipped.value = found), () => {});
+
+/** Where the answer to what is asked ships; "" where none does. */
+const shippedAt = (verb, text) => {
+  const found = shipped.value.find((each) => each.verb === verb && JSON.stringify(each.body) === text);
+  return found ? `shown/live/${found.at}` : "";
+};
+
 /** How long what is shown may be of something set before, and a question go on that is of no use, ms. */
 const [LATE, LONGEST] = [500, 1500];
 
@@ -243,5 +262,8 @@ export function useLive(verb, body, delay = 0) {
     }, delay);
     return () => clearTimeout(mine.timer);
   }, [verb, text, delay]);
-  return { ...state, error: late ? null : state.error, late, now: !waits && Boolean(state.data) && !state.error };
+  const path = state.data || state.error ? "" : shippedAt(verb, text);
+  const ships = useAsked(path, (leave) => get(path, leave)).found;
+  return { ...state, data: state.data ?? ships, error: late ? null : state.error, late: late && !ships,
+    now: !waits && Boolean(state.data) && !state.error };
 }

@@ -73,8 +73,9 @@ function pictureOf(figure) {
   });
   const paper = document.createElement("div");
   paper.className = "paper";
-  paper.append(figure.cloneNode(false));
-  paper.firstChild.append(whole);
+  const frame = figure.cloneNode(false);
+  frame.append(whole);
+  paper.append(frame);
   document.body.append(paper);
   for (const each of whole.querySelectorAll("*")) {
     const style = getComputedStyle(each);
@@ -93,9 +94,10 @@ async function png(svg) {
   await image.decode();
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [2 * image.naturalWidth, 2 * image.naturalHeight];
-  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d")).drawImage(image, 0, 0, canvas.width, canvas.height);
   URL.revokeObjectURL(address);
-  return new Promise((done) => canvas.toBlob(done, "image/png"));
+  return new Promise((done, failed) => canvas.toBlob((blob) =>
+    (blob ? done(blob) : failed(new Error("the picture is too large"))), "image/png"));
 }
 
 /** A name for a file: letters, digits and hyphens. */

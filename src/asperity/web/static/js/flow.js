@@ -23,6 +23,7 @@ export function Flow({ numbers }) {
     ...known(keys).filter(({ value }) => value > nothing),
     ...known(others).filter(({ value }) => value < -nothing),
   ];
+  /** @type {[string, any[]][]} */
   const sides = [["put in", side(IN, OUT)], ["goes to", side(OUT, IN)]];
   const most = Math.max(...sides.map(([, entries]) => total(entries))) || 1;
   const fill = (entry) => `fill${(all.indexOf(entry) % 7) + 1}`;

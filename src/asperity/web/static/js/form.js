@@ -2,6 +2,7 @@
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { forms, useCaseFile } from "./api.js";
 import { fault, instead, useCase } from "./state.js";
+import { inWords, printed } from "./symbols.js";
 import { useTouch } from "./touch.js";
 import { digits, factor, inUnit, split } from "./units.js";
 
@@ -120,9 +121,10 @@ export function Field({ path, label, brief }) {
       ? html`<button type="button" class="quiet" title="back to the case's own"
           aria-label=${`${said}: back to the case's own`} onClick=${() => unset(path)}>↺</button>`
       : null}
-    ${figures ? html`<p class="says figures">${figures}</p>` : null}
+    ${figures ? html`<p class="says figures">${printed(figures)}</p>` : null}
     <p class=${brief ? "says hidden" : "says"} id=${`${id}-says`}>
-      ${meaningOf(field)}${hint(field) ? ` (${hint(field)})` : ""}${others ? ` Instead of ${others}.` : ""}
+      ${inWords(printed(meaningOf(field)))}${hint(field) ? ` (${printed(hint(field))})` : ""}${
+        others ? ` Instead of ${others}.` : ""}
     </p>
   </div>`;
 }
@@ -158,7 +160,7 @@ export function AllKeys({ tables, brief }) {
 }
 
 /** What is set, folded away at first where there is room for one column only. */
-export const Folded = ({ children }) => html`<details open=${innerWidth > 700}>
+export const Folded = ({ children }) => html`<details open=${innerWidth > 900}>
   <summary>what is set</summary>${children}</details>`;
 
 /** Digits of what a slider says, few enough to read and enough to tell its steps apart. */

@@ -1,23 +1,34 @@
-/** What moves while it is seen, unless the reader wants nothing to move. */
-import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
+/** What moves while it is seen, unless the reader wants nothing to move; and what of it a shared file takes along. */
+import { html, signal, useLayoutEffect, useRef } from "../vendor/preact.js";
 
 export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+/** Whether what moves does: one switch for all of it. */
+export const plays = signal(!still());
 /** A picture that was long away does not jump, ms. */
 const MOST = 100;
 
 /**
- * Call a drawing with the time it has run, s, while its element is in the window and it plays.
- * @param {{current: Element | null}} element @param {(seconds: number) => void} draw
- * @param {unknown[]} of what makes the drawing another
+ * What moves each element that is shown: a module that needs nothing of the page, and what it plays.
+ * @type {WeakMap<Element, {module: string, of: any}>} `of` may be a function that makes it, at once or later
  */
-export function usePlayed(element, draw, of) {
-  const [plays, setPlays] = useState(!still());
+export const moving = new WeakMap();
+
+/**
+ * Play a module in an element while that is in the window.
+ * @param {{current: Element | null}} element
+ * @param {{playing: (element: Element, of: any) => (seconds: number) => void, NAME: string}} module
+ * @param {any} of what it plays @param {unknown[]} when what makes that another
+ */
+export function usePlayed(element, module, of, when) {
+  const runs = plays.value;
   const time = useRef(0);
   // By layout: an effect waits for the next picture, and what is stopped would still move in it.
   useLayoutEffect(() => {
     if (!element.current) return;
+    moving.set(element.current, { module: module.NAME, of });
+    const draw = module.playing(element.current, of);
     draw(time.current);
-    if (!plays) return;
+    if (!runs) return;
     let [frame, before] = [0, 0];
     const next = (now) => {
       time.current += Math.min(now - (before || now), MOST) / 1000;
@@ -30,9 +41,8 @@ export function usePlayed(element, draw, of) {
     const seen = new IntersectionObserver(([entry]) => (entry.isIntersecting ? start() : stop()));
     seen.observe(element.current);
     return () => (seen.disconnect(), stop());
-  }, [plays, ...of]);
-  return { plays, setPlays };
+  }, [runs, ...when]);
 }
 
-export const Play = ({ plays, setPlays }) => html`<button type="button" onClick=${() => setPlays(!plays)}>
-  ${plays ? "stop the motion" : "let it move"}</button>`;
+export const Play = () => html`<button type="button" onClick=${() => (plays.value = !plays.peek())}>
+  ${plays.value ? "stop the motion" : "let it move"}</button>`;

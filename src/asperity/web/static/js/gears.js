@@ -1,8 +1,11 @@
 /** Worm and wheel turning in mesh, shaken as it is set, with the line on which teeth touch in its colours. */
 import { html, useMemo, useRef, useState } from "../vendor/preact.js";
+import { shade, span } from "./colours.js";
 import { Play, usePlayed } from "./frames.js";
-import { Legend, shade, span } from "./map.js";
-import { lineOf, poseOf, pressedBy, sectionOf, sliding, threadsOf, touching, wheelOf, windowOf } from "./mesh.js";
+import { Legend } from "./map.js";
+import { lineOf, sectionOf, threadsOf, wheelOf, windowOf } from "./mesh.js";
+import * as turning from "./turning.js";
+import { valueIn } from "./turning.js";
 import { digits } from "./units.js";
 
 /** Ways to shake it: what is said of each. */
@@ -10,10 +13,6 @@ export const WAYS = {
   axial: "the worm along its axis", torsional: "the worm about its axis",
   "wheel-axial": "the wheel along its axis, seen obliquely", screw: "the worm along its own screw",
 };
-/** Marks on the worm's core, by which its turning is seen: their angles, and how many along it. */
-const MARKS = [0, 1, 2, 3, 4, 5].map((k) => (k * Math.PI) / 3);
-const DOTS = 4;
-
 const arrows = (x, y, dx, dy, head) => {
   const size = Math.hypot(dx, dy) || 1;
   const [ux, uy] = [dx / size, dy / size];
@@ -41,39 +40,13 @@ function useMesh({ geometry, mode, speed, pressed }) {
   const picture = useRef(null);
   const made = useMemo(() => {
     const section = sectionOf(geometry);
-    const valueAt = pressed ? pressedBy(pressed) : (point) => sliding(section, point, speed);
-    const line = lineOf(section, valueAt);
+    const line = lineOf(section, valueIn(section, { speed, pressed }));
     const range = span(line.map(({ value }) => value));
-    const [threads, wheel, view] = [threadsOf(section), wheelOf(section), windowOf(section)];
-    return { section, line, range, valueAt, threads, wheel, view };
+    return { section, line, range, threads: threadsOf(section), wheel: wheelOf(section), view: windowOf(section) };
   }, [JSON.stringify(geometry), speed, pressed]);
-  const { section, range, valueAt } = made;
-  const colour = (value) => shade((value - range[0]) / (range[1] - range[0]));
-  const draw = (seconds) => {
-    const { gone, threads, along, angle, wheel, aside } = poseOf(section, mode, seconds);
-    const put = (name, key, value) => picture.current?.querySelector(`[data-of=${name}]`)?.setAttribute(key, value);
-    put("threads", "transform", `translate(${threads.toFixed(3)} 0)`);
-    put("core", "transform", `translate(${along.toFixed(3)} 0)`);
-    // The wheel turns as the threads push it.
-    put("wheel", "transform", `translate(${aside.map((each) => each.toFixed(3)).join(" ")})
-      rotate(${((-wheel * 180) / Math.PI).toFixed(4)})`);
-    const core = section.apart - section.root;
-    const marks = MARKS.map((each) => [Math.cos(each + angle), Math.sin(each + angle)])
-      .filter(([seen]) => seen > 0).map(([, place]) => section.apart + core * place);
-    const places = Array.from({ length: 2 * DOTS + 1 }, (_, n) => (n - DOTS) * section.pitch * 0.8);
-    put("marks", "d", marks.flatMap((y) => places.map((x) => `M${x.toFixed(2)} ${y.toFixed(3)}h.01`)).join(""));
-    const now = touching(section, gone);
-    picture.current?.querySelectorAll("circle.touches").forEach((each, n) => {
-      const at = now[n];
-      each.setAttribute("visibility", at ? "visible" : "hidden");
-      if (!at) return;
-      each.setAttribute("cx", at.x.toFixed(3));
-      each.setAttribute("cy", at.y.toFixed(3));
-      each.setAttribute("fill", colour(valueAt(at)));
-    });
-  };
-  const playing = usePlayed(picture, draw, [made, mode]);
-  return { picture, made, colour, playing };
+  const { range } = made;
+  usePlayed(picture, turning, { geometry, mode, speed, pressed, range }, [made, mode]);
+  return { picture, made, colour: (value) => shade((value - range[0]) / (range[1] - range[0])) };
 }
 
 function Drawn({ picture, made: { section, line, threads, wheel, view }, colour, mode, says }) {
@@ -102,14 +75,14 @@ const near = ({ x, y }) => `${x.toFixed(3)} ${y.toFixed(3)}`;
 export function Gears({ geometry, mode = "", speed, pressed = null }) {
   const [by, setBy] = useState("sliding");
   const shown = by === "pressure" ? pressed : null;
-  const { picture, made, colour, playing } = useMesh({ geometry, mode, speed, pressed: shown });
+  const { picture, made, colour } = useMesh({ geometry, mode, speed, pressed: shown });
   const { range } = made;
   const does = shown ? "Pressed with" : "The surfaces slide at";
   const says = `Worm and wheel in mesh, cut through the middle of the wheel. ${does}
     ${digits(range[0], 3)} to ${digits(range[1], 3)} ${shown ? "MPa" : "m/s"}.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
-  return html`<section class="panel" aria-label="in mesh"><h2>In mesh</h2>
+  return html`<section class="panel at-stage" aria-label="in mesh"><h2>In mesh</h2>
     <${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode} says=${says} />
-    <div class="row"><${Play} ...${playing} />
+    <div class="row"><${Play} />
       ${pressed ? html`<span class="choice"><label for="line-shows">line</label>${" "}
         <select id="line-shows" value=${by} onChange=${(event) => setBy(event.target.value)}>
           <option value="sliding">sliding velocity</option><option value="pressure">pressure</option></select></span>`

@@ -1,7 +1,8 @@
 /** A grid of values as a map: what is not there yet is left free. */
 import { html } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
-import { Legend, shade, span } from "./map.js";
+import { shade, span } from "./colours.js";
+import { Legend } from "./map.js";
 import { Axes, BOTTOM, LEFT, RIGHT, scale, TOP, useWidth } from "./plot.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";

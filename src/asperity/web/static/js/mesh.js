@@ -95,9 +95,8 @@ export const sliding = ({ apart, starts, teeth }, { x, y }, speed) =>
 export function lineOf(section, valueAt) {
   const { module } = section;
   const steps = 120;
-  const points = Array.from({ length: steps + 1 }, (_, n) => onLine(section, (n / steps - 0.5) * 14 * module))
-    .filter(Boolean);
-  return points.map((point) => ({ ...point, value: valueAt(point) }));
+  const points = Array.from({ length: steps + 1 }, (_, n) => onLine(section, (n / steps - 0.5) * 14 * module));
+  return points.flatMap((point) => (point ? [{ ...point, value: valueAt(point) }] : []));
 }
 
 /** Nodes so near to the middle of a face count as of it, of half of its width. */

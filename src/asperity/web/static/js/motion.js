@@ -1,10 +1,17 @@
 /** How the picture of a shaken body moves: from a cycle of an answer to what is drawn at a moment of it. */
 
+export const NAME = "motion.js";
+/** How long a cycle is shown, s. */
+export const SHOWN = 3;
 /** The drawing: its size, the middle of the body, half of the body, how far a bristle bends and friction reaches. */
 export const [WIDTH, HEIGHT] = [720, 300];
 export const [X, Y] = [330, 150];
 export const [HALF_X, HALF_Y] = [72, 46];
 export const [BEND, REACH, TILE] = [20, 92, 36];
+/** Below which width of the window only the middle is seen, px; from where, and how wide that is. */
+export const NARROW = 600;
+/** @type {[number, number]} */
+export const MIDDLE = [88, 524];
 /** From above and from the side: the places of bristles, from the middle of the body. */
 const PLACES = [-54, -27, 0, 27, 54].flatMap((x) => [-28, 0, 28].map((y) => [x, y]));
 const FEET = [-60, -40, -20, 0, 20, 40, 60].map((x) => [x, 0]);
@@ -85,4 +92,14 @@ export function draw(picture, moving, time) {
   put("now", { d: arrow(-REACH * pull, side ? 0 : REACH * aside) });
   put("dot", { cx: -REACH * pull, cy: side ? 0 : REACH * aside });
   put("load", { d: side ? arrow(0, 42 * load) : "" });
+}
+
+/**
+ * What draws a body at a time, s, into its picture.
+ * @param {Element} picture @param {{series: Record<string, number[]>, limit: number}} of as of `motionOf`
+ */
+export function playing(picture, { series, limit }) {
+  const made = motionOf(series, limit);
+  if (innerWidth < NARROW) picture.setAttribute("viewBox", `${MIDDLE[0]} 0 ${MIDDLE[1]} ${HEIGHT}`);
+  return (seconds) => draw(picture, made, seconds / SHOWN);
 }

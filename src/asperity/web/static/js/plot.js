@@ -2,6 +2,7 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
 import { between } from "./motion.js";
+import { printed } from "./symbols.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
 
@@ -11,7 +12,7 @@ import { digits } from "./units.js";
  *   ends?: [(number | null)[], (number | null)[]]}} Line `x` where it has places of its own;
  *   `colour` the number of one of the page's colours; `bare` points without a line; `ends` of the
  *   interval about each of them
- * @typedef {{title: string, x: {label: string, unit?: string, values: number[]}, series: Line[],
+ * @typedef {{title: string, x: {label: string, unit?: string, values: number[], whole?: boolean}, series: Line[],
  *   bands?: {from: number, to: number}[], marks?: {x: number, y?: number}[],
  *   y?: string, height?: number, log?: boolean, xlog?: boolean, range?: [number, number],
  *   onPick?: (x: number) => void, running?: any}} Shown `running`: a signal of when, in cycles, of
@@ -41,7 +42,11 @@ export function ticks(low, high, log, count) {
   return Array.from({ length: last - first + 1 }, (_, place) => Number(((first + place) * step).toPrecision(12)));
 }
 
-/** Where values lie between two places; `margin` is free beyond the least and the greatest. */
+/**
+ * Where values lie between two places; `margin` is free beyond the least and the greatest.
+ * @param {any[]} lists @param {{log?: boolean, range?: number[], margin?: number}} options
+ * @param {number} from @param {number} to
+ */
 export function scale(lists, { log, range, margin = 0 }, from, to) {
   const known = lists.flat().filter((value) => number(value) && (!log || value > 0));
   let [low, high] = range ?? (known.length ? [Math.min(...known), Math.max(...known)] : [0, 1]);
@@ -121,18 +126,23 @@ export function useWidth() {
 }
 
 /** Grid, ticks and names of an axis along and of one or two up. */
-export const Axes = ({ across, ups, right, bottom, along, upward }) => html`
-  ${across.ticks.map((tick) => html`<path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
+export const Axes = ({ across, ups, right, bottom, along, upward, whole }) => html`
+  ${across.ticks.filter((tick) => !whole || Number.isInteger(tick)).map((tick) => html`
+    <path class="grid-line" d=${`M${across.at(tick)} ${TOP}V${bottom}`} />
     <text x=${across.at(tick)} y=${bottom + 16} text-anchor="middle">${digits(tick, 6)}</text>`)}
   ${ups.slice(0, 2).map((up, side) => up.ticks.map((tick) => html`
     ${side ? null : html`<path class="grid-line" d=${`M${LEFT} ${up.at(tick)}H${right}`} />`}
     <text x=${side ? right + 6 : LEFT - 6} y=${up.at(tick) + 4} text-anchor=${side ? "start" : "end"}>
       ${digits(tick, 6)}</text>`))}
   ${upward.slice(0, 2).map((said, side) => html`<text text-anchor="middle"
-    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
-  <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${along}</text>`;
+    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>
+      ${printed(said)}</text>`)}
+  <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${printed(along)}</text>`;
 
-/** Marks that run along the lines with what moves beside them. @param {{part: any, dots: any[], top: number}} props */
+/**
+ * Marks that run along the lines with what moves beside them.
+ * @param {{part: any, places: number[], dots: any[], bottom: number}} props
+ */
 function Running({ part, places, dots, bottom }) {
   const drawn = useRef(null);
   // At once with the lines: as many marks as there are.
@@ -179,11 +189,12 @@ export function Plot(props) {
   return html`<${Figure} title=${title} columns=${() => joined({ x, series: lines })}>
     <div class=${onPick ? "canvas pick" : "canvas"} ref=${box}>
       <svg class="drawn" width=${width} height=${height} viewBox=${`0 0 ${width} ${height}`} role="img"
+        data-along=${`${LEFT} ${right}`}
         aria-label=${`${title}: ${lines.map(({ label }) => label).join(", ")} over ${x.label}; the numbers are in the
           table beneath`}>
         ${bands.map(({ from, to }) => html`<rect class="band" x=${across.at(from)} y=${TOP}
           width=${across.at(to) - across.at(from)} height=${bottom - TOP} />`)}
-        <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} />
+        <${Axes} ...${{ across, ups, right, bottom }} along=${named(x)} upward=${axis} whole=${x.whole} />
         ${lines.map((line) => html`<${Drawn} key=${line.label} line=${line} colour=${line.colour} across=${across}
           places=${line.x ?? x.values} up=${upOf(line)} />`)}
         ${marks.filter((mark) => number(mark.x)).map((mark) => (number(mark.y)

@@ -1,18 +1,22 @@
 /** A screen as one file that works without server and network: what is shown, what it was made from, the case. */
 import { about } from "./api.js";
+import { movesOf, scriptOf } from "./embedded.js";
 import { download } from "./figure.js";
 
 const STYLES = ["style.css", "gear.css", "stage.css"];
 /** What of a screen is of use with a server only. */
 const OF_SERVER = ".controls, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav,"
-  + " .choice, canvas, .passing, .grip title";
+  + " .choice, .passing, .grip";
+/** What a file has at most, bytes: so much is sent by every means. */
+const MOST = 1_950_000;
 const POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 const text = async (path) => (await fetch(path)).text();
 const safe = (said) => String(said ?? "").replace(/[&<>"]/g, (sign) =>
   ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[sign]);
 /** JSON within a script: nothing in it ends the script. */
-const inScript = (value) => JSON.stringify(value).replaceAll("<", "\\u003c");
+const within = (json) => json.replaceAll("<", "\\u003c");
+const inScript = (value) => within(JSON.stringify(value));
 
 /** A picture as text, twice as fine as it is seen. @param {HTMLImageElement} image */
 function drawn(image) {
@@ -23,6 +27,17 @@ function drawn(image) {
   return canvas.toDataURL();
 }
 
+/** In a copy, a picture in the place of each drawing in space that moves; others are left out. */
+function flattened(copy) {
+  copy.querySelectorAll("canvas").forEach((each) => {
+    if (!each.dataset.moves) return each.remove();
+    const image = copy.ownerDocument.createElement("img");
+    Object.assign(image, { className: "space", alt: each.getAttribute("aria-label")?.split(";")[0] ?? "" });
+    image.dataset.moves = each.dataset.moves;
+    each.replaceWith(image);
+  });
+}
+
 /** What is seen of a screen, without what is of use with a server only. @param {Element} body */
 function seen(body) {
   // In a document of its own, which loads nothing.
@@ -30,13 +45,14 @@ function seen(body) {
   const images = [...body.querySelectorAll("img")];
   copy.querySelectorAll("img").forEach((each, row) => each.setAttribute("src", drawn(images[row])));
   copy.querySelectorAll(OF_SERVER).forEach((each) => each.remove());
-  copy.querySelectorAll(".num button, td button, th button").forEach((each) => {
+  flattened(copy);
+  copy.querySelectorAll(".num button, td button, th button, li button").forEach((each) => {
     const plain = copy.ownerDocument.createElement("span");
     plain.append(...each.childNodes);
     each.replaceWith(plain);
   });
   copy.querySelectorAll("button, .all, .stage .row > label").forEach((each) => each.remove());
-  copy.querySelectorAll("details").forEach((each) => each.setAttribute("open", ""));
+  copy.querySelectorAll("details:not(.notes)").forEach((each) => each.setAttribute("open", ""));
   copy.querySelectorAll(".fault:empty, section:empty").forEach((each) => each.remove());
   return copy.innerHTML;
 }
@@ -45,15 +61,32 @@ const rows = (entries) => entries.map(({ key, symbol, value, unit, meaning, equa
   `<tr data-key="${safe(key)}" data-value="${safe(value)}">${[meaning || key, symbol, value, unit, equation, source]
     .map((each) => `<td>${safe(each)}</td>`).join("")}</tr>`).join("");
 
-/** What moves in the file: the same drawing, played by the same functions. */
-const playing = (motion, { series, answer }) => `${motion.replaceAll("export ", "")}
-const picture = document.querySelector(".stage svg");
-const moving = motionOf(${inScript(series)}, ${Number(answer.static_drive_force_N)});
-const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
-if (!still) requestAnimationFrame(function next(now) {
-  draw(picture, moving, now / 3000);
-  requestAnimationFrame(next);
-});`;
+const frame = () => new Promise(requestAnimationFrame);
+
+/**
+ * Do something while a screen is as narrow as on a phone: there words of a picture must still be read, and
+ * on a wide window all of it becomes larger.
+ */
+async function narrow(shown, act) {
+  shown.classList.add("narrow");
+  try {
+    // What is drawn to measure is drawn anew.
+    for (let n = 0; n < 4; n += 1) await frame();
+    return await act();
+  } finally {
+    shown.classList.remove("narrow");
+  }
+}
+
+/** As many of the moves as there is room for, the smallest first. */
+function fitting(moves, room) {
+  const kept = new Set();
+  for (const each of moves.toSorted((one, other) => one.text.length - other.text.length)) {
+    room -= each.text.length;
+    if (room > 0) kept.add(each);
+  }
+  return moves.filter((each) => kept.has(each));
+}
 
 /**
  * Hand the screen over as a file.
@@ -63,8 +96,16 @@ export async function share(title, told) {
   const shown = document.querySelector("main .body");
   if (!shown) return;
   const styles = (await Promise.all(STYLES.map(text))).join("\n");
-  const moves = shown.querySelector(".stage svg") && told.series;
-  const script = moves ? playing(await text("js/motion.js"), told) : "";
+  const { all, body } = await narrow(shown, async () => {
+    const { moves, unmark } = await movesOf(shown);
+    const copy = seen(shown);
+    unmark();
+    return { all: moves, body: copy };
+  });
+  const answer = inScript(told.answer ?? null);
+  const entries = rows(told.entries ?? []);
+  const moves = fitting(all, MOST - body.length - answer.length - entries.length - styles.length - 60_000);
+  const { script, told: played } = moves.length ? await scriptOf(moves) : { script: "", told: "[]" };
   const day = new Date().toISOString().slice(0, 10);
   const name = /^\w+ (\S+)/.exec(told.command?.replace(/^asperity /, "") ?? "")?.[1] ?? "case";
   const file = `${name.replace(/\.toml$/i, "").replace(/[^\w.-]/g, "-")}.toml`;
@@ -74,19 +115,24 @@ export async function share(title, told) {
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="${POLICY}"><meta name="color-scheme" content="light dark">
 <title>${safe(title)}: ${safe(name)}</title><style>${styles}
-body { display: block; max-width: 1100px; margin: 0 auto; padding: 1rem; }
-.columns { display: block; } td { overflow-wrap: anywhere; } pre { overflow: auto; }
-.drawn { max-width: 100%; height: auto; }</style></head>
+body { display: block; max-width: 46rem; margin: 0 auto; padding: 1rem .75rem; }
+main { padding: 0; } .columns { display: block; } td { overflow-wrap: anywhere; } pre { overflow: auto; }
+.drawn { width: 100%; height: auto; } h1 + .says { margin: .3rem 0 .8rem; }</style></head>
 <body><main><h1>${safe(title)}: ${safe(name)}</h1>
 <p class="says">Made on ${day} by asperity ${safe(about.value?.version)}: <code>${safe(told.command)}</code></p>
-${seen(shown)}${notes}
-<details><summary>all ${told.entries?.length ?? 0} numbers</summary><div class="scroll whole"><table>
+${moves.length ? `<p><button type="button" id="play">let it move</button></p>` : ""}
+${moves.length < all.length ? `<p class="says">Some of what moves on the page stands still here: it is too large for one
+file.</p>` : ""}
+${body}${notes}
+${entries ? `<details><summary>all ${told.entries.length} numbers</summary><div class="scroll whole"><table>
 <tr><th>what</th><th>symbol</th><th>value</th><th>unit</th><th>equation</th><th>source</th></tr>
-${rows(told.entries ?? [])}</table></div></details>
-<h2>The case</h2><p>Save it as <code>${safe(file)}</code>, and the command gives all of this again.
-<button type="button" id="take">save the case</button></p><pre id="case">${safe(told.toml)}</pre></main>
-<script type="application/json" id="answer">${inScript(told.answer ?? null)}</script>
-<script>document.getElementById("take").onclick = () => {
+${entries}</table></div></details>` : ""}
+${told.toml ? `<h2>The case</h2><p>Save it as <code>${safe(file)}</code>, and the command gives all of this again.
+<button type="button" id="take">save the case</button></p><pre id="case">${safe(told.toml)}</pre>` : ""}</main>
+<script type="application/json" id="answer">${answer}</script>
+<script type="application/json" id="moves">${within(played)}</script>
+<script>const taken = document.getElementById("take");
+if (taken) taken.onclick = () => {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([document.getElementById("case").textContent]));
   link.download = ${inScript(file)};

@@ -3,7 +3,6 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
-import { share } from "./share.js";
 import { inWords } from "./symbols.js";
 import { visited } from "./visited.js";
 
@@ -14,6 +13,8 @@ import { visited } from "./visited.js";
 
 /** What was just done, for a moment. */
 const said = signal("");
+/** Whether a file of the screen is being made. */
+const sharing = signal(false);
 let timer = 0;
 
 /** Tell what was done. @param {string} text */
@@ -21,6 +22,21 @@ export function tell(text) {
   said.value = text;
   clearTimeout(timer);
   timer = setTimeout(() => (said.value = ""), 6000);
+}
+
+/** Make a file of the screen, and say so where that takes longer. */
+async function shared(title, answer) {
+  sharing.value = true;
+  tell("the file is being made");
+  try {
+    const { share } = await import("./share.js");
+    await share(title, answer);
+    tell("the file is made: all of this, for anyone, without server and network");
+  } catch (error) {
+    tell(`no file: ${error.message}`);
+  } finally {
+    sharing.value = false;
+  }
 }
 
 /** With which case each kind was last seen, so that a link leads back to it. */
@@ -40,7 +56,7 @@ export function App({ screens, children }) {
   }, [here]);
   useEffect(() => {
     // Not each place that a slider passes.
-    const note = () => visited(here.title, address({ screen, params }), params);
+    const note = () => here && visited(here.title, address({ screen, params }), params);
     const timer = here && params.case ? setTimeout(note, 1500) : 0;
     return () => clearTimeout(timer);
   }, [screen, params]);
@@ -71,6 +87,9 @@ export function App({ screens, children }) {
     <div role="status" class=${said.value ? "toast shown" : "toast"}>${said.value}</div>`;
 }
 
+/** @type {[string, string, () => void][]} */
+const STEPS = [["undo", "↶", undo], ["redo", "↷", redo]];
+
 /** Which case is open. */
 function CasePicker({ kinds, first, start = {} }) {
   const { name, settings, reset } = useCase();
@@ -93,10 +112,10 @@ function CasePicker({ kinds, first, start = {} }) {
           ${these.map(option)}</optgroup>` : null;
       })}
     </select>
-    ${[["undo", "↶", undo], ["redo", "↷", redo]].map(([word, sign, act]) => html`<button type="button" class="quiet"
+    ${STEPS.map(([word, sign, act]) => html`<button type="button" class="quiet"
       title=${word === "undo" ? "Ctrl-Z" : "Ctrl-Shift-Z"} disabled=${!undoable.value[word]} onClick=${act}>
-      <span aria-hidden="true">${sign}</span> ${word}</button>`)}
-    <button type="button" class="quiet" disabled=${!count} onClick=${() => reset(name, start)}
+      <span aria-hidden="true">${sign}</span> <span class="word">${word}</span></button>`)}
+    <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
       title=${count ? `${count} set` : ""}>as the case has it</button>
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
@@ -110,7 +129,7 @@ function Save({ toml, unless }) {
   const close = () => (setWrong(null), box.current.close());
   const save = async (event) => {
     event.preventDefault();
-    const wanted = new FormData(event.target).get("name").trim();
+    const wanted = String(new FormData(event.target).get("name")).trim();
     try {
       const saved = await post("/api/save", { name: wanted, toml, ...(wrong?.status === THERE && { replace: true }) });
       forgetCase(saved.name);
@@ -158,7 +177,7 @@ export async function copy(text) {
  * A screen: title, case, what to take along, what went wrong, what should be known.
  *
  * @param {{title: string, lead?: string, kinds?: string[], first?: string, start?: Record<string, string>,
- *   answer?: any, error?: Error | null, busy?: boolean, late?: boolean, now?: boolean, actions?: any,
+ *   answer?: any, error?: any, busy?: boolean, late?: boolean, now?: boolean, actions?: any,
  *   children: any}} props
  *   `kinds` of the cases it opens, the `first` one of them, and the settings that each starts with;
  *   `answer` as the server gives it, with command, toml and notes; `late` and `now` as of `useLive`
@@ -176,12 +195,14 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
       ${lead ? html`<p class="lead">${lead}</p>` : null}
       ${kinds ? html`<${CasePicker} kinds=${kinds} first=${first} start=${start} />` : null}
       <div class="actions">
+        ${answer?.answer ? html`<button type="button" title="all of this as one file that anyone opens"
+          disabled=${sharing.value} onClick=${unless(() => shared(title, answer))}>share</button>` : null}
+        ${actions}
+        ${answer?.answer ? html`<button type="button" title="on paper, or as a PDF"
+          onClick=${unless(() => print())}>print</button>` : null}
         ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
         ${answer?.command ? html`<button type="button" title=${answer.command}
           onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
-        ${answer?.answer && answer.toml ? html`<button type="button" title="all of this as one file that anyone opens"
-          onClick=${unless(() => share(title, answer))}>share</button>` : null}
-        ${actions}
         <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
       </div>
     </header>

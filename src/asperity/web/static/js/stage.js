@@ -1,25 +1,27 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
-import { html, signal, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
+import { html, signal, useLayoutEffect, useMemo, useRef } from "../vendor/preact.js";
+import { Ball } from "./ball.js";
 import { useValue } from "./form.js";
-import { arrow, draw, HALF_X, HALF_Y, HEIGHT, motionOf, REACH, TILE, WIDTH, X, Y } from "./motion.js";
+import { moving as moves, Play, plays } from "./frames.js";
+import {
+  arrow, draw, HALF_X, HALF_Y, HEIGHT, MIDDLE, motionOf, NAME, NARROW, REACH, SHOWN, TILE, WIDTH, X, Y,
+} from "./motion.js";
 import { useCase } from "./state.js";
 import { anyWay, useTouch } from "./touch.js";
 import { digits, inUnit, split } from "./units.js";
 
 /** When the picture is, in cycles. */
 export const moment = signal(0.25);
-/** How long a cycle is shown, s, and parts of it that a picture without motion is moved by. */
-const SHOWN = 3;
+/** Parts of a cycle that a picture without motion is moved by. */
 const STEPS = 128;
 /** How far the handle is from the middle at the least and the greatest velocity ratio. */
 const [NEAR, FAR] = [62, 138];
 const [LEAST, MOST] = [0.1, 100];
 
 /** What of the drawing is seen: on a phone its middle. @returns {[number, number]} from where, and how wide */
-const seen = () => (innerWidth < 600 ? [110, 500] : [0, WIDTH]);
+const seen = () => (innerWidth < NARROW ? MIDDLE : [0, WIDTH]);
 
 const turn = (degrees) => (degrees * Math.PI) / 180;
-const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 /** Why there is less friction, in a sentence. */
 function why({ side, pulls, asides, load, mean }, ratio) {
@@ -107,14 +109,18 @@ const slower = (frequency) => (frequency > 0 ? `${digits(frequency * SHOWN, 2)} 
  * The picture, with what stops it.
  * @param {{series?: Record<string, number[]>, ratio?: number, k?: number, limit?: number}} props
  */
-export function Stage({ series, ratio, k, limit }) {
+export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
   const picture = useRef(null);
-  const [runs, setRuns] = useState(!still());
+  const runs = plays.value;
   const shaken = series?.force && k > 0 && limit > 0;
   const moving = useMemo(() => (shaken ? motionOf(series, limit) : null), [series, limit]);
+  const inSpace = Boolean(useValue("normal.stiffness").text);
   const frequency = inUnit(useValue("vibration.frequency").text, "Hz");
   const { place, direction, dragged, grasped } = useHandle(k);
   useMotion(picture, moving, runs);
+  useLayoutEffect(() => {
+    if (moving) moves.set(picture.current, { module: NAME, of: { series, limit } });
+  }, [moving]);
   const touch = useTouch(({ target }) => (moment.value = target.value / STEPS));
   if (!moving) return null;
   const { side } = moving;
@@ -161,13 +167,13 @@ export function Stage({ series, ratio, k, limit }) {
             ${digits(direction, 3)}°, k ${digits(k, 3)}</text>`}
       </g>
     </svg>
-    <p class="why">${words}</p>
+    <div class="told">${inSpace ? html`<${Ball} />` : null}<p class="why">${words}</p></div>
     <div class="row">
-      <button type="button" onClick=${() => setRuns(!runs)}>${runs ? "stop the motion" : "let it move"}</button>
+      <${Play} />
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
         value=${Math.round(STEPS * (moment.peek() % 1))}
         ...${touch} /></label>`}
-      <span class="says">${slower(frequency)}, seen ${from}. ${side ? "" : "Drag the round handle."}
+      <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? "" : "Drag the round handle."}
         <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
     </div>
   </section>`;

@@ -72,7 +72,10 @@ const tabs = new BroadcastChannel(TOKEN);
 /** How long a tab without a token waits for one that has it, ms. */
 const PATIENCE = 300;
 
-/** Done once the token is there, of the address or of another tab, or nobody has it. */
+/**
+ * Done once the token is there, of the address or of another tab, or nobody has it.
+ * @type {Promise<void>}
+ */
 export const handed = new Promise((done) => {
   tabs.onmessage = ({ data }) => {
     if (!data && token() && !onOther) tabs.postMessage(token());
@@ -121,7 +124,8 @@ addEventListener("keydown", (event) => {
 let timer = 0;
 /** Whether a slider is held: what it passes is no step to go back to. */
 let held = false;
-addEventListener("pointerdown", ({ target }) => (held = target.type === "range"), true);
+addEventListener("pointerdown", ({ target }) =>
+  (held = /** @type {HTMLInputElement} */ (target).type === "range"), true);
 for (const name of ["pointerup", "pointercancel"]) addEventListener(name, () => (held = false), true);
 
 function write() {

@@ -12,6 +12,7 @@ import { html } from "../vendor/preact.js";
  *   kind?: string, caption?: string}} props `region`: the name of what is scrolled
  */
 export function Table({ columns, rows, region, wide = "", label, kind, caption }) {
+  /** @param {Column} column @param {any} row @param {number} at */
   const cell = ([, made, as], row, at) =>
     as === "row" ? html`<th scope="row">${made(row, at)}</th>` : html`<td class=${as}>${made(row, at)}</td>`;
   const table = html`<table class=${kind} aria-label=${label}>

@@ -43,6 +43,7 @@ export function digits(value, count = 5) {
   return String(Number(value.toPrecision(count)));
 }
 
+/** @type {[string, number][]} */
 const STEPS = [["G", 1e9], ["M", 1e6], ["k", 1e3], ["", 1], ["m", 1e-3], ["µ", 1e-6], ["n", 1e-9]];
 const RAISED = "⁻⁰¹²³⁴⁵⁶⁷⁸⁹";
 const SCALED = new Set(["m", "s", "N", "W", "J", "Pa", "Hz", "m/s", "N/m", "V", "A"]);
@@ -54,7 +55,7 @@ export function readable(value, unit, count = 5) {
   if (unit === "rad" && size > 0 && size < 2e-3) return [digits(1e6 * value, count), "µrad"];
   if (unit === "rad") return [digits((value * 180) / Math.PI, count), "deg"];
   if (SCALED.has(unit) && size > 0) {
-    const [prefix, one] = STEPS.find(([, step]) => size >= step * 0.99999) ?? STEPS.at(-1);
+    const [prefix, one] = STEPS.find(([, step]) => size >= step * 0.99999) ?? STEPS[STEPS.length - 1];
     if (size < 1e12 && size >= 1e-12) return [digits(value / one, count), prefix + unit];
   }
   if (size !== 0 && (size >= 1e6 || size < 1e-4)) {

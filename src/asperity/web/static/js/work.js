@@ -23,7 +23,7 @@ const ordered = (value) => (value?.constructor === Object
 /** A short name for what is asked. @param {object} body */
 export function nameOf(body) {
   let sum = 5381;
-  for (const sign of JSON.stringify(ordered(body))) sum = (sum * 33 + sign.codePointAt(0)) >>> 0;
+  for (const sign of JSON.stringify(ordered(body))) sum = (sum * 33 + Number(sign.codePointAt(0))) >>> 0;
   return sum.toString(36);
 }
 
@@ -148,6 +148,7 @@ export function useData({ from, job }, names) {
 
 /** A time in words. */
 export function lasting(seconds) {
+  /** @type {[number, string][]} */
   const sizes = [[86400, "days"], [3600, "hours"], [60, "min"]];
   const [size, unit] = sizes.find(([each]) => seconds >= 2 * each) ?? [1, "s"];
   return `${seconds < size ? "1" : (seconds / size).toFixed(0)} ${unit}`;
@@ -223,10 +224,11 @@ export function Files({ job }) {
 }
 
 /**
- * A report of what is set, made by a job and handed over when it is there, with its other files beneath.
- * @param {{command: string, body: object | null}} props of a command that leaves `report.html`
+ * A report of what is set, made by a job and handed over when it is there.
+ * @param {{command: string, body: object | null, files?: boolean}} props of a command that leaves `report.html`;
+ *   `files`: whether its other files stand beneath
  */
-export function Report({ command, body }) {
+export function Report({ command, body, files = false }) {
   const work = useJob(command, body, "-report");
   const wanted = useRef(false);
   const { id, job, asking, can, stale, start } = work;
@@ -244,6 +246,6 @@ export function Report({ command, body }) {
   };
   return html`<button type="button" disabled=${running || !can} onClick=${ask}>
       ${running ? "report is being written" : "report"}</button>
-    ${there ? html`<${Files} job=${job} />` : null}
+    ${there && files ? html`<${Files} job=${job} />` : null}
     ${work.error ? html`<span class="bad" role="alert">✗ ${work.error.message}</span>` : null}`;
 }

@@ -1,9 +1,10 @@
 /** An elastic block: what it settles to beside a rigid body, and the pressure under it. */
-import { html } from "../../vendor/preact.js";
+import { html, useMemo } from "../../vendor/preact.js";
 import { fetchRaw, useAsked } from "../api.js";
+import { span } from "../colours.js";
 import { Deformed } from "../deformed.js";
 import { AllKeys, Amplitude, Field, Slider, useValue } from "../form.js";
-import { FlankMap, span } from "../map.js";
+import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { unpacked } from "../packed.js";
 import { Plot } from "../plot.js";
@@ -39,7 +40,7 @@ export function view() {
     lead="The same body, elastic: meshed with solid elements, pressed, pulled and shaken."
     error=${firstError(settled, marched)}
     answer=${{ ...taken, notes: [] }}>
-    <div class="columns">
+    <div class="columns headed moving">
       <section class="controls" aria-label="what is set">
         <${Mesh} ...${mesh} />
         <${Field} path="block.element" brief />
@@ -50,6 +51,8 @@ export function view() {
         <${Field} path="solve.step" brief />
         <${AllKeys} tables=${["block", "contact", "slider", "friction", "vibration", "solve"]} />
       </section>
+      <${Headline} work=${settled} />
+      <${Moving} work=${marched} />
       <section class="shown" aria-label="what comes of it">
         <${WorkPanel} title="What it settles to" label="settle" work=${settled}
           says=${`Under lasting vibration, beside the rigid body: about ${mesh.time(SETTLED)}.`}>
@@ -96,10 +99,23 @@ function Loose({ numbers }) {
 }
 
 /** How the elastic block does beside the rigid body, in words. */
-function besides({ ratio: { value: elastic }, slider_ratio: { value: rigid } }) {
+function besides(numbers) {
+  const [elastic, rigid] = [numbers.ratio.value, numbers.slider_ratio.value];
   if (typeof elastic !== "number" || !rigid) return ".";
   const more = 100 * (elastic / rigid - 1);
   return `: ${digits(Math.abs(more), 2)} % ${more < 0 ? "less" : "more"} than of a rigid body.`;
+}
+
+/** What is left of the force, on top. */
+function Headline({ work }) {
+  const numbers = byKey(work.data?.entries);
+  if (!work.data) return html`<div class="headline"><p class="large">…</p></div>`;
+  const loose = numbers.settled?.value === false;
+  return html`<div class="headline">
+    <p class="large">${loose ? "(" : null}<${Num} entry=${numbers.ratio} count=${4} />${loose ? ")" : null}</p>
+    <div><p>of the force without vibration is left${loose ? "." : besides(numbers)}<br />
+      <span class="of">of the rigid body</span> <${Num} entry=${numbers.slider_ratio} count=${4} /></p>
+      <${Loose} numbers=${numbers} /></div></div>`;
 }
 
 function Settled({ work }) {
@@ -107,13 +123,7 @@ function Settled({ work }) {
   const data = useData(work, ["friction", "slider_friction"]);
   if (!work.data) return null;
   const along = ({ values }) => values.filter((_, at) => at % 2 === 0);
-  const loose = numbers.settled?.value === false;
-  return html`<${Loose} numbers=${numbers} />
-    <div class="headline"><p class="large">${loose ? "(" : null}<${Num}
-      entry=${numbers.ratio} count=${4} />${loose ? ")" : null}</p>
-      <p>of the force without vibration is left${besides(numbers)}<br />
-        <span class="of">of the rigid body</span> <${Num} entry=${numbers.slider_ratio} count=${4} /><br />
-        <${Num} entry=${numbers.unsteadiness} label count=${2} /></p></div>
+  return html`<p><${Num} entry=${numbers.unsteadiness} label count=${2} /></p>
     ${data ? html`<${Plot} title="Friction over a settled cycle" y="friction (N)"
       x=${{ label: "phase, cycles", values: data.phase.values }} series=${[
         { label: "elastic block", unit: "N", values: along(data.friction) },
@@ -121,20 +131,29 @@ function Settled({ work }) {
     <${AllNumbers} entries=${work.data.entries} />`;
 }
 
-function Marched({ work }) {
-  const numbers = byKey(work.data?.entries);
-  const data = useData(work, ["pressure", "faces", "node_x", "node_y", "drive_force"]);
+const UNDER = ["pressure", "faces", "node_x", "node_y", "drive_force"];
+const milli = ({ values }) => values.map((value) => 1e3 * value);
+
+/** The states that a march kept, played. */
+function Moving({ work }) {
+  const data = useData(work, UNDER);
   const files = work.files ?? work.job?.files ?? [];
   const path = files.includes(PACKED) ? placeOf(work.from, PACKED) : "";
   const packed = useAsked(path, async (leave) => unpacked(await (await fetchRaw(path, leave)).arrayBuffer())).found;
+  const contact = useMemo(() => data && (
+    { x: milli(data.node_x), y: milli(data.node_y), cells: quads(data.faces) }), [data]);
+  return work.data && contact && packed ? html`<section class="panel at-stage" aria-label="in motion">
+    <${Deformed} packed=${packed} contact=${contact} /></section>` : null;
+}
+
+function Marched({ work }) {
+  const numbers = byKey(work.data?.entries);
+  const data = useData(work, UNDER);
   if (!work.data) return null;
-  const milli = ({ values }) => values.map((value) => 1e3 * value);
   const pressure = data?.pressure.values.map((value) => value / 1e3);
   return html`<${Loose} numbers=${numbers} />
     <p class="row">${["ratio", "drive_force_N", "peak_pressure_Pa"].map((key) =>
       html`<${Num} entry=${numbers[key]} label count=${4} />`)}</p>
-    ${data && packed ? html`<${Deformed} packed=${packed}
-      contact=${{ x: milli(data.node_x), y: milli(data.node_y), cells: quads(data.faces) }} />` : null}
     ${data ? html`<div class="pair">
       <${FlankMap} title="Pressure under the block, its mean" label="mean pressure at a node" unit="kPa"
         x=${milli(data.node_x)} y=${milli(data.node_y)} cells=${quads(data.faces)} values=${pressure}

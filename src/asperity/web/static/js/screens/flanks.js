@@ -1,21 +1,27 @@
 /** The flanks of worm and wheel in mesh: in space, as maps, and over the angle of the worm. */
 import { html, useEffect, useMemo, useRef, useState } from "../../vendor/preact.js";
 import { fetchRaw, useAsked } from "../api.js";
+import { gridCells, span } from "../colours.js";
 import { Folded, Form } from "../form.js";
-import { FlankMap, gridCells, Legend, span } from "../map.js";
+import { moving } from "../frames.js";
+import * as lines from "../lines.js";
+import { FlankMap, Legend } from "../map.js";
 import { AllNumbers, byKey, Facts } from "../number.js";
 import { unpacked } from "../packed.js";
+import * as pictures from "../pictures.js";
 import { Plot } from "../plot.js";
 import { nearest, stage } from "../scene.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
-import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
+import { Files, placeOf, Report, useJob, useTaken, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
 const SECONDS = 12;
+/** Pictures of a pitch in a shared file, of what is drawn in space. */
+const PICTURES = 24;
 /** Between two readings of the angle while it plays, ms. */
 const SELDOM = 120;
 /** Places of a count over a pitch. */
@@ -85,6 +91,7 @@ function Space({ gears, shown, options }) {
       if (!made) return setWithout(true);
       drawn.current = made;
       made.show(latest.current);
+      moving.set(canvas.current, { module: pictures.NAME, of: () => taken(made, header.pitch) });
       setPlaying(!still.matches);
     }, () => setWithout(true));
     return () => {
@@ -101,8 +108,7 @@ function Space({ gears, shown, options }) {
     put((Number(event.target.value) * Math.PI) / 180);
   };
   const touch = useTouch(turned);
-  return html`<section class="panel" aria-label="in space">
-    <div class="row">${options}</div>
+  return html`<section class="panel at-stage" aria-label="in space">
     ${without ? html`<p class="notes" role="status">This browser draws nothing in space (no WebGL); the maps beneath
       show the same.</p>` : null}
     <canvas ref=${canvas} class=${without ? "hidden" : "space"} tabindex="0" role="img"
@@ -115,13 +121,26 @@ function Space({ gears, shown, options }) {
         value=${degrees(phi)} aria-valuetext=${`${digits(degrees(phi), 3)} degrees`} ...${touch} />
       <output>${degrees(phi).toFixed(1)}° of a pitch of ${digits(degrees(header.pitch), 4)}°</output>
     </div>
+    <div class="row">${options}</div>
     <${Over} gears=${gears} shown=${shown} phi=${phi} />
   </section>`;
 }
 
+/** How long a pitch takes, s. */
+const lasts = (pitch) => (SECONDS * pitch) / (2 * Math.PI);
+
+/** Pictures of what is drawn in space, over a pitch. */
+async function taken(drawn, pitch) {
+  const found = [];
+  for (let n = 0; n < PICTURES; n += 1) {
+    found.push(drawn.picture((n * pitch) / PICTURES));
+    await new Promise((done) => setTimeout(done));
+  }
+  return { pictures: found, seconds: lasts(pitch) };
+}
+
 /** The contact lines of an angle as they lie on a map: on them the gap is least, nought or not. */
-function linesOf({ header, arrays }, side, phi) {
-  const n = nearest(header, phi);
+function linesOf({ arrays }, side, n) {
   const [from, to] = arrays[`lines.begin.${side}`].slice(n, n + 2);
   const p = arrays[`lines.points.${side}`];
   const end = (at) => `${p[at + 2].toFixed(3)} ${(-Math.hypot(p[at], p[at + 1])).toFixed(3)}`;
@@ -140,11 +159,17 @@ function Over({ gears, shown: { layer, side, values, range }, phi }) {
     const cells = gridCells(...header.arrays[`flank.points.${side}`].shape);
     return { x: at.map((k) => p[k + 2]), y: at.map((k) => Math.hypot(p[k], p[k + 1])), cells };
   }, [gears, side]);
-  const lines = linesOf(gears, side, phi);
+  const touching = linesOf(gears, side, nearest(header, phi));
+  const box = useRef(null);
+  useEffect(() => {
+    const of = () => ({ seconds: lasts(header.pitch),
+      lines: Array.from({ length: header.angles }, (_, n) => linesOf(gears, side, n)) });
+    moving.set(box.current, { module: lines.NAME, of });
+  }, [gears, side]);
   const title = `${told?.word}, flank s = ${side}, and the lines nearest to the worm`;
   const map = useMemo(() => told && html`<${FlankMap} title=${title}
-    label=${told.meaning} unit=${told.unit} ...${grid} values=${values} range=${range} lines=${lines} />`,
-  [grid, values, lines]);
+    label=${told.meaning} unit=${told.unit} ...${grid} values=${values} range=${range} lines=${touching} />`,
+  [grid, values, touching]);
   const sides = ["+1", "-1"].map((each) => [each, header.sides[each]]);
   const { angle_deg: angle, teeth, teeth_marked: marked, loaded, film_um: film } = header.sides[side];
   const marks = [{ x: (phi * 180) / Math.PI }];
@@ -160,7 +185,7 @@ function Over({ gears, shown: { layer, side, values, range }, phi }) {
     { label: `gap under ${digits(film, 2)} µm`, values: counted(marked, marked.length - 1), dash: [6, 4] },
     ...(loaded ? [{ label: "under load", values: counted(loaded.teeth, loaded.teeth.length), dash: [2, 3] }] : []),
   ];
-  return html`<div class="grid">${map}
+  return html`<div class="grid" ref=${box}>${map}
     <${Plot} title="Transmission error about its mean" x=${x} series=${errors} marks=${marks} height=${200}
       range=${none ? [-1, 1] : undefined} />
     <${Plot} title="Teeth in contact" x=${{ ...x, values: fine }} series=${counts} marks=${marks} height=${200} />
@@ -171,7 +196,8 @@ const FACTS = ["contact_ratio", "contact_ratio_marked", "pattern_area_fraction",
   "ease_off_max_um", "backlash_normal_mm"];
 
 /** What the flanks do, in a sentence. */
-function touches({ contact_ratio: ratio, pattern_area_fraction: share }) {
+function touches(found) {
+  const { contact_ratio: ratio, pattern_area_fraction: share } = found;
   if (typeof ratio?.value !== "number" || typeof share?.value !== "number") return null;
   return html`<b>${digits(ratio.value, 3)}</b> teeth touch at a time, over${" "}
     ${digits(100 * share.value, 2)} % of a flank.`;
@@ -202,14 +228,16 @@ export function view() {
   const shown = { part, layer: told?.key, side, worm, ...values };
   return html`<${Screen} title="Flanks" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${taken} error=${work.error ?? packed.error}
+      actions=${html`<${Report} command="flank" body=${body} />`}
       lead="The wheel cut exactly as its hob cuts it: where it touches the worm, and what that does.">
-    <div class="columns">
+    <div class="columns headed moving">
       <section class="controls" aria-label="what is set"><${Work} work=${work} label="cut the wheel" />
         <${Files} job=${work.job} />
         <${Folded}><${Form} tables=${["hob", "mount", "modification"]} brief /><//></section>
+      <div class=${work.stale ? "headline before" : "headline"}><p class="big">${touches(of)}</p></div>
+      ${gears ? html`<${Space} gears=${gears} options=${options} shown=${shown} />` : null}
       <section class=${work.stale ? "shown before" : "shown"}>
-        ${gears ? html`<p class="big">${touches(of)}</p><${Space} gears=${gears} options=${options} shown=${shown} />
-          <div class="panel"><${Facts} found=${of} keys=${FACTS} />
+        ${gears ? html`<div class="panel"><${Facts} found=${of} keys=${FACTS} />
             ${of.backlash_normal_mm?.value < 0 ? html`<p class="says">A backlash below nothing: so far the teeth
               overlap.</p>` : null}</div>`
           : html`<p class="wait">${work.id ? "The wheel is being cut."

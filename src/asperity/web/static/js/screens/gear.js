@@ -8,7 +8,7 @@ import { Gears } from "../gears.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
-import { symbol } from "../symbols.js";
+import { printed, symbol } from "../symbols.js";
 import { Table } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
 import { Report } from "../work.js";
@@ -35,6 +35,8 @@ const MACRO = ["centre_distance", "axial_module", "diameter_factor"];
 /** Of the wheel, which a gearset is refused beyond. */
 const MOST_SHIFT = 1;
 const USUAL = "10";
+/** Beyond so many times its size it is another gearset. */
+const MOST_TIMES = 5;
 /** Sizes that stand in the drawing. */
 const SIZES = /^(?:\w+_mm|\w+_deg|starts|wheel_teeth|diameter_factor|profile_shift)$/;
 
@@ -94,7 +96,7 @@ function tried(sway, geometry, rise, setAll) {
     const why = !path ? ", teeth are whole" : alone ? "" : `, which alone needs a profile shift of ${digits(shift, 2)}`;
     return {
       name, change: efficiency === null ? null : 100 * (efficiency - sway.eta_z1_2),
-      says: `${words(name)}${path ? ` to ${digits(value, 4)} ${unit}`.trimEnd() : ` +${rise} %`}${why}`,
+      says: printed(`${words(name)}${path ? ` to ${digits(value, 4)} ${unit}`.trimEnd() : ` +${rise} %`}${why}`),
       why: found.reason ?? "no answer", pick: alone ? () => setAll(texts) : undefined,
     };
   });
@@ -112,12 +114,13 @@ function Drawing({ svg, geometry }) {
     <${Beneath} title="To scale" svg=${() => svg} columns=${columns} /></section>`;
 }
 
-/** Texts that make keys greater by 1 %; null where the case says nothing of one of them. */
-function more(keys, { tables }, settings) {
+/** Texts that make keys so many times as great; null where the case says nothing of one of them. */
+function more(keys, { tables }, settings, times) {
   const written = (path) => path.split(".").reduce((at, key) => at?.[key], tables);
   const texts = keys.map((path) => [path, split(settings[path] ?? written(path))]);
   return texts.some(([, [number]]) => Number.isNaN(number)) ? null
-    : Object.fromEntries(texts.map(([path, [number, unit]]) => [path, text(1.01 * number, unit)]));
+    : Object.fromEntries(texts.map(([path, [number, unit]]) =>
+      [path, text(Number((times * number).toPrecision(6)), unit)]));
 }
 
 /** Which answers are missing and why, and what lies outside a standard's range, as the screen of rate says it. */
@@ -127,6 +130,27 @@ const standings = (standing) => Object.entries(standing).flatMap(([name, { word,
   ...(outside.length ? [`outside its range: ${STANDARDS[name]} (${outside.join(", ")})`] : []),
 ]);
 
+/** The verdict in a sentence; where it fails, how much larger it must be, about, and a button that makes it so. */
+function Headline({ verdict }) {
+  const { first, safeties, holds, moved_by: levers } = verdict;
+  const { name: opened, settings, setAll } = useCase();
+  const file = useCaseFile(opened);
+  const safety = safeties.find((each) => `${each.standard}.${each.key}` === first);
+  const told = Object.values(holds).filter((ok) => ok !== null);
+  const good = told.length > 0 && told.every(Boolean);
+  if (!safety) return html`<p class="big"><${Verdict} ok=${told.length ? good : null} other="no answer" /></p>`;
+  const { name, standard, value, asked } = safety;
+  const size = levers.find((lever) => lever.name === "size");
+  // As it is moved by one percent: about.
+  const times = size?.exponent > 0 && value > 0 ? (asked / value) ** (1 / size.exponent) : NaN;
+  const texts = file && times > 1 && times < MOST_TIMES && more(size.keys, file, settings, times);
+  return html`<p class="big"><${Verdict} ok=${good} yes="it holds" no="it does not hold" />${safety.holds
+      ? `: nearest to its limit is ${name} by ` : `: ${name} fails by `}${STANDARDS[standard]}, ${
+      digits(value, 3)} of ${digits(asked, 3)} asked.</p>
+    ${texts ? html`<p class="row"><span>It needs about <b>${digits(100 * (times - 1), 2)} %</b> more size.</span>
+      <button type="button" onClick=${() => setAll(texts)}>do it</button></p>` : null}`;
+}
+
 function First({ verdict }) {
   const { first, safeties, moved_by: levers, alternatives } = verdict;
   const { name: opened, settings, setAll } = useCase();
@@ -134,7 +158,7 @@ function First({ verdict }) {
   const safety = safeties.find((each) => `${each.standard}.${each.key}` === first);
   if (!safety) return null;
   const rows = levers.map(({ name, keys, exponent }) => {
-    const texts = file && more(keys, file, settings);
+    const texts = file && more(keys, file, settings, 1.01);
     return { name, change: exponent, says: `1 % more ${name}`, pick: texts ? () => setAll(texts) : undefined };
   });
   return html`<section class="panel" aria-label="first to fail">
@@ -203,14 +227,16 @@ export function view() {
   }));
   return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${data} error=${error} busy=${busy} late=${late} now=${now}
-      actions=${html`<${Report} command="rate" body=${body} />`}
+      actions=${html`<${Report} command="rate" body=${body} files />`}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
     <${Travel} error=${error} setAll=${setAll} />
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
-    <div class="columns">
+    <div class="columns headed moving">
       <div class="controls"><${Ratio} geometry=${answer?.geometry} />
         <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} /><//></div>
-      ${answer ? html`<div class="pair">
+      <div class="headline said-first">${answer ? html`<${Headline} verdict=${answer.verdict} />` : null}</div>
+      ${answer && speed ? html`<${Gears} geometry=${answer.geometry} speed=${speed} />` : null}
+      ${answer ? html`<div class="pair shown">
         <section class="panel wide" aria-label="verdict"><h2>Does it hold?</h2>
           <p class="big">${Object.entries(answer.verdict.holds).map(([standard, ok]) => html`
             <span class="said" key=${standard}>${STANDARDS[standard]} <${Verdict} ok=${ok}
@@ -218,13 +244,12 @@ export function view() {
           ${standings(answer.verdict.standing).map((text) => html`<p class="says" key=${text}>${text}</p>`)}
           <${Margins} rows=${safeties} /></section>
         <${First} verdict=${answer.verdict} />
-        ${speed ? html`<${Gears} geometry=${answer.geometry} speed=${speed} />` : null}
         <${Drawing} svg=${data.svg.gearset} geometry=${answer.geometry} />
         <${Columns} entries=${entries} answer=${answer} />
         ${sway ? html`<${Efficiency} sway=${sway} geometry=${answer.geometry} setAll=${setAll} />` : null}
         <${Locking} locking=${answer.self_locking} />
         <${AllNumbers} entries=${data.entries} />
-      </div>` : html`<p class="wait">One moment.</p>`}
+      </div>` : html`<p class="wait shown">One moment.</p>`}
     </div>
   <//>`;
 }

@@ -67,7 +67,7 @@ function Job({ job, jobs, act }) {
   const told = notes.filter((note) => running || !note.startsWith("this will take")).slice(-2);
   const there = belongsTo(job, jobs);
   const open = (event) => {
-    if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+    if (!there || event.ctrlKey || event.metaKey || event.shiftKey) return;
     event.preventDefault();
     go(there.screen, there.params);
   };

@@ -2,6 +2,7 @@
 import { html, useState } from "../../vendor/preact.js";
 import { about, get, job as submit, loadAbout, upload, useAsked, useLive } from "../api.js";
 import { Field, words } from "../form.js";
+import { Law } from "../law.js";
 import { Live } from "../live.js";
 import { Plot } from "../plot.js";
 import { Screen, tell } from "../shell.js";
@@ -39,9 +40,11 @@ export function view() {
   const example = useExample(!rec);
   return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy} now=${!rec || seen.now}
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
-      answer=${rec && seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }}
+      answer=${rec ? seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }
+        : example && { ...example.reduced, notes: [] }}
       error=${rec ? (seen.error ?? reduced.error) : null}>
     <${Live} />
+    ${found || example ? html`<${Most} segments=${(found ?? example).segments} />` : null}
     <${Bring} name=${name} rec=${rec} />
     ${example ? html`<section class="panel" aria-label="signals">
         <h2>${example.seen.recording}, simulated</h2>
@@ -49,7 +52,7 @@ export function view() {
         <${Signals} ...${example.seen} /></section>
       <${Levels} segments=${example.segments} />
       <section class="panel" aria-label="fit"><h2>A friction law fitted to it</h2>
-        <${Law} found=${example.law} /></section>` : null}
+        <${Law} work=${example.fitted} segments=${example.segments} /></section>` : null}
     ${rec && seen.data ? html`<section class="panel" aria-label="signals">
       <h2>${seen.data.answer.recording}${seen.data.answer.simulated ? ", simulated" : ""}</h2>
       <${Signals} ...${seen.data.answer} />
@@ -60,7 +63,8 @@ export function view() {
       <${Files} job=${reduced.job} />
     </section>` : rec && !seen.error ? html`<p class="wait">One moment.</p>` : null}
     ${found ? html`<${Levels} segments=${found.segments} />
-      <${Fit} name=${name} id=${reduced.job.state === "done" ? reduced.id : ""} />` : null}
+      <${Fit} name=${name} segments=${found.segments}
+        id=${reduced.job.state === "done" ? reduced.id : ""} />` : null}
   <//>`;
 }
 
@@ -71,7 +75,8 @@ function useExample(wanted) {
   const path = reduced ? placeOf(reduced.id, SEEN) : "";
   const seen = useAsked(path, (leave) => get(path, leave)).found;
   if (!reduced || !fitted || !seen) return null;
-  return { seen: seen.answer, segments: reduced.data.answer.segments, law: fitted.data.answer };
+  return { seen: seen.answer, reduced: reduced.data, segments: reduced.data.answer.segments,
+    fitted: { from: fitted.id, data: fitted.data } };
 }
 
 /** Recordings there are, and how another one comes. */
@@ -145,7 +150,7 @@ function Bring({ name, rec }) {
 const SIGNS = { good: ["✓", "good"], doubtful: ["~", "warn"], refused: ["✗", "bad"] };
 const NUMBERS = [
   ["frequency (Hz)", "commanded_Hz"], ["torque before (N m)", "torque_before_Nm"],
-  ["torque with (N m)", "torque_with_Nm"], ["change (%)", "torque_change_percent"], ["k_v", "k_v"],
+  ["torque with (N m)", "torque_with_Nm"], ["change (%)", "torque_change_percent"], [html`k<sub>v</sub>`, "k_v"],
   ["sliding before (mm/s)", "sliding_velocity_before_mm_s"],
 ];
 const percent = (ratio) => (ratio === null ? null : 100 * (ratio - 1));
@@ -153,7 +158,8 @@ const shown = (value) => (value === null ? "–" : digits(value, 4));
 
 /** The segment in which the most was spared, in a sentence. */
 function Most({ segments }) {
-  const best = segments.toSorted((one, other) => one.torque_change_percent - other.torque_change_percent)[0];
+  const [best] = segments.filter(({ quality }) => quality !== "refused")
+    .toSorted((one, other) => one.torque_change_percent - other.torque_change_percent);
   if (!best) return html`<p class="big">No segment tells what vibration did.</p>`;
   const { torque_change_percent: change, torque_change_ci95_percent: ends, commanded_Hz: at } = best;
   return html`<p class="big"><b>${digits(Math.abs(change), 3)} %</b> ${change < 0 ? "less" : "more"} torque${
@@ -169,11 +175,10 @@ function Levels({ segments }) {
   const used = own ? kept.toSorted((one, other) => one.commanded_Hz - other.commanded_Hz) : kept;
   const ends = [0, 1].map((at) => used.map(({ torque_change_ci95_percent: found }) => found?.[at] ?? null));
   const x = own ? { label: "frequency", unit: "Hz", values: used.map((one) => one.commanded_Hz) }
-    : { label: "segment", values: used.map((_, at) => at + 1) };
+    : { label: "segment", whole: true, values: used.map((_, at) => at + 1) };
   const quality = ({ quality: found, flags }) => html`
     <span class=${SIGNS[found][1]}>${SIGNS[found][0]} ${found}</span> <span class="says">${flags.join("; ")}</span>`;
   return html`<section class="panel" aria-label="levels"><h2>What vibration did</h2>
-    <${Most} segments=${kept} />
     <${Table} region="levels of all segments" wide="levels" rows=${segments} columns=${[
       ["segment", (_, at) => at + 1, "row"],
       ...NUMBERS.map(([said, key]) =>
@@ -189,7 +194,7 @@ function Levels({ segments }) {
 }
 
 /** A friction law fitted to what was measured. */
-function Fit({ name, id }) {
+function Fit({ name, id, segments }) {
   const { settings, setAll } = useCase();
   const { free = FREE[0] } = route.value.params;
   const own = Object.fromEntries(Object.entries(settings).filter(([path]) => path.startsWith("friction.")));
@@ -206,9 +211,10 @@ function Fit({ name, id }) {
       <summary>the law it begins from</summary>
       ${Object.keys(LAW).map((path) => html`<${Field} key=${path} path=${path} />`)}</details>
     ${work.error ? html`<p class="fault" role="alert">✗ ${work.error.message}</p>` : null}
-    ${work.data ? html`<${Law} found=${work.data.answer} />` : null}
+    ${work.data ? html`<${Law} work=${work} segments=${segments} />` : null}
   <//>`;
 }
+<<<<<<< HEAD
 
 /** A law as it was fitted, with what the data tell of each of its parameters. */
 function Law({ found }) {
@@ -220,6 +226,8 @@ function Law({ found }) {
       ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
       ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],
       ["what the data tell", sure]]} />
-    <p class="says">chi² ${digits(found.chi2, 4)} at ${found.dof} ${found.dof === 1 ? "degree" : "degrees"}
-      of freedom, law ${found.law}, ${found.points} measurements.</p>`;
+    <p class="says">chi² ${digits(found.chi2, 4)} at ${found.dof} degree${found.dof === 1 ? "" : "s"} of freedom,
+      law ${found.law}, ${found.points} measurement${found.points === 1 ? "" : "s"}.</p>`;
 }
+=======
+>>>>>>> main

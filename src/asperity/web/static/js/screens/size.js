@@ -2,7 +2,7 @@
 import { html } from "../../vendor/preact.js";
 import { call, useAsked, useCaseFile, useLive } from "../api.js";
 import { STANDARDS, Verdict } from "../bars.js";
-import { Box } from "../form.js";
+import { Box, Field, words } from "../form.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
@@ -12,11 +12,15 @@ import { useJob, useTaken, WorkPanel } from "../work.js";
 
 const ASKED = [["ratio", "ratio", "15"], ["output_torque", "torque of the wheel", "300 N m"],
   ["worm_speed", "speed of the worm", "1500 rpm"]];
+/** @type {[string, string, number][]} */
 const COLUMNS = [
   ["centre_distance_mm", "a (mm)", 5], ["starts", "z₁", 3], ["wheel_teeth", "z₂", 4],
   ["axial_module_mm", "m (mm)", 4], ["diameter_factor", "q", 4], ["profile_shift", "x₂", 3],
-  ["efficiency", "efficiency", 4], ["margin", "margin", 3],
+  ["efficiency", "efficiency", 4], ["margin", "margin", 3], ["mass_kg", "mass (kg)", 3],
 ];
+/** Of what is kept beside the safeties; the ratio is asked above. */
+const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs",
+  "safety"];
 const RANKS = ["size", "efficiency", "margin"];
 const THROUGH = "operation.through_travel_torque";
 /** What is proposed, and what is asked: all else is as the case has it. */
@@ -24,9 +28,17 @@ const OWN = ["gearset.name", "gearset.starts", "gearset.wheel_teeth", "gearset.c
   "gearset.axial_module", "gearset.diameter_factor", "gearset.profile_shift", "gearset.worm_pitch_diameter",
   "operation.output_torque", "operation.worm_speed", THROUGH];
 /** Those of which less is better. */
-const LESS = ["centre_distance_mm", "axial_module_mm", "starts", "wheel_teeth", "diameter_factor"];
+const LESS = ["centre_distance_mm", "axial_module_mm", "starts", "wheel_teeth", "diameter_factor", "mass_kg"];
 /** Of a design of the trade-off. */
 const FREE = [["pressure_angle", "deg"], ["diameter_factor", ""], ["axial_module", "mm"], ["worm_roughness", "um"]];
+
+/** The smallest of those that hold, in words. */
+function smallest(proposals) {
+  const [first] = proposals.filter(({ holds }) => holds)
+    .toSorted((one, other) => one.centre_distance_mm - other.centre_distance_mm);
+  return first ? `; the smallest is ${first.wheel_teeth}:${first.starts} with a = ${
+    digits(first.centre_distance_mm, 4)} mm` : "";
+}
 
 const limit = (path) => {
   const [standard, key] = path.split(".");
@@ -44,13 +56,13 @@ function useRest() {
   const { name, settings } = useCase();
   const file = useCaseFile(name);
   if (!file) return {};
-  const written = ["gearset", "operation", "rating"].flatMap((table) =>
+  const written = ["gearset", "operation", "rating", "requirements"].flatMap((table) =>
     Object.entries(file.tables[table] ?? {}).map(([key, text]) => [`${table}.${key}`, text]));
   const all = { ...Object.fromEntries(written), ...settings };
-  const kept = Object.entries(all).filter(([path]) => !OWN.includes(path));
+  const kept = Object.entries(all).filter(([path]) => !OWN.includes(path) && path !== "requirements.ratio");
   // Of a valve a third of the rated torque stands through the travel, else all of it.
   const parts = /valve/.test(all["operation.service"] ?? "") ? 3 : 1;
-  return { rest: Object.fromEntries(kept), through: all[THROUGH], parts };
+  return { rest: Object.fromEntries(kept), asked: all["requirements.ratio"], through: all[THROUGH], parts };
 }
 
 function Proposals({ found, options, through, parts }) {
@@ -80,6 +92,7 @@ function Proposals({ found, options, through, parts }) {
       (one) => digits(one[key], count), "right",
       { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none" },
     ]),
+    ...(found.some(({ hob }) => hob) ? [["hob", ({ hob }) => hob]] : []),
     ["least safety", (one) => limit(one.limited_by)], ["locks itself", ({ locks }) => locks],
     ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
   ]} />`;
@@ -142,12 +155,22 @@ function TradeOff({ answer }) {
     ]} />`;
 }
 
+/** What a gearset must keep beside its safeties, folded away while nothing is asked. */
+function Kept({ rest }) {
+  const said = KEPT.map((key) => [key, rest?.[`requirements.${key}`]]).filter(([, text]) => text !== undefined);
+  return html`<details open=${said.length > 0}><summary>what must be kept${said.length
+    ? `: ${said.map(([key, text]) => `${words(key)} ${text}`).join(", ")}` : ""}</summary>
+    <div class="grid keeps">${KEPT.map((key) => html`<${Field} key=${key} path=${`requirements.${key}`} />`)}</div>
+    </details>`;
+}
+
 export function view() {
   const { name, settings } = useCase();
   const { params } = route.value;
-  const options = Object.fromEntries(ASKED.map(([key, , usual]) => [key, params[key] ?? usual]));
+  const { rest, asked, through, parts } = useRest();
+  const options = Object.fromEntries(ASKED.map(([key, , usual]) =>
+    [key, params[key] ?? (key === "ratio" && asked ? asked : usual)]));
   const rank = params.rank ?? "size";
-  const { rest, through, parts } = useRest();
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
   const body = name ? { case: name, settings } : null;
   const work = useJob("optimise", body);
@@ -156,18 +179,20 @@ export function view() {
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy} now=${sized.now}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
-    <section class="panel" aria-label="what is asked"><div class="row">
+    ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold by every standard${
+      smallest(answer.proposals)}.</p>` : null}
+    <section class="panel" aria-label="what is asked"><div class="row asks-for">
       ${ASKED.map(([key, said]) => html`<label class="asked">${said}
         <${Box} text=${options[key]} label=${said} onSet=${(text) => setParam(key, text)} /></label>`)}
       <span class="asked"><label for="rank">best in</label>
         <select id="rank" value=${rank} onChange=${(event) => setParam("rank", event.target.value)}>
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
-      ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold by every standard.</p>
-        <p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil, materials,
-          roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is not, since
-          it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where
-          none is given` : null}.</p>
+      <${Kept} rest=${rest} />
+      ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil,
+          materials, roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is
+          not, since it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is
+          taken, as where none is given` : null}.</p>
         <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
         : html`<p class="wait">One moment.</p>`}
     </section>

@@ -1,7 +1,7 @@
 /** A sliding body: shake it, and see the force that still pulls it fall. */
 import { html, useEffect, useMemo, useState } from "../../vendor/preact.js";
 import { call, useLive } from "../api.js";
-import { AllKeys, Amplitude, Field, Slider, useValue, words } from "../form.js";
+import { AllKeys, Amplitude, Field, Folded, Slider, useValue, words } from "../form.js";
 import { Flow } from "../flow.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Plot } from "../plot.js";
@@ -37,6 +37,7 @@ const BOUNDS = {
   displacement_amplitude: { low: 0.001, high: 100, unit: "um" },
 };
 
+/** @type {Record<string, [string, object][]>} */
 const GROUPS = {
   body: [
     ["slider.drive_velocity", { low: 0.01, high: 100, unit: "mm/s", log: true }],
@@ -64,7 +65,7 @@ export function view() {
     kinds=${["slide"]} first="body-shaken-along" start=${START}
     answer=${point.data} error=${point.error} busy=${point.busy} late=${point.late} now=${point.now}>
     <div class="columns headed moving">
-      <section class="controls" aria-label="what is set">
+      <section class="controls" aria-label="what is set"><${Folded}>
         <${Strength} k=${answer.velocity_ratio} />
         <${Direction} />
         <${Known} path="vibration.frequency" low=${0.01} high=${100} unit="kHz" log />
@@ -74,7 +75,7 @@ export function view() {
           ${title === "contact" ? html`<${Field} path="friction.model" label="friction law" brief />` : null}
           ${sliders.map(([path, more]) => html`<${Known} key=${path} path=${path} ...${more} />`)}
         </fieldset>`)}
-        <${AllKeys} tables=${["slider", "friction", "vibration", "normal", "wear", "solve"]} />
+        <${AllKeys} tables=${["slider", "friction", "vibration", "normal", "wear", "solve"]} /><//>
       </section>
       <${Headline} numbers=${numbers} />
       <${Stage} series=${point.data?.series} ratio=${answer.ratio} k=${answer.velocity_ratio}

@@ -37,9 +37,12 @@ export function view() {
     figures: figures.filter((one) => one.chapter === chapter.number),
   })).filter((chapter) => chapter.claims.length + chapter.figures.length);
   return html`<${Screen} title="Thesis" error=${error} busy=${!own && !error}
+      answer=${ledger && { answer: ledger, command: "asperity thesis", toml: "" }}
       lead="On friction under imposed vibration and in worm gears: what it says, and what comes of it when it is
         computed anew.">
     ${ledger ? html`
+      <p class="big"><b>${count(ledger.claims, "reproduced")}</b> of ${ledger.claims.length} claims are reproduced,
+        ${" "}<b>${count(ledger.claims, "differs")}</b> differ.</p>
       <section class="panel" aria-label="what is looked for">
         <div class="row">
           <label>search <input type="search" value=${q} aria-label="search claims and figures"
@@ -51,8 +54,6 @@ export function view() {
               ${" "}${said} ${key === "all" ? ledger.claims.length : count(ledger.claims, key)}</label>`)}
           </fieldset>
         </div>
-        <p class="big"><b>${count(ledger.claims, "reproduced")}</b> of ${ledger.claims.length} claims are reproduced,
-          ${" "}<b>${count(ledger.claims, "differs")}</b> differ.</p>
         <p class="says">${ledger.read}</p>
         <p class="says" role="status">${claims.length} of ${ledger.claims.length} claims,
           ${" "}${figures.length} of ${ledger.figures.length} figures. ${unmade(ledger)}</p>

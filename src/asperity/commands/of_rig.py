@@ -1,4 +1,4 @@
-"""The commands of a disc-on-disc tribometer, in the order of the help."""
+"""The commands of the tribometer, in the order of the help."""
 
 from asperity.commands.command import Argument, Command, Option
 
@@ -11,7 +11,7 @@ _COLUMNS = (
 _RECORDINGS = Argument("recordings", "REC...", "Recordings of a rig.", many=True)
 _RIG = Option("config", "The rig's configuration; left out: the one in each recording.", "CONFIG")
 
-RIG = (
+RIG_COMMANDS = (
     Command(
         "rig plan",
         "Lay out a series of tests: cells, files, order, time, and what it will not tell.",
@@ -150,4 +150,4 @@ RIG = (
         draws=False,
     ),
 )
-"""In the order of the help."""
+"""Their names have ``rig`` in common."""

@@ -1,0 +1,141 @@
+"""What people are shown in another language is the answer, with all its numbers."""
+
+import re
+
+import pytest
+
+from asperity.casefile.project import Project
+from asperity.commands.listed import COMMANDS
+from asperity.commands.shown import shown_as
+from asperity.errors import InputError, StorageError
+from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
+from asperity.results.report import Heading
+from asperity.results.terminal import rendered
+from asperity.results.words import Number, Sentence
+from asperity.runs import Run
+
+FOUND = {
+    "holds by {standards}": "hält nach {standards}",
+    "wear of {what}": "{what}verschleiß",
+    "wheel": "Rad",
+    "and": "und",
+    "{a} of the {b} asked": "von {b} sind {a} da",
+    "{_name}, rated": "{_name}, gerechnet",
+    "{what} is {_a}; {_s} is valid to {_b}": "{what} ist {_a}; {_s} gilt bis {_b}",
+}
+
+
+@pytest.fixture
+def words():
+    return Catalogue(FOUND, code="xx")
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("wear of wheel", "Radverschleiß"),
+        ("holds by ISO/TR 14521 and BS 721", "hält nach ISO/TR 14521 und BS 721"),
+        ("lifting gear 3, rated", "lifting gear 3, gerechnet"),
+        ("wear of wheel; wheel is 3; ISO is valid to 2; wheel",
+         "Radverschleiß; Rad ist 3; ISO gilt bis 2; Rad"),
+        (" wheel.", " Rad."),
+        ("S_W 1.53", "S_W 1.53"),
+        # What has no line is kept whole, rather than half of it in each language.
+        ("wear of axle", "wear of axle"),
+        ("wheel and axle", "wheel and axle"),
+    ],
+)  # fmt: skip
+def test_a_text_is_shown_by_its_line(words, text, shown):
+    with spoken(words):
+        assert said(text) == shown
+    assert said(text) == text
+    assert words.missing == ({text} if shown == text and "axle" in text else set())
+
+
+def test_numbers_of_a_sentence_keep_digits_and_keys_where_they_change_places(words):
+    text = Sentence(Number.of(1.53, ".3g", "S"), " of the ", Number.of(1.1, "g", "asked"), " asked")
+    with spoken(words):
+        shown = said(text)
+    assert shown == "von 1.1 sind 1.53 da"
+    numbers = [part for part in shown.parts if isinstance(part, Number)]
+    assert [(one.value, one.key) for one in numbers] == [(1.1, "asked"), (1.53, "S")]
+
+
+def answer_of(case, *settings, command="rate"):
+    found = next(one for one in COMMANDS if one.name == command)
+    options = {option.name: option.default for option in found.options}
+    read = found.case_of(case, settings, **options)
+    return read, found.solved(found.prepared(read, **options), Run())
+
+
+CASES = [
+    ("gearset-2",), ("gearset-3",), ("actuator-duty",), ("actuator-shafts",),
+    ("actuator-duty", "tolerances.centre_distance=js7", "tolerances.thread=['-40 um','-70 um']",
+     "tolerances.tooth=['-50 um','-100 um']"),
+    ("gearset-3", "operation.worm_speed=6000 rpm", "operation.oil_temperature=95 degC",
+     "gearset.hand=left"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("given", CASES, ids=" ".join)
+def test_the_german_screen_and_report_of_a_rating_leave_nothing_english(given):
+    case, result = answer_of(*given)
+    german = catalogue_of("de")
+    german.missing.clear()
+    with spoken(german):
+        screen = result.brief()
+        rendered(result.tables())
+        report = result.to_html(Heading.of(case))
+    # A gearset is called what its case calls it.
+    assert german.missing <= {result.gearset.name}
+    assert '<html lang="de">' in report
+    assert "Urteil" in report
+    assert max(map(len, screen.splitlines())) <= 79
+    assert result.brief() != screen
+
+
+@pytest.mark.parametrize("given", CASES, ids=" ".join)
+def test_a_german_report_has_the_numbers_of_the_english_one(given):
+    _, result = answer_of(*given)
+    english = result.to_html()
+    with spoken(catalogue_of("de")):
+        german = result.to_html()
+    marked = re.compile(r"<data [^>]*>[^<]*</data>")
+    assert sorted(marked.findall(german)) == sorted(marked.findall(english))
+
+
+def test_every_line_of_a_shipped_language_has_the_holes_of_the_english():
+    assert languages() == ("en", "de")
+    assert catalogue_of("en") is None
+    assert catalogue_of("de").code == "de"
+
+
+def test_a_language_of_a_readers_own_is_a_file_beside_the_case(tmp_path):
+    (tmp_path / "fr.toml").write_text('[texts]\n"wear" = "usure"\n', "utf-8")
+    with shown_as(Project(language="fr.toml"), tmp_path):
+        assert said("wear") == "usure"
+    with shown_as(Project(), tmp_path, language=str(tmp_path / "fr.toml")):
+        assert said("wear") == "usure"
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        ("texts = 3", r"no table \[texts\]"),
+        ("[texts", "no TOML"),
+        ('[texts]\n"{a} of {b}" = "{a}"', "each of its holes once"),
+        ('[texts]\n"{a} of {a}" = "{a}"', "each of its holes once"),
+    ],
+)
+def test_a_file_that_is_no_catalogue_is_refused(tmp_path, content, said):
+    file = tmp_path / "xx.toml"
+    file.write_text(content, "utf-8")
+    with pytest.raises(InputError, match=said):
+        catalogue_of(str(file))
+
+
+def test_a_language_that_there_is_not_is_one_line(tmp_path):
+    with pytest.raises(InputError, match="it must be one of 'en', 'de', or a file"):
+        catalogue_of("tlh")
+    with pytest.raises(StorageError, match="cannot be read"):
+        catalogue_of(str(tmp_path / "none.toml"))
