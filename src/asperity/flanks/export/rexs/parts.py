@@ -7,7 +7,7 @@ from asperity.flanks.export.rexs.document import Attributes, Component
 from asperity.flanks.parameters import DISC_PROFILE_RADIUS, Disc, Hob, Mount
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
-from asperity.gearset.tolerancing.backlash import EXPANSION
+from asperity.gearset.tolerancing.warmth import EXPANSION
 from asperity.rating import Operation
 from asperity.rating.forces import Forces
 from asperity.shafts.parameters import WheelShaft, WormShaft
