@@ -26,11 +26,12 @@ export function tell(text) {
 
 /** Make a file of the screen, and say so where that takes longer. */
 async function shared(title, answer) {
+  const { case: of = "" } = route.peek().params;
   sharing.value = true;
   tell("the file is being made");
   try {
     const { share } = await import("./share.js");
-    await share(title, answer);
+    await share(title, answer, of);
     tell("the file is made: all of this, for anyone, without server and network");
   } catch (error) {
     tell(`no file: ${error.message}`);
