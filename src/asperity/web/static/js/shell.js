@@ -118,6 +118,7 @@ function CasePicker({ kinds, first, start = {} }) {
       <span aria-hidden="true">${sign}</span> <span class="word">${word}</span></button>`)}
     <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
       title=${count ? `${count} set` : ""}>as the case has it</button>
+    <span class="on-paper"><b>${known?.alias || name}</b></span>
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
 }
