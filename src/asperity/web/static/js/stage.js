@@ -174,7 +174,8 @@ export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
         value=${Math.round(STEPS * (moment.peek() % 1))}
         ...${touch} /></label>`}
       <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? "" : "Drag the round handle."}
-        <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
+        <span class="sign-of"><span class="key holds"></span> bristles hold</span>
+        <span class="sign-of"><span class="key slips"></span> they slip</span></span>
     </div>
   </section>`;
 }
