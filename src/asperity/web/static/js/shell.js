@@ -117,7 +117,8 @@ function CasePicker({ kinds, first, start = {} }) {
       title=${word === "undo" ? "Ctrl-Z" : "Ctrl-Shift-Z"} disabled=${!undoable.value[word]} onClick=${act}>
       <span aria-hidden="true">${sign}</span> <span class="word">${word}</span></button>`)}
     <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
-      title=${count ? `${count} set` : ""}>as the case has it</button>
+      title=${count ? `${count} set` : ""}><span class="sign" aria-hidden="true">↺ </span><span class="word">as the case
+        has it</span></button>
     <span class="on-paper"><b>${known?.alias || name}</b></span>
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
