@@ -189,7 +189,7 @@ export function view() {
         ${under ? html`<${Pattern} data=${under} found=${still} />` : null}<//>
       <${WorkPanel} title="Which way to shake it" name="which way" label="try each way" work=${ways}
           says="As long as shaking it once for each of the ways.">
-        ${ways.data && geometry
+        ${ways.data && geometry && speed
           ? html`<${Ways} answer=${ways.data.answer} geometry=${geometry} speed=${speed} />` : null}
         ${ways.data ? html`<${Directions} answer=${ways.data.answer} />` : null}<//>
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
