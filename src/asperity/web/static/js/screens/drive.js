@@ -135,7 +135,7 @@ function Directions({ answer }) {
 
 function Locking({ answer, found, data }) {
   const x = data && { label: "amplitude", unit: "µm", values: data.amplitude.values.map((u) => 1e6 * u) };
-  const loose = data?.settled_over.values.map((stays) => stays === 0) ?? [];
+  const loose = data?.settled_over?.values.map((stays) => stays === 0) ?? [];
   return html`<p class="big"><${Verdict} ok=${answer.locked}
       yes="holds its load without vibration" no="runs back without vibration" /></p>
     ${answer.settled ? null
