@@ -71,7 +71,7 @@ def two_ways(found, data):
             way |= dict.fromkeys(
                 ("saved_W", "saved_per_micrometre_W", "saved_per_actuator_W_W")
             ) | {"settled": False}  # fmt: skip
-        found["answer"]["rankings"] = dict.fromkeys(found["answer"]["rankings"], ["axial"])
+        found["answer"]["rankings"] = {key: ["axial"] for key in found["answer"]["rankings"]}
 
 
 def test_a_drive_that_coasts_has_no_verdict_and_saves_nothing(loose):
