@@ -73,6 +73,11 @@ def asked(name, lot):
             ["drive-screw", "--over", f"mount.axial_offset=0,{lot.uniform(5.0, 50.0):.4g} um"],
             ["drive.teeth=1", "drive.phases=2"],
         ),
+        "relief": (
+            ["drive-screw", "--over", f"modification.tip_relief=0,{lot.uniform(5.0, 30.0):.4g} um"],
+            ["drive.teeth=1", "drive.phases=2"],
+        ),
+        "wear": (["drive-screw", "--revolutions", "20"], ["drive.teeth=1", "drive.phases=2"]),
         "locking": (["drive-actuator"], [*TEETH]),
         "control": (["drive-actuator"], [*TEETH, "drive.stroke=16 deg", "control.failures=dead"]),
         "fit": ([ANSWERS / "ratios.csv", "table-4.3", "--free", "friction.max_deflection"], []),

@@ -250,7 +250,7 @@ def check_that_nothing_changes(seed, count, folder, method):
         checked += 1
         # What has settled in the mean only may be as far away as the halves of its window differ.
         # Springs are laid out to where the body comes, and are right to 1e-4.
-        most = 2e-4 if nothing.model.friction.model == "springs" else 2e-5
+        most = 2e-5
         if method == "homogenised":
             most = 5e-4  # it is a table of mean velocities
         most += 2.0 * (nothing.residual + little.residual + (little.step_error or 0.0))
