@@ -16,7 +16,7 @@ from asperity.errors import InputError
 from asperity.results.svg import Drawing
 from asperity.slider import Model
 from asperity.slider import solve as slide
-from asperity.start import compare
+from asperity.start import compare, listed
 
 
 def lines(drawing):
@@ -115,3 +115,16 @@ def test_a_file_of_bearings_is_asked_for_nothing(tmp_path, settings, ratio, torq
     assert path.read_text("utf-8").startswith("#")
     with pytest.raises(InputError, match="is there already; name another file"):
         new._new_bearing(path, {"output_torque": None}, (), "", as_json=True)
+
+
+def test_a_case_is_opened_where_it_lies_and_in_no_other_folder(tmp_path):
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "own.toml").write_text('[slider]\nmass = "1 kg"\n')
+    for folder in (None, mine):
+        assert listed.opened(str(mine / "own.toml"), folder) == (mine, "own.toml", "slide")
+    with pytest.raises(InputError, match="own.toml is not in .*; leave --folder out, or copy it"):
+        listed.opened(str(mine / "own.toml"), tmp_path)
+    # What ships is opened in any folder; nothing is a start.
+    assert listed.opened("gearset-3", mine) == (mine, "gearset-3", "gear")
+    assert listed.opened("", mine) == (mine, "", "home")
