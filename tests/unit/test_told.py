@@ -123,7 +123,7 @@ def test_a_case_is_opened_where_it_lies_and_in_no_other_folder(tmp_path):
     (mine / "own.toml").write_text('[slider]\nmass = "1 kg"\n')
     for folder in (None, mine):
         assert listed.opened(str(mine / "own.toml"), folder) == (mine, "own.toml", "slide")
-    with pytest.raises(InputError, match="own.toml is not in .*; leave --folder out, or copy it"):
+    with pytest.raises(InputError, match=r"own\.toml is not in .*; leave --folder out, or copy it"):
         listed.opened(str(mine / "own.toml"), tmp_path)
     # What ships is opened in any folder; nothing is a start.
     assert listed.opened("gearset-3", mine) == (mine, "gearset-3", "gear")
