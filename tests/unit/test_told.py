@@ -17,6 +17,8 @@ from asperity.results.svg import Drawing
 from asperity.slider import Model
 from asperity.slider import solve as slide
 from asperity.start import compare, listed
+from asperity.studies import series
+from asperity.studies.proposed import Proposals
 
 
 def lines(drawing):
@@ -128,3 +130,30 @@ def test_a_case_is_opened_where_it_lies_and_in_no_other_folder(tmp_path):
     # What ships is opened in any folder; nothing is a start.
     assert listed.opened("gearset-3", mine) == (mine, "gearset-3", "gear")
     assert listed.opened("", mine) == (mine, "", "home")
+
+
+@pytest.mark.parametrize("shift", [-0.4, 0.0, 0.5])
+def test_a_profile_shift_that_is_held_gives_the_diameter_factor(shift):
+    (factor,) = series._factors(100.0, 40.0, 4.0, {"profile_shift": shift})
+    assert 0.5 * 4.0 * (factor + 40.0 + 2.0 * shift) == pytest.approx(100.0)
+
+
+@pytest.mark.parametrize("holding", [0, 2])
+def test_notes_stand_under_gearsets_and_what_none_holds_above_them(holding):
+    best = SimpleNamespace(
+        centre_distance_mm=100.0, starts=1, wheel_teeth=40, axial_module_mm=4.0, efficiency=0.7,
+        diameter_factor=10.0, profile_shift=0.0, margin=1.1, limited_by="bs721.safety_wear", locks="no",
+        settings=("gearset.starts=1",), holds=holding > 0,
+    )  # fmt: skip
+    found = SimpleNamespace(
+        found=[best], rated=7, holding=holding, ranked_by="size", notes=("one", "none holds"),
+        _made=lambda: (),
+    )  # fmt: skip
+    (table,) = Proposals.tables(found)
+    assert table.title == ("" if holding else "None holds")
+    assert [remark for remark in table.remarks if remark in found.notes] == (
+        ["one", "none holds"] if holding else ["one"]
+    )
+    assert any(remark.startswith("the first one: --set") for remark in table.remarks) is best.holds
+    hold = "2 hold by" if holding else "0 hold by"
+    assert table.remarks[0].startswith(f"7 gearsets rated, {hold} every standard")
