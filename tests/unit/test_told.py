@@ -142,8 +142,8 @@ def test_a_profile_shift_that_is_held_gives_the_diameter_factor(shift):
 def test_notes_stand_under_gearsets_and_what_none_holds_above_them(holding):
     best = SimpleNamespace(
         centre_distance_mm=100.0, starts=1, wheel_teeth=40, axial_module_mm=4.0, efficiency=0.7,
-        diameter_factor=10.0, profile_shift=0.0, margin=1.1, limited_by="bs721.safety_wear", locks="no",
-        settings=("gearset.starts=1",), holds=holding > 0,
+        diameter_factor=10.0, profile_shift=0.0, margin=1.1, limited_by="bs721.safety_wear",
+        locks="no", settings=("gearset.starts=1",), holds=holding > 0,
     )  # fmt: skip
     found = SimpleNamespace(
         found=[best], rated=7, holding=holding, ranked_by="size", notes=("one", "none holds"),
