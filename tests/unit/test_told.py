@@ -17,7 +17,8 @@ from asperity.results.svg import Drawing
 from asperity.slider import Model
 from asperity.slider import solve as slide
 from asperity.start import compare, listed
-from asperity.studies import series
+from asperity.studies import rounding, series
+from asperity.studies.design import VARIABLES
 from asperity.studies.proposed import Proposals
 
 
@@ -157,3 +158,16 @@ def test_notes_stand_under_gearsets_and_what_none_holds_above_them(holding):
     assert any(remark.startswith("the first one: --set") for remark in table.remarks) is best.holds
     hold = "2 hold by" if holding else "0 hold by"
     assert table.remarks[0].startswith(f"7 gearsets rated, {hold} every standard")
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_a_multiple_that_is_an_end_but_for_rounding_is_kept_as_the_end(end):
+    place = VARIABLES.index("diameter_factor")
+    ends = [8.0 * (1.0 + 1e-15), 12.0 * (1.0 - 1e-15)]
+    bounds = [[value] * len(VARIABLES) for value in ends]
+    space = SimpleNamespace(lower=bounds[0], upper=bounds[1])
+    found = rounding._multiples(space, VARIABLES[place], ends[end])
+    assert ends[end] in found
+    assert min(found) >= ends[0]
+    assert max(found) <= ends[1]
+    assert all(round(each / rounding.STEPS["diameter_factor"], 9) % 1.0 == 0.0 for each in found)
