@@ -106,7 +106,7 @@ def patterns(dataset: "xr.Dataset") -> "Figure":
 def _alone(values: FloatArray, column: int) -> "np.ndarray":
     """Return the points at which this axis alone is off from the case."""
     others = np.delete(np.arange(values.shape[1]), column)
-    size = np.maximum(np.ptp(values, axis=0), 1e-300)
+    size = np.maximum(np.nanmax(values, axis=0) - np.nanmin(values, axis=0), 1e-300)
     off = np.abs(values - values[0])[:, others] / size[others]
     return np.flatnonzero((off <= _SAME).all(axis=1))
 
@@ -123,6 +123,7 @@ def _chosen(dataset: "xr.Dataset") -> list[int]:
     edge = np.max(
         [dataset[f"force_{edge}"].values for edge in ("worm_tip", "wheel_tip", "face_end")], axis=0
     )
+    found += [int(n) for n in np.flatnonzero(solved) if np.isnan(values[n]).all()]
     found.append(int(np.nanargmax(np.where(solved, edge, -1.0))))
     return list(dict.fromkeys(found))[:_MOST]
 
@@ -131,6 +132,8 @@ def _title(dataset: "xr.Dataset", point: int) -> str:
     if point == 0:
         return "as the case is"
     values, own = dataset["value"].values[point], dataset["value"].values[0]
+    if np.isnan(values).all():
+        return "warm"
     units = [str(unit) for unit in np.atleast_1d(dataset["axis_unit"].values)]
     names = [str(name).partition(".")[2] for name in np.atleast_1d(dataset["axis"].values)]
     parts = [
