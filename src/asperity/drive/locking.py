@@ -242,15 +242,13 @@ class _Search:
                     "amplitudes have not, and the threshold may be there",
                 )
             return None, ("no amplitude up to 20 times its elastic slip sets it free",)
-        if not _creeps_always(self._problem.friction):
-            for _ in range(_DEEPEST if low is None else 0):
-                self._try(_LOWER * high)
-                low, high, loose = self._bounds()
-                if low is not None:
-                    break
-        if low is None:
-            return (None, (_between(0.0, high, loose),)) if loose else (0.0, ())
-        for _ in range(_ROUNDS):
+        deeper = 0 if low or _creeps_always(self._problem.friction) else _DEEPEST
+        for _ in range(deeper):
+            self._try(_LOWER * high)
+            low, high, loose = self._bounds()
+            if low:
+                break
+        for _ in range(_ROUNDS if low else 0):
             self._try(np.geomspace(low, high, _AT_ONCE + 2)[1:-1])
             low, high, loose = self._bounds()
         return (None, (_between(low, high, loose),)) if loose else (math.sqrt(low * high), ())
@@ -263,15 +261,14 @@ class _Search:
             creeps = bool(each.creep > _CREEPS * self._unit * amplitude)
             self._moves[amplitude] = creeps if each.settled else None
 
-    def _bounds(self) -> tuple[float | None, float, list[float]]:
+    def _bounds(self) -> tuple[float, float, list[float]]:
         """Return the greatest that holds below the least that creeps, that, and what is between.
 
-        Infinite where none creeps.
+        0 and infinite where there is none.
         """
         high = min((u for u, moves in self._moves.items() if moves), default=math.inf)
-        holds = [u for u, moves in self._moves.items() if moves is False and u < high]
-        low = max(holds, default=None)
-        loose = [u for u, moves in self._moves.items() if moves is None and (low or 0.0) < u < high]
+        low = max((u for u, moves in self._moves.items() if moves is False and u < high), default=0)
+        loose = [u for u, moves in self._moves.items() if moves is None and low < u < high]
         return low, high, loose
 
 

@@ -80,7 +80,7 @@ function Worth({ answer, found }) {
     <p>${answer.settled
       ? html`<${Verdict} ok=${after > before} yes="it saves power" no="it saves no power" />`
       : "no verdict, since the state has not settled:"} ${says}</p>
-    ${answer.motor_shaken ? html`<p>
+    ${answer.settled && answer.motor_shaken ? html`<p>
       <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
       ${` motor ${answer.motor_shaken} for ${answer.motor_plain}; with the actuator `}
       ${digits(answer.saved_mass_kg, 3)} kg saved</p>` : null}
