@@ -71,9 +71,7 @@ def two_ways(found, data):
             way |= dict.fromkeys(
                 ("saved_W", "saved_per_micrometre_W", "saved_per_actuator_W_W")
             ) | {"settled": False}  # fmt: skip
-        found["answer"]["rankings"] = {
-            measure: ["axial"] for measure in found["answer"]["rankings"]
-        }
+        found["answer"]["rankings"] = {key: ["axial"] for key in found["answer"]["rankings"]}
 
 
 def test_a_drive_that_coasts_has_no_verdict_and_saves_nothing(loose):
@@ -85,7 +83,6 @@ def test_a_drive_that_coasts_has_no_verdict_and_saves_nothing(loose):
     expect(ratio).not_to_contain_text("the motor gives")
     expect(page.get_by_text("no verdict, since the state has not settled")).to_be_visible()
     expect(page.get_by_text("it saves power")).to_have_count(0)
-    expect(page.get_by_text("a smaller motor")).to_have_count(0)
     ways = page.locator(".ways")
     expect(ways.get_by_text("W saved")).to_have_count(1)
     expect(ways.get_by_text("not settled: no saving is told")).to_have_count(3)
@@ -96,6 +93,7 @@ def test_a_drive_that_coasts_has_no_verdict_and_saves_nothing(loose):
     # Three of its amplitudes have not settled, which its picture names.
     chart = page.get_by_role("img").and_(page.get_by_label("Creep of the wheel, the motor off"))
     expect(chart.first).to_have_accessible_name(re.compile("not settled"))
+    page.screenshot(path="/tmp/rb_drive.png", full_page=True)
 
 
 def test_the_least_of_a_grid_is_of_what_has_settled(seen):
@@ -112,3 +110,4 @@ def test_the_least_of_a_grid_is_of_what_has_settled(seen):
     expect(page.get_by_text("Least:")).to_contain_text("at velocity ratio 6")
     drawn = page.get_by_role("img").and_(page.get_by_label("mean drive force over mu F_N"))
     expect(drawn.first).to_have_accessible_name(re.compile("not settled over velocity ratio"))
+    page.screenshot(path="/tmp/rb_sweep.png")

@@ -14,7 +14,7 @@ import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { firstError, Report, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -169,6 +169,7 @@ export function view() {
   const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
       answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}
+      actions=${html`<${Report} command="drive" body=${body} />`}
       lead="A gearset under load, shaken: what the motor is spared, what that costs, and what it does to the teeth.">
     <div class="columns headed moving"><section class="controls" aria-label="what is set">
       <${Slider} path="vibration.frequency" low=${100} high=${100000} unit="Hz" log />
@@ -188,7 +189,7 @@ export function view() {
         ${under ? html`<${Pattern} data=${under} found=${still} />` : null}<//>
       <${WorkPanel} title="Which way to shake it" name="which way" label="try each way" work=${ways}
           says="As long as shaking it once for each of the ways.">
-        ${ways.data && geometry
+        ${ways.data && geometry && speed
           ? html`<${Ways} answer=${ways.data.answer} geometry=${geometry} speed=${speed} />` : null}
         ${ways.data ? html`<${Directions} answer=${ways.data.answer} />` : null}<//>
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
