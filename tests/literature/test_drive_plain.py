@@ -92,6 +92,20 @@ def test_axial_vibration_ten_times_as_fast_as_the_sliding_saves_energy_at_40_khz
     assert powers < 1e-3
 
 
+def test_torsional_vibration_of_a_light_load_saves_a_little_energy_at_20_khz():
+    light = {
+        "mode": "torsional", "frequency": 20e3, "speed": 190.8, "load": 9.415, "mu": 0.0832,
+        "damping": 0.0, "inertia": 9.54e-3, "worm_inertia": 2.205e-5, "worm_mass": 0.228,
+        "torsion": 707.7, "amplitude": 6.52e-6,
+    }  # fmt: skip
+    answer, plain, ratio, powers = compared(DRIVE | light, "solve.duration=20 ms")
+    assert answer.settled
+    assert answer.energy_ratio < 0.997
+    assert plain["drive"] + plain["actuator"] == pytest.approx(answer.energy_ratio, abs=2e-4)
+    assert ratio < 2e-4
+    assert powers < 2e-4
+
+
 def test_axial_vibration_of_brittle_flanks_can_save_energy_without_a_loss_of_contact():
     # It was held for a law that axial and torsional vibration buy torque, not energy.
     speed = DRIVE["speed"] * CIRCLE / np.cos(np.arctan2(4.0, 8.4))
