@@ -5,7 +5,8 @@ in a few cycles. A march is at its end next to such a state, and both are found 
 there is none, some of its last cycles are marched again on twice the step. Of order two the error
 is a third of the difference, of order one all of it: with low exponents, and at the corners of a
 wave with LuGre friction or under a load that changes. An exponent of nothing and a slip that turns
-make it more than all of it.
+make it more than all of it. All of it is told too of Coulomb friction that stops a body at corners,
+of order two on average, but by where in a step it stops; and of the two-phase scheme.
 """
 
 import dataclasses
@@ -189,8 +190,10 @@ def _of_the_error(model: Model) -> float:
             return _ORDER_HALF
         if turns or not (smooth and friction.law == "vector"):
             return _ORDER_ONE
+    # Where Coulomb friction stops a body after a corner, errors fall by four on average only.
+    stops = friction.model == "coulomb" and not (model.slider.rigid and not model.slider.free)
     follows = friction.model == "lugre" or model.normal is not None
-    return _ORDER_ONE if follows and not smooth else _ORDER_TWO
+    return _ORDER_ONE if (follows or stops) and not smooth else _ORDER_TWO
 
 
 def _run_once(cycle: Cycle) -> None:
