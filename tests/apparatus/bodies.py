@@ -76,7 +76,7 @@ def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None, c
     corners : bool
         Whether the drive gives way, and what shakes has corners.
     """
-    # What has come since is left to another chance, so that the bodies of a seed stay what they are.
+    # What has come since is left to another chance: the bodies of a seed stay what they are.
     since = rng.spawn(1)[0]
 
     def log(low, high):
