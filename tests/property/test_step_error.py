@@ -41,7 +41,7 @@ def off_untold(seed, count, folder, **options):
 
 def test_a_few_bodies_on_soft_drives_tell_what_corners_cost(tmp_path):
     assert WANTED == 1e-3
-    assert not off_untold(1, 8, tmp_path, models=("coulomb",), pressed=False, corners=True)
+    assert not off_untold(1, 4, tmp_path, models=("coulomb",), pressed=False, corners=True)
 
 
 @pytest.mark.slow
