@@ -125,7 +125,11 @@ def _naming(module):
     """Files of tests that name a module, or its room, the closest first."""
     parts = module.removesuffix(".py").split("/")
     found = []
-    texts = {path: path.read_text("utf-8") for path in sorted(TESTS.glob("*/test_*.py"))}
+    texts = {
+        path: path.read_text("utf-8")
+        for path in sorted(TESTS.glob("*/test_*.py"))
+        if path.parent.name != "browser"
+    }
     for depth in range(len(parts), 0, -1):
         name = ".".join(("asperity", *parts[:depth]))
         package, _, last = name.rpartition(".")

@@ -16,7 +16,10 @@ from asperity.errors import InputError
 from asperity.results.svg import Drawing
 from asperity.slider import Model
 from asperity.slider import solve as slide
-from asperity.start import compare
+from asperity.start import compare, listed
+from asperity.studies import rounding, series
+from asperity.studies.design import VARIABLES
+from asperity.studies.proposed import Proposals
 
 
 def lines(drawing):
@@ -80,7 +83,7 @@ def test_a_new_case_says_how_far_what_it_proposes_holds(monkeypatch, holding, ho
     assert list(values["gearset"]) == ["name", "starts", "wheel_material"]
 
 
-def test_cases_that_are_compared_have_a_unit_where_there_is_one():
+def test_cases_that_are_compared_say_what_was_asked_and_have_units_where_there_are_some():
     cases = [
         read_case("table-4.3", case_tables(), [
             "solve.method=periodic", f"vibration.velocity_ratio={ratio}",
@@ -90,6 +93,7 @@ def test_cases_that_are_compared_have_a_unit_where_there_is_one():
     found = compare.compare(
         cases, lambda command, case: slide(Model.from_case(case), history=False)
     )
+    assert found.asked == (("vibration.velocity_ratio", ("2", "6")),)
     meanings = {key: what for key, what, _ in found.numbers}
     assert meanings["drive_force_N"].endswith(" (N)")
     assert not meanings["ratio"].endswith(")")
@@ -114,3 +118,56 @@ def test_a_file_of_bearings_is_asked_for_nothing(tmp_path, settings, ratio, torq
     assert path.read_text("utf-8").startswith("#")
     with pytest.raises(InputError, match="is there already; name another file"):
         new._new_bearing(path, {"output_torque": None}, (), "", as_json=True)
+
+
+def test_a_case_is_opened_where_it_lies_and_in_no_other_folder(tmp_path):
+    mine = tmp_path / "mine"
+    mine.mkdir()
+    (mine / "own.toml").write_text('[slider]\nmass = "1 kg"\n')
+    for folder in (None, mine):
+        assert listed.opened(str(mine / "own.toml"), folder) == (mine, "own.toml", "slide")
+    with pytest.raises(InputError, match=r"own\.toml is not in .*; leave --folder out, or copy it"):
+        listed.opened(str(mine / "own.toml"), tmp_path)
+    # What ships is opened in any folder; nothing is a start.
+    assert listed.opened("gearset-3", mine) == (mine, "gearset-3", "gear")
+    assert listed.opened("", mine) == (mine, "", "home")
+
+
+@pytest.mark.parametrize("shift", [-0.4, 0.0, 0.5])
+def test_a_profile_shift_that_is_held_gives_the_diameter_factor(shift):
+    (factor,) = series._factors(100.0, 40.0, 4.0, {"profile_shift": shift})
+    assert 0.5 * 4.0 * (factor + 40.0 + 2.0 * shift) == pytest.approx(100.0)
+
+
+@pytest.mark.parametrize("holding", [0, 2])
+def test_notes_stand_under_gearsets_and_what_none_holds_above_them(holding):
+    best = SimpleNamespace(
+        centre_distance_mm=100.0, starts=1, wheel_teeth=40, axial_module_mm=4.0, efficiency=0.7,
+        diameter_factor=10.0, profile_shift=0.0, margin=1.1, limited_by="bs721.safety_wear",
+        locks="no", settings=("gearset.starts=1",), holds=holding > 0,
+    )  # fmt: skip
+    found = SimpleNamespace(
+        found=[best], rated=7, holding=holding, ranked_by="size", notes=("one", "none holds"),
+        _made=lambda: (),
+    )  # fmt: skip
+    (table,) = Proposals.tables(found)
+    assert table.title == ("" if holding else "None holds")
+    assert [remark for remark in table.remarks if remark in found.notes] == (
+        ["one", "none holds"] if holding else ["one"]
+    )
+    assert any(remark.startswith("the first one: --set") for remark in table.remarks) is best.holds
+    hold = "2 hold by" if holding else "0 hold by"
+    assert table.remarks[0].startswith(f"7 gearsets rated, {hold} every standard")
+
+
+@pytest.mark.parametrize("end", [0, 1])
+def test_a_multiple_that_is_an_end_but_for_rounding_is_kept_as_the_end(end):
+    place = VARIABLES.index("diameter_factor")
+    ends = [8.0 * (1.0 + 1e-15), 12.0 * (1.0 - 1e-15)]
+    bounds = [[value] * len(VARIABLES) for value in ends]
+    space = SimpleNamespace(lower=bounds[0], upper=bounds[1])
+    found = rounding._multiples(space, VARIABLES[place], ends[end])
+    assert ends[end] in found
+    assert min(found) >= ends[0]
+    assert max(found) <= ends[1]
+    assert all(round(each / rounding.STEPS["diameter_factor"], 9) % 1.0 == 0.0 for each in found)
