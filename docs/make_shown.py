@@ -136,7 +136,7 @@ def jobs_of(served, seen, screen):
         yield keep(served, asked["command"].replace(" ", "-") + slot, asked, identity, slot)
 
 
-OPENS = {"slide": ("slide", "curve"), "gear": ("rate",), "size": ("size",)}
+OPENS = {"slide": ("slide", "curve"), "gear": ("rate",), "size": ("size",), "drive": ("rate",)}
 """What a screen asks as it opens, of what computes."""
 
 
@@ -159,8 +159,9 @@ def live(served, seen):
         seen.page.remove_listener("response", heard)
         for verb in verbs:
             body, answer = told[verb]
-            (folder / f"{verb}.json").write_text(answer + "\n")
-            lines.append({"verb": verb, "body": body, "at": f"{verb}.json"})
+            name = verb if screen in (verb, "gear") else f"{screen}-{verb}"
+            (folder / f"{name}.json").write_text(answer + "\n")
+            lines.append({"verb": verb, "body": body, "at": f"{name}.json"})
     (folder / "index.json").write_text(json.dumps(lines, indent=1, ensure_ascii=False) + "\n")
     return ()
 

@@ -38,7 +38,8 @@ FORMULAS = {
     "formulas of iso14521": ("rating.iso14521",), "formulas of bs721": ("rating.bs721",),
     "formulas of agma6034": ("rating.agma6034",),
     "formulas of gearsets and oils": ("gearset",),
-    "formulas of DIN 743": ("shafts.strength",), "formulas of rolling bearings": ("shafts.rolling",),
+    "formulas of DIN 743": ("shafts.strength",),
+    "formulas of rolling bearings": ("shafts.rolling",),
     "closed forms, wear and heat of a sliding body": ("slider.closed_forms", "slider.wear"),
     "formulas of a tribometer": ("tribometer",),
 }  # fmt: skip

@@ -206,7 +206,17 @@ def test_pins_tolerances_and_the_speed_factor_are_those_of_the_documents():
     # mm; to 5 mm they go in quarters, but for 4.75 and with 1.1 and 1.4.
     steps = {n / 100.0 for n in range(100, 501, 25)} - {4.75} | {1.1, 1.4}
     own = {5.25, 5.5, 6.0, 6.5, 7.0, 7.5, 8.0, 9.0, 10.0, 10.5, 11.0, 12.0, 14.0, 15.0, 16.0, 18.0}
-    assert set(measures.SIZES) == steps | own | {20.0, 22.0, 25.0, 28.0, 30.0, 35.0, 40.0, 45.0, 50.0}
+    assert set(measures.SIZES) == steps | own | {
+        20.0,
+        22.0,
+        25.0,
+        28.0,
+        30.0,
+        35.0,
+        40.0,
+        45.0,
+        50.0,
+    }
     assert len(measures.SIZES) == 43
     # DIN 3967:1978, table 2, series 25.
     assert [measures.thickness_tolerance(d) for d in (1500.0, 2000.0, 4000.0, 6000.0, 9000.0)] == [

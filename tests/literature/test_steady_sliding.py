@@ -112,7 +112,8 @@ def test_a_state_that_leaves_slowly_has_not_settled():
         "slider.drive_velocity=8.6 mm/s", "slider.normal_force=5.18 N", "slider.mass=0.4866 kg",
         "slider.drive_stiffness=66.4 MN/m", "slider.drive_damping=0 N s/m",
         "slider.lateral=guided", "friction.model=lugre", "friction.mu=0.568",
-        "friction.static_mu=0.7014", "friction.max_deflection=0.053 um", "friction.stribeck_velocity=2.99 mm/s",
+        "friction.static_mu=0.7014", "friction.max_deflection=0.053 um",
+        "friction.stribeck_velocity=2.99 mm/s",
         "vibration.frequency=5.088 kHz", "vibration.velocity_ratio=1e-6", "solve.method=periodic",
     )  # fmt: skip
     found = solve(Model.from_case(read_case("table-4.3", TABLES, given)))

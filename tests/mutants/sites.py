@@ -179,9 +179,7 @@ def listed(count: int = COUNT, seed: int = SEED, source: Path = SOURCE) -> list[
 
 
 @functools.cache
-def listed_told(
-    count: int = COUNT_TOLD, seed: int = SEED, source: Path = SOURCE
-) -> list[Mutant]:
+def listed_told(count: int = COUNT_TOLD, seed: int = SEED, source: Path = SOURCE) -> list[Mutant]:
     """The seeded list of what is told."""
     every = [m for module in telling_modules(source) for m in _of(module, source, told=True)]
     return seeded(every, count, seed, KINDS_TOLD)

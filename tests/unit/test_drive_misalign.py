@@ -12,6 +12,7 @@ from asperity.commands import case_tables
 from asperity.drive.static.loaded import Loaded, loaded
 from asperity.drive.static.spread import STRIPS, Spread, k_h_alpha
 from asperity.drive.studies import misalign, points
+from asperity.drive.studies.misalign_plots import over_axes
 from asperity.errors import ConvergenceError, InputError
 from asperity.gearset import Gearset
 from asperity.gearset.tolerancing.table import Tolerances
@@ -217,3 +218,17 @@ def test_gears_and_housing_of_one_material_at_one_temperature_mesh_as_cold():
     g = gearset.geometry
     assert found.apart == pytest.approx(-1e-6 * 50.0 * 0.5 * g.worm_pitch_diameter, rel=0.02)
     assert found.pitch == pytest.approx(1e-6 * 50.0, rel=1e-3)
+
+
+def test_each_axis_has_a_column_of_its_own_and_a_line_where_it_alone_is_off(cached):
+    made = study(over=["mount.axial_offset=-50,50 um", "mount.shaft_angle_error=0,0.1 deg"])
+    figure = over_axes(misalign.answer(made, Run()).to_dataset())
+    grid = figure.axes[0].get_gridspec()
+    assert (grid.nrows, grid.ncols) == (4, 2)
+    points_of = figure.axes[0].lines[0].get_xdata()
+    np.testing.assert_allclose(points_of, [0, -50, -50, 50, 50])
+    np.testing.assert_allclose(figure.axes[1].lines[0].get_xdata(), [0, 0, 0.1, 0, 0.1])
+    # Alone off by -50, 0 and 50 um, in that order.
+    np.testing.assert_allclose(figure.axes[0].lines[1].get_xdata(), [-50, 0, 50])
+    assert figure.axes[0].get_legend() is not None
+    assert all(axes.get_legend() is None for axes in figure.axes[1:])

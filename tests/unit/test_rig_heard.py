@@ -21,6 +21,7 @@ from apparatus.heard_rig import (
 from asperity.errors import InputError
 from asperity.runs import Run
 from asperity.tribometer.checking import study as checking
+from asperity.tribometer.plots import plot_findings
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.heard.zero import Zero
 from asperity.tribometer.reduction.study import Reducible, Series, heard_in, reduce_recording
@@ -194,6 +195,16 @@ def test_a_zero_that_is_not_taken_off_is_in_the_interval(tmp_path):
         # A rectangle up to all that was seen, the same before and with vibration.
         assert most.uncertainties[0] == pytest.approx(1.37 / math.sqrt(3.0), rel=0.02)
         assert most.correlation == pytest.approx(1.0)
+
+
+def test_a_picture_of_a_finding_shows_all_that_it_rests_on(tmp_path):
+    given = with_zeros(1, 0.02)
+    one = reducible(recorded(made(given), tmp_path / "run.nc"), *ASKED)
+    checked = checking.answer(Series((one,)), Run())
+    (place,) = (n for n, told in enumerate(checked.found) if told.name == "zero of torque_steel")
+    panel = plot_findings(checked.to_dataset()).axes[place]
+    # Four stretches at rest, the last of which is the evidence.
+    assert len(panel.lines[0].get_xdata()) == 4
 
 
 def zero(times, values, deviation=1e-3):

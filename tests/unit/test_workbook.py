@@ -111,9 +111,7 @@ CASES = {
         }
     },
     "small, with a fan": {"settings": SMALL_FAN},
-    "small, with a fan, at 30000 rpm": {
-        "settings": [*SMALL_FAN, "operation.worm_speed=30000 rpm"]
-    },
+    "small, with a fan, at 30000 rpm": {"settings": [*SMALL_FAN, "operation.worm_speed=30000 rpm"]},
     "polyglycol, fan": {
         "settings": ["operation.lubricant=ISO VG 460 polyglycol", "operation.fan=true"]
     },

@@ -134,7 +134,8 @@ class Branches(Result):
             return f"no value with a {'settled ' if loose else ''}state both ways"
         if not self.two.size:
             which = "settled states both ways" if loose else "both"
-            where = "" if both.all() else f", at the {both.sum()} of {both.size} values with {which}"
+            many = f", at the {both.sum()} of {both.size} values with {which}"
+            where = "" if both.all() else many
             return f"the same states both ways{where}"
         low, high = self.axis_text(self.two.min()), self.axis_text(self.two.max())
         between = f"at {low}" if low == high else f"between {low} and {high}"

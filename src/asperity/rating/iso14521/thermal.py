@@ -41,8 +41,8 @@ def sump_temperature(
 
     With a fan on the worm's shaft the worm must turn faster than 13.8 rpm, and the centre distance
     be above 48 mm; the sign in a + 32 is MITCalc's. The range (a 63 to 400 mm, n_1 60 to 3000 rpm,
-    u 10 to 40) is from memory. Without a fan the printed c_0 drops to zero in a sharp dip at nu_40 =
-    220.3 mm2/s.
+    u 10 to 40) is from memory. Without a fan the printed c_0 drops to zero in a sharp dip at
+    nu_40 = 220.3 mm2/s.
     """
     if fan:
         worm_speed = check("worm_speed", worm_speed, _N_1_OF_A_FAN)

@@ -285,7 +285,10 @@ def _findings(
     course = Course(zero.times, zero.values, "time (s)", f"{signal} at rest ({unit})")
     spoils = signal in TARED
     if abs(value) > max(allowed, _SURE * deviation):
-        done = "it is taken off" if mended else "it is left, since no zero is off so far"
+        done = (
+            "it is taken off" if mended
+            else "it is left, since no zero is off so far, and counts in the intervals"
+        )  # fmt: skip
         yield Finding(
             f"zero of {signal}",
             f"{value:.3g} +- {deviation:.2g} {unit} at rest at {zero.times[place]:.0f} s, "

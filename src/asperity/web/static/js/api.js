@@ -264,6 +264,9 @@ export function useLive(verb, body, delay = 0) {
   }, [verb, text, delay]);
   const path = state.data || state.error ? "" : shippedAt(verb, text);
   const ships = useAsked(path, (leave) => get(path, leave)).found;
-  return { ...state, data: state.data ?? ships, error: late ? null : state.error, late: late && !ships,
+  // As an answer is, it is shown until the next is there.
+  const last = useRef(null);
+  last.current = ships ?? last.current;
+  return { ...state, data: state.data ?? last.current, error: late ? null : state.error, late: late && !ships,
     now: !waits && Boolean(state.data) && !state.error };
 }

@@ -26,11 +26,12 @@ export function tell(text) {
 
 /** Make a file of the screen, and say so where that takes longer. */
 async function shared(title, answer) {
+  const { case: of = "" } = route.peek().params;
   sharing.value = true;
   tell("the file is being made");
   try {
     const { share } = await import("./share.js");
-    await share(title, answer);
+    await share(title, answer, of);
     tell("the file is made: all of this, for anyone, without server and network");
   } catch (error) {
     tell(`no file: ${error.message}`);
@@ -116,7 +117,9 @@ function CasePicker({ kinds, first, start = {} }) {
       title=${word === "undo" ? "Ctrl-Z" : "Ctrl-Shift-Z"} disabled=${!undoable.value[word]} onClick=${act}>
       <span aria-hidden="true">${sign}</span> <span class="word">${word}</span></button>`)}
     <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
-      title=${count ? `${count} set` : ""}>as the case has it</button>
+      title=${count ? `${count} set` : ""}><span class="sign" aria-hidden="true">↺ </span><span class="word">as the case
+        has it</span></button>
+    <span class="on-paper"><b>${known?.alias || name}</b></span>
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
 }

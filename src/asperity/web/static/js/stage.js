@@ -157,8 +157,8 @@ export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
         ${side ? html`<text class="of" x=${-REACH - 12} y="5" text-anchor="end">friction now</text>`
           : html`<text class="of" x=${REACH + 8} y="-84">friction now</text>
             <path class="lead" d=${`M${REACH + 4} -86L${REACH - 26} -62`} />`}
-        <text class="strong" x=${-REACH - 12} y="92" text-anchor="end">its mean: ${digits(100 * ratio, 3)} %</text>
-        <path class="lead" d=${`M${-REACH - 8} 84L${-Math.max(12, REACH * ratio * 0.6)} ${side ? 36 : 6}`} />
+        <text class="strong" x="-90" y="124" text-anchor="middle">its mean: ${digits(100 * ratio, 3)} %</text>
+        <path class="lead" d=${`M-90 106L${-Math.max(12, REACH * ratio * 0.6)} ${side ? 36 : 6}`} />
         ${side ? null : html`<path class="shaken" d=${`M${-place[0]} ${-place[1]}L${place[0]} ${place[1]}`} />
           <circle class="grip" cx=${place[0]} cy=${place[1]} r="13"
             onPointerDown=${grasped} ...${anyWay}
@@ -174,7 +174,8 @@ export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
         value=${Math.round(STEPS * (moment.peek() % 1))}
         ...${touch} /></label>`}
       <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? "" : "Drag the round handle."}
-        <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
+        <span class="sign-of"><span class="key holds"></span> bristles hold</span>
+        <span class="sign-of"><span class="key slips"></span> they slip</span></span>
     </div>
   </section>`;
 }

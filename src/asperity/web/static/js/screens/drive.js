@@ -135,7 +135,7 @@ function Directions({ answer }) {
 
 function Locking({ answer, found, data }) {
   const x = data && { label: "amplitude", unit: "µm", values: data.amplitude.values.map((u) => 1e6 * u) };
-  const loose = data?.settled_over.values.map((stays) => stays === 0) ?? [];
+  const loose = data?.settled_over?.values.map((stays) => stays === 0) ?? [];
   return html`<p class="big"><${Verdict} ok=${answer.locked}
       yes="holds its load without vibration" no="runs back without vibration" /></p>
     ${answer.settled ? null
@@ -189,7 +189,7 @@ export function view() {
         ${under ? html`<${Pattern} data=${under} found=${still} />` : null}<//>
       <${WorkPanel} title="Which way to shake it" name="which way" label="try each way" work=${ways}
           says="As long as shaking it once for each of the ways.">
-        ${ways.data && geometry
+        ${ways.data && geometry && speed
           ? html`<${Ways} answer=${ways.data.answer} geometry=${geometry} speed=${speed} />` : null}
         ${ways.data ? html`<${Directions} answer=${ways.data.answer} />` : null}<//>
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}

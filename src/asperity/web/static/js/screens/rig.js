@@ -214,20 +214,3 @@ function Fit({ name, id, segments }) {
     ${work.data ? html`<${Law} work=${work} segments=${segments} />` : null}
   <//>`;
 }
-<<<<<<< HEAD
-
-/** A law as it was fitted, with what the data tell of each of its parameters. */
-function Law({ found }) {
-  const ended = (end) => (end === null ? "open" : digits(end, 4));
-  const sure = ({ identifiable, why }) => html`<span class=${identifiable ? "good" : "warn"}>
-    ${identifiable ? "✓ both ends" : "~ an end is open"}</span> ${why}`;
-  return html`<${Table} region="parameters" rows=${found.parameters} columns=${[
-      ["parameter", ({ key }) => key, "row"],
-      ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
-      ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],
-      ["what the data tell", sure]]} />
-    <p class="says">chi² ${digits(found.chi2, 4)} at ${found.dof} degree${found.dof === 1 ? "" : "s"} of freedom,
-      law ${found.law}, ${found.points} measurement${found.points === 1 ? "" : "s"}.</p>`;
-}
-=======
->>>>>>> main
