@@ -4,6 +4,7 @@ import math
 
 import comparisons
 import gear_cases
+import trust
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
@@ -22,7 +23,7 @@ class ComparedTable(Directive):
             rows.append(
                 (each.quantity, f"{each.theirs:.6g}{unit}", f"{each.ours:.6g}{unit}", differ)
             )
-        return _table(self, (46, 18, 18, 18), rows)
+        return _table(self, (40, 15, 15, 15, 15), rows)
 
 
 class SizedTable(Directive):
@@ -75,12 +76,13 @@ class TextbookTable(Directive):
 
 
 class TrustTable(Directive):
-    """A row for each kind of number: how many are verified, of one source, from memory."""
+    """A row for each kind of number: how many are verified, of one source, our own, from memory."""
 
     def run(self):
-        found = list(gear_cases.trust())
-        rows = [("", "verified", "one source", "from memory"), *(map(str, each) for each in found)]
-        total = (sum(each[n] for each in found) for n in (1, 2, 3))
+        found = list(trust.trust())
+        heads = "", "verified", "one source", "own choice", "from memory"
+        rows = [heads, *(map(str, each) for each in found)]
+        total = (sum(each[n] for each in found) for n in (1, 2, 3, 4))
         return _table(self, (46, 18, 18, 18), [*map(tuple, rows), ("together", *map(str, total))])
 
 

@@ -224,25 +224,58 @@ def pushed_in_parts(before, free, give, parts):
 @pytest.mark.parametrize("free", [-3.0, -0.6, -0.2, 0.3, 0.9, 2.5])
 @pytest.mark.parametrize("give", [1e-9, 0.3, 1.0, 2.0])
 def test_along_a_line_the_mean_share_is_that_of_a_steady_push(before, free, give):
-    share, across = mean_share(before, 0.0, free, 0.0, give, give, True, 0.0, 0.0)
+    share, across = mean_share(before, 0.0, free, 0.0, give, give, 0.0, 0.0, 0.0, 0.0)
     assert share == pytest.approx(pushed_in_parts(before, free, give, 1_000_000), abs=1e-5)
     assert across == 0.0
 
 
 def test_where_the_slip_velocity_jumps_both_sides_count_half():
-    assert mean_share(-1.0, 0.0, 3.0, 0.0, 0.0, 0.0, False, 0.0, 0.0) == (0.0, 0.0)
-    assert mean_share(0.0, 2.0, 3.0, 0.0, 0.0, 0.0, False, 0.0, 0.0) == (0.5, 0.5)
+    assert mean_share(-1.0, 0.0, 3.0, 0.0, 0.0, 0.0, -4.0, 0.0, 0.0, 0.0) == (0.0, 0.0)
+    assert mean_share(0.0, 2.0, 3.0, 0.0, 0.0, 0.0, -3.0, 2.0, 0.0, 0.0) == (0.5, 0.5)
+
+
+def test_a_contact_that_sticks_up_to_a_corner_holds_what_it_held_till_then():
+    # Rounding is no slip, whichever way it points.
+    for rest in (0.0, 1e-13, -1e-13):
+        share, _ = mean_share(rest, 0.0, 50.0, 0.0, 0.1, 0.0, -50.0, 0.0, -0.4, 0.0)
+        assert share == pytest.approx(0.5 * (-0.4 + 1.0), abs=1e-12)
+
+
+def way_in_parts(slip, push, give, across, parts):
+    """How far a contact slips in a step while a steady push and friction act on it."""
+    way = 0.0
+    for _ in range(parts):
+        before = slip
+        free = slip + push / parts
+        share, _ = project(free, across, give / parts, 0.0, 0.0, 0.0)
+        slip = free - give / parts * share
+        way += 0.5 * (before + slip) / parts
+    return way
+
+
+@pytest.mark.parametrize("across", [0.0, 0.7])
+@pytest.mark.parametrize("jump", [-6.0, -0.4, 0.3, 1.5])
+@pytest.mark.parametrize("push", [-0.3, 0.0, 0.6])
+@pytest.mark.parametrize("give", [0.3, 1.0, 5.0])
+def test_after_a_corner_the_way_of_the_step_is_right(give, push, jump, across):
+    before = 0.8
+    share, _ = mean_share(
+        before, 0.0, before - jump + push * give, across, give, 0.0, jump, -across, 0.0, 0.0
+    )
+    start = before - jump + 0.5 * give * (push - 1.0)
+    way = way_in_parts(start, push * give, give, across, 20_000)
+    assert before - jump + (push - share) * give == pytest.approx(way, abs=0.02 * give)
 
 
 def test_where_the_slip_velocity_turns_steadily_the_mean_share_is_its_mean_direction():
     ways = np.linspace([0.3, 1.0], [0.5, 0.9], 100_001)
     mean = np.mean(ways / np.hypot(*ways.T)[:, None], axis=0)
-    share = mean_share(0.3, 1.0, 0.5, 0.9, 0.0, 0.0, True, 0.0, 0.0)
+    share = mean_share(0.3, 1.0, 0.5, 0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     assert share == pytest.approx(tuple(mean), abs=4e-3)
     # A quarter of the error for half the turn: order two.
     near = np.linspace([0.3, 1.0], [0.4, 0.95], 100_001)
     closer = np.mean(near / np.hypot(*near.T)[:, None], axis=0)
-    half = mean_share(0.3, 1.0, 0.4, 0.95, 0.0, 0.0, True, 0.0, 0.0)
+    half = mean_share(0.3, 1.0, 0.4, 0.95, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     assert math.dist(half, closer) < 0.3 * math.dist(share, mean)
 
 

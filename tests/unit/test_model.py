@@ -145,6 +145,20 @@ def test_the_slip_in_a_part_is_at_most_half_the_limit():
     assert model.substeps == math.ceil(10.0 * 1e-6 / (0.5 * 68.75e-9))
 
 
+@pytest.mark.parametrize(
+    ("law", "exponent", "times"),
+    [
+        ("vector", 3.25, 1.0), ("split", 1.0, 1.0), ("split", 3.25, 2.0**3.25 - 1.0),
+        ("unsplit", 3.25, 2.0**3.25 - 1.0), ("unsplit", 0.5, 1.0), ("split", 8.0, 16.0),
+    ],
+)  # fmt: skip
+def test_slip_counts_for_as_much_as_it_relaxes_an_asperity_that_it_turns_back(law, exponent, times):
+    # Dahl's asperity at its limit relaxes 2^i - 1 times as fast when the slip turns back.
+    friction = DAHL | {"law": law, "exponent": exponent}
+    model = body(BODY | {"drive_velocity": 1.0}, friction, vibration=None, step=1e-6)
+    assert model.substeps == math.ceil(times * 1e-6 / (0.5 * 68.75e-9))
+
+
 def test_the_slip_changes_little_from_part_to_part():
     # v_a (2 pi f) h^2 at most 0.12 % of s_max: 6 is the largest ratio Table 4.3 marches undivided.
     assert body(step=1e-6).substeps == 1

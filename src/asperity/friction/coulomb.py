@@ -8,6 +8,9 @@ _SLIPS = 1.0 - 1e-9  # square of the share from which the contact slips
 # Steps in which friction stops a slip that is resolved in so many parts of one; from one step less
 # on they alone count.
 _SLOW, _PARTS = 4.0, 16
+_AT_REST = 1e-9  # of the slips around a corner, below which the first is rounding of none
+_JUMPS = 0.1  # of the increments around a node, above which the wave has a corner there
+_ROUNDING = 1e-12  # of an increment of the unit wave
 
 
 @kernel
@@ -97,36 +100,84 @@ def _damped(share_x, share_y, mean_x, mean_y, after, mobility):
 
 
 @kernel
+def _part(x, y, push_x, push_y, mobility_x, mobility_y, last_x, last_y):
+    """Mean share over a part of a step in the plane, and the slip after it."""
+    free_x = x + push_x
+    free_y = y + push_y
+    share_x, share_y = project(free_x, free_y, mobility_x, mobility_y, last_x, last_y)
+    before = math.sqrt(x * x + y * y)
+    x1 = free_x - mobility_x * share_x
+    y1 = free_y - mobility_y * share_y
+    after = math.sqrt(x1 * x1 + y1 * y1)
+    slips = share_x * share_x + share_y * share_y >= _SLIPS
+    if slips and before > 0.0 and after > 0.0:
+        mean_x = (x + x1) / (before + after)
+        mean_y = (y + y1) / (before + after)
+        mobility = max(mobility_x, mobility_y)
+        share_x, share_y = _damped(share_x, share_y, mean_x, mean_y, after, mobility)
+    return share_x, share_y, free_x - mobility_x * share_x, free_y - mobility_y * share_y
+
+
+@kernel
 def _through_rest(x, y, push_x, push_y, mobility_x, mobility_y, last_x, last_y):
     """Mean share in the plane while a steady push turns, stops or sets off a slip, part by part."""
-    mobility_x /= _PARTS
-    mobility_y /= _PARTS
-    mobility = max(mobility_x, mobility_y)
     sum_x = 0.0
     sum_y = 0.0
     for _ in range(_PARTS):
-        free_x = x + push_x / _PARTS
-        free_y = y + push_y / _PARTS
-        share_x, share_y = project(free_x, free_y, mobility_x, mobility_y, last_x, last_y)
-        before = math.sqrt(x * x + y * y)
-        x1 = free_x - mobility_x * share_x
-        y1 = free_y - mobility_y * share_y
-        after = math.sqrt(x1 * x1 + y1 * y1)
-        slips = share_x * share_x + share_y * share_y >= _SLIPS
-        if slips and before > 0.0 and after > 0.0:
-            mean_x = (x + x1) / (before + after)
-            mean_y = (y + y1) / (before + after)
-            share_x, share_y = _damped(share_x, share_y, mean_x, mean_y, after, mobility)
-        x = free_x - mobility_x * share_x
-        y = free_y - mobility_y * share_y
+        share_x, share_y, x, y = _part(
+            x, y, push_x / _PARTS, push_y / _PARTS, mobility_x / _PARTS, mobility_y / _PARTS,
+            last_x, last_y,
+        )  # fmt: skip
         sum_x += share_x
         sum_y += share_y
     return sum_x / _PARTS, sum_y / _PARTS
 
 
 @kernel
+def jump_between(base, increment, ahead, smooth):
+    """How much a base's increment jumps at the node between two steps; 0 but at a corner.
+
+    ``increment`` and ``ahead`` are those of the unit wave before and after the node, ``smooth``
+    says that the wave has no corners.
+    """
+    if smooth or abs(ahead - increment) <= _JUMPS * (abs(ahead) + abs(increment)) + _ROUNDING:
+        return 0.0
+    return base * (ahead - increment)
+
+
+@kernel
+def _at_corner(
+    before_x, before_y, start_x, start_y, push_x, push_y, mobility_x, mobility_y, last_x, last_y
+):  # fmt: skip
+    """Mean share around a corner, part by part after it, for the way of the step to be right.
+
+    ``start`` is the slip before it seen from the base after it. What stuck before the corner was
+    held by what it was held with, not by all of its friction.
+    """
+    before = math.sqrt(before_x * before_x + before_y * before_y)
+    first_x = last_x
+    first_y = last_y
+    if before > _AT_REST * (before + math.sqrt(start_x * start_x + start_y * start_y)):
+        first_x = before_x / before
+        first_y = before_y / before
+    x = start_x + 0.5 * (push_x - mobility_x * first_x)
+    y = start_y + 0.5 * (push_y - mobility_y * first_y)
+    sum_x = 0.5 * first_x
+    sum_y = 0.5 * first_y
+    for n in range(_PARTS):
+        share_x, share_y, x, y = _part(
+            x, y, push_x / _PARTS, push_y / _PARTS, mobility_x / _PARTS, mobility_y / _PARTS,
+            last_x, last_y,
+        )  # fmt: skip
+        weight = (1.0 - (n + 0.5) / _PARTS) / _PARTS
+        sum_x += weight * share_x
+        sum_y += weight * share_y
+    return sum_x, sum_y
+
+
+@kernel
 def mean_share(
-    before_x, before_y, free_x, free_y, mobility_x, mobility_y, smooth, last_x, last_y
+    before_x, before_y, free_x, free_y, mobility_x, mobility_y, jump_x, jump_y, last_x, last_y
 ):  # fmt: skip
     r"""Mean friction share around a time node, from the slip of the steps on both sides of it.
 
@@ -137,17 +188,26 @@ def mean_share(
     ----------
     before_x, before_y : float
         Slip of the step before the node.
-    free_x, free_y, mobility_x, mobility_y, last_x, last_y : float
+    free_x, free_y, mobility_x, mobility_y : float
         The step after it, as in `project`.
-    smooth : bool
-        Whether the slip velocity changes steadily, or jumps at the node.
+    jump_x, jump_y : float
+        What the base's increment jumps by at the node, see `jump_between`.
+    last_x, last_y : float
+        The share at the node before.
 
     Returns
     -------
     tuple of 2 floats
         Friction force over :math:`\mu F_N`, by component, in the direction of the slip.
     """
-    if smooth and before_x != 0.0 and before_y == 0.0 and free_y == 0.0:
+    if jump_x != 0.0 or jump_y != 0.0:
+        start_x = before_x - jump_x
+        start_y = before_y - jump_y
+        return _at_corner(
+            before_x, before_y, start_x, start_y, free_x - start_x, free_y - start_y,
+            mobility_x, mobility_y, last_x, last_y,
+        )  # fmt: skip
+    if before_x != 0.0 and before_y == 0.0 and free_y == 0.0:
         return _reversal(before_x, free_x, mobility_x), 0.0
     share_x, share_y = project(free_x, free_y, mobility_x, mobility_y, last_x, last_y)
     if share_x * share_x + share_y * share_y < _SLIPS:
@@ -159,10 +219,6 @@ def mean_share(
     if before == 0.0 or after == 0.0:
         return share_x, share_y
     mobility = max(mobility_x, mobility_y)
-    if not smooth:
-        mean_x = 0.5 * (before_x / before + after_x / after)
-        mean_y = 0.5 * (before_y / before + after_y / after)
-        return _damped(share_x, share_y, mean_x, mean_y, after, mobility)
     mean_x = (before_x + after_x) / (before + after)
     mean_y = (before_y + after_y) / (before + after)
     mean_x, mean_y = _damped(share_x, share_y, mean_x, mean_y, after, mobility)

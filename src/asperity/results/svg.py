@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 from asperity.results.language import said
 from asperity.results.typeset import typeset
 from asperity.results.words import Number, Sentence
+from asperity.sources import Source
 
 Point = tuple[float, float]
 Words = Sequence[str]
@@ -25,6 +26,8 @@ _PENS = {
 }
 SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 """Of drawings (ISO 5455), from memory."""
+
+SCALES_SOURCE = Source("ISO 5455", "from memory", "scales of drawings")
 
 
 def scale_for(width: float, height: float, widest: float, highest: float) -> float:

@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from asperity.friction.coulomb import mean_share, project
+from asperity.friction.coulomb import jump_between, mean_share, project
 from asperity.friction.dahl import VECTOR, advance, rate_along
 from asperity.friction.lugre import stribeck_share
 from asperity.kernels.compiled import kernel
@@ -271,8 +271,10 @@ def march_block(state, sums, p, increments, steps, nodes):
             wx1 = retained * wx + mobility_x * free
             free_dx = wx1 - p.base_x * ahead
             free_dy = own * wy1 - p.base_y * ahead
+            jump_x = jump_between(p.base_x, u, ahead, smooth)
+            jump_y = jump_between(p.base_y, u, ahead, smooth)
             fx, fy = mean_share(
-                dx, dy, free_dx, free_dy, mobility_x, own * mobility_y, smooth, fx, fy
+                dx, dy, free_dx, free_dy, mobility_x, own * mobility_y, jump_x, jump_y, fx, fy
             )
             wx1 -= mobility_x * fx
             wy1 -= mobility_y * fy

@@ -11,7 +11,7 @@ Heights are in units of the penetration's length (`asperity.normal`), loads in u
 
 import math
 
-from asperity.friction.coulomb import mean_share
+from asperity.friction.coulomb import jump_between, mean_share
 from asperity.friction.dahl import TINY
 from asperity.friction.loaded import STIFFNESS, advance_loaded, friction_loss
 from asperity.friction.lugre import stribeck_share
@@ -219,7 +219,8 @@ def march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes):
             free_dy = own * wy - p.base_y * ahead
             share_x, share_y = mean_share(
                 dx, dy, free_dx, free_dy, limit * p.mobility_x, limit * own * p.mobility_y,
-                p.smooth, share_x, share_y,
+                jump_between(p.base_x, u, ahead, p.smooth),
+                jump_between(p.base_y, u, ahead, p.smooth), share_x, share_y,
             )  # fmt: skip
             fx = limit * share_x
             fy = limit * share_y

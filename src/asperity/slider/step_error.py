@@ -17,7 +17,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.integrators import Integrator
+from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import close_on_twice, friction_on_twice
 from asperity.slider.result import SlideResult
@@ -65,9 +65,11 @@ def refined(
         over = error / allowed(answer)
         if _of_the_error(model) == _ORDER_TWO:
             over = math.sqrt(over)
-        if model.solve.step is not None:
+        two_phase = model.solve.scheme == "two-phase"
+        if model.solve.step is not None or two_phase:
             step = answer.model.step / answer.model.substeps / (1.1 * over)
-            return _noted(answer, f"give a solve.step of at most {step:.2g} s, or none")
+            other = "leave solve.scheme out" if two_phase else "none"
+            return _noted(answer, f"give a solve.step of at most {step:.2g} s, or {other}")
         finer = min(2 ** math.ceil(math.log2(over)), _FINEST // answer.model.finer)
         if finer < 2:
             return _noted(answer, "no finer step was tried")
@@ -115,7 +117,7 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
 
 
 def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
-    """Return the error of the ratio of a march, from where it ends; None of the two-phase scheme.
+    """Return the error of the ratio of a march, from where it ends; None where it is not found.
 
     Parameters
     ----------
@@ -129,7 +131,7 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     model, step, steps = body.model, table.step, table.steps
     state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
     if model.solve.scheme == "two-phase":
-        return None
+        return _of_two_phases(body, table)
     cycles = steps * step * model.frequency
     if not model.vibrates:
         return _marched_again(model, step, state, springs, max(1, int(_SHARE * steps / 2.0)))
@@ -177,6 +179,8 @@ def _of_the_error(model: Model) -> float:
     """Return what the difference to a solution on twice the step is of the error of the first."""
     smooth = model.shape is None or not model.shape.cornered
     friction = model.friction
+    if model.solve.scheme == "two-phase":
+        return _ORDER_ONE
     if friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT:
         # A body free sideways answers to a slip that turns; where friction turns with it at once
         # the step makes them chatter.
@@ -208,6 +212,35 @@ def _marched_again(
         _run_once(cycle)
         means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
     error = abs(means[1] - means[0]) / _of_the_error(model)
+    return error if math.isfinite(error) else None
+
+
+def _of_two_phases(body: Integrator, table: Timetable) -> float | None:
+    """Return the error of the two-phase scheme: its march goes on in steps twice as long too."""
+    model, step = body.model, table.step
+    # A body that rings on its drive tells of its mean friction in whole periods only; in as long a
+    # time before, it comes to where the longer steps have it.
+    time = _SHARE * table.steps * step / 2.0
+    for period in (1.0 / model.frequency if model.vibrates else 0.0, model.ring_period):
+        if 0.0 < period <= time:
+            time = math.floor(time / period) * period
+    count = max(1, round(0.5 * time / step))
+    end = model.frequency * (table.steps * step - model.start)
+    means = []
+    for longer in (1, 2):
+        again = integrator(model, longer * step)
+        again.kept["state"][:] = body.kept["state"]
+        again.kept["memory"][:] = body.kept["memory"]
+        for name in ("velocity_x", "velocity_y"):
+            again.state[name] *= longer
+        again.kept["memory"]["base_x"] *= longer
+        steps = 2 * count // longer
+        for stretch in range(2):
+            again.clear()
+            begin = end + stretch * steps * again.rate
+            again.march(begin, steps, np.empty((3, 1, 0)), record=False)
+        means.append(float(again.sums["friction_x"] / again.sums["steps"]))
+    error = abs(means[1] - means[0]) / _ORDER_ONE
     return error if math.isfinite(error) else None
 
 

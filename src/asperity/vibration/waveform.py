@@ -34,6 +34,7 @@ STEPS_A_TURN = 16
 NO_TABLE = np.zeros(2)
 # A cycle is divided into up to so many times the steps asked for, for its corners to end steps.
 _MOST_FINER = 4
+_DWELLS = 1.0 - 1e-9  # part of the amplitude from which a square wave has come to its dwell
 
 
 class Wave(NamedTuple):
@@ -91,7 +92,9 @@ def _unit_displacement(wave, cycles):
         distance = phase - 1.0
     if wave.waveform == TRIANGLE:
         return 4.0 * distance
-    return max(-1.0, min(1.0, 2.0 * distance / wave.rise))
+    # A step that ends on a corner but for rounding would find it creeping while it dwells.
+    flank = 2.0 * distance / wave.rise
+    return flank if abs(flank) < _DWELLS else math.copysign(1.0, flank)
 
 
 @kernel

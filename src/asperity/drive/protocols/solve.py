@@ -217,6 +217,7 @@ def _summarise(
     if kind is HeldWheel:
         # The motor pushes as it does without vibration, and the wheel's torque is what changes.
         measured, ratio = torque, rest.wheel_torque / mean(last, "wheel_torque")
+    settled = judged.settled and rest.settled
     saved = power - ledger.drive
     efficiency = None
     if driven and taken is not None and ledger.drive + taken.electrical_power > 0.0:
@@ -229,7 +230,7 @@ def _summarise(
         torque_ratio=ratio,
         torque_ratio_closed_form=_closed_form(problem, model),
         torque_balance=judged.balance,
-        settled=judged.settled and rest.settled,
+        settled=settled,
         settled_by=settled_by(problem, judged, rest),
         step_error=None if off is None or not math.isfinite(off.ratio) else off.ratio,
         spread=judged.spread if math.isfinite(judged.spread) else None,
@@ -245,7 +246,7 @@ def _summarise(
         ledger=ledger,
         energy_ratio=put_in / power if driven else None,
         saved_per_actuator=saved / ledger.actuator
-        if driven and ledger.actuator > _LEAST_ACTUATOR * power
+        if settled and driven and ledger.actuator > _LEAST_ACTUATOR * power
         else None,
         actuator_electrical=None if taken is None else taken.electrical_power,
         actuator_apparent=None if taken is None else taken.apparent_power,

@@ -12,6 +12,7 @@ import { Screen } from "../shell.js";
 import { Strips } from "../strips.js";
 import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
+import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
 import { firstError, Report, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
@@ -46,11 +47,12 @@ const less = (ratio) => (typeof ratio !== "number" ? "."
 const Ratio = ({ found, answer }) => html`
   <p class="large">${answer.settled ? null : "("}<${Num} entry=${found.torque_ratio} count=${4} />${
     answer.settled ? null : ")"}</p>
-  <div class="ratio"><p>of the worm's torque without vibration is left${less(answer.torque_ratio)}<br />
+  <div class="ratio"><p>of the worm's torque without vibration is left${
+    answer.settled ? less(answer.torque_ratio) : "."}<br />
   <${Verdict} ok=${answer.settled} yes="settled" no="not settled" />${" "}
     <span class="of">balance of the wheel</span>${" "}<${Num} entry=${found.torque_balance} count=${3} /></p>
-  ${answer.settled ? null : html`<p class="warn">▲ The wheel coasts or speeds up: this ratio is not what the
-    gearset settles to.</p>`}</div>`;
+  ${answer.settled ? null : html`<p class="warn" role="status">▲ Not settled, no prediction: ${
+    inWords(answer.settled_by)}.</p>`}</div>`;
 
 function Ledger({ answer, found }) {
   const most = Math.max(...POWERS.map(([key]) => Math.abs(answer[key])), 1e-12);
@@ -112,15 +114,16 @@ function Ways({ answer, geometry, speed }) {
   const { set } = useCase();
   return html`<div class="ways">${answer.directions.map((way) => html`<${Way} key=${way.mode} mode=${way.mode}
       geometry=${geometry} speed=${speed}>
-    <p><b>${digits(way.torque_ratio, 3)}</b> of the torque, ${digits(way.saved_W, 3)} W saved${
-      way.settled ? "" : ", not settled"}</p>
+    <p>${way.settled ? html`<b>${digits(way.torque_ratio, 3)}</b> of the torque, ${digits(way.saved_W, 3)} W saved`
+      : html`<${Verdict} ok=${false} no="not settled" />: no saving is told`}</p>
     <button type="button" onClick=${() => set("vibration.mode", way.mode)}>take ${way.mode}</button><//>`)}</div>`;
 }
 
 function Directions({ answer }) {
   const number = (said, key, count = 4) => [said, (way) => digits(way[key] ?? NaN, count), "right"];
   return html`<${Table} region="directions" rows=${answer.directions} columns=${[
-      ["way", ({ mode }) => mode, "row"], number("torque ratio", "torque_ratio"),
+      ["way", ({ mode }) => mode, "row"],
+      ["torque ratio", (way) => (way.settled ? "" : "(") + digits(way.torque_ratio, 4) + (way.settled ? "" : ")"), "right"],
       number("balance", "torque_balance", 2),
       ["state", (way) => html`<${Verdict} ok=${way.settled} yes="settled" no="not settled" />`],
       number("saved (W)", "saved_W"), number("per µm (W)", "saved_per_micrometre_W"),
@@ -132,12 +135,17 @@ function Directions({ answer }) {
 
 function Locking({ answer, found, data }) {
   const x = data && { label: "amplitude", unit: "µm", values: data.amplitude.values.map((u) => 1e6 * u) };
+  const loose = data?.settled_over?.values.map((stays) => stays === 0) ?? [];
   return html`<p class="big"><${Verdict} ok=${answer.locked}
       yes="holds its load without vibration" no="runs back without vibration" /></p>
+    ${answer.settled ? null
+      : html`<p role="status">The creep has not settled, no prediction: ${inWords(answer.settled_by)}.</p>`}
     <${Facts} found=${found} keys=${HELD} />
     ${data ? html`<${Plot} title="Creep of the wheel, the motor off" y="creep (rad/s)" x=${x} xlog=${true} series=${[
       { label: "marched", unit: "rad/s", values: data.creep_over.values, points: "round" },
       { label: "far beyond the threshold, closed form", unit: "rad/s", values: data.creep_limit.values, dash: [6, 4] },
+      ...(loose.some(Boolean) ? [{ label: "not settled", unit: "rad/s", points: "square", bare: true, colour: 6,
+        values: data.creep_over.values.map((value, at) => (loose[at] ? value : null)) }] : []),
     ]} />` : null}`;
 }
 
@@ -157,7 +165,7 @@ export function view() {
     radius: under.node_radius.values.map((r) => 1e3 * r), face: under.node_face.values.map((z) => 1e3 * z),
     pressure: rows(under.pattern).at(-1).map((pressure) => pressure / 1e6),
   } : null), [under, loaded.stale]);
-  const creep = useData(held, ["amplitude", "creep_over", "creep_limit"]);
+  const creep = useData(held, ["amplitude", "creep_over", "creep_limit", "settled_over"]);
   const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
       answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}

@@ -166,7 +166,7 @@ function Found({ name, names, data }) {
     ({ label: words(dim), unit: plainUnit(data[dim]?.units), values: data[dim]?.values ?? [] }));
   const loose = values.map((value, at) => value !== null && data[SETTLED]?.values[at] === 0);
   const count = loose.filter(Boolean).length;
-  const says = count ? html`<p role="status">${count} of ${values.length} points
+  const says = count ? html`<p role="status">${count} of ${values.length} points${" "}
     ${count === 1 ? "has" : "have"} not settled: no prediction.</p>` : null;
   const marks = count ? [{ label: "not settled", unit: plainUnit(units), points: "square",
     bare: true, values: values.map((value, at) => (loose[at] ? value : null)), colour: 6 }] : [];
