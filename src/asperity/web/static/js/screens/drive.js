@@ -123,7 +123,8 @@ function Directions({ answer }) {
   const number = (said, key, count = 4) => [said, (way) => digits(way[key] ?? NaN, count), "right"];
   return html`<${Table} region="directions" rows=${answer.directions} columns=${[
       ["way", ({ mode }) => mode, "row"],
-      ["torque ratio", ({ settled, torque_ratio: left }) => (settled ? digits(left, 4) : `(${digits(left, 4)})`), "right"],
+      ["torque ratio", ({ settled, torque_ratio: left }) => (settled ? digits(left, 4) : `(${digits(left, 4)})`),
+        "right"],
       number("balance", "torque_balance", 2),
       ["state", (way) => html`<${Verdict} ok=${way.settled} yes="settled" no="not settled" />`],
       number("saved (W)", "saved_W"), number("per µm (W)", "saved_per_micrometre_W"),
