@@ -83,7 +83,8 @@ class TrustTable(Directive):
         heads = "", "verified", "one source", "own choice", "from memory"
         rows = [heads, *(map(str, each) for each in found)]
         total = (sum(each[n] for each in found) for n in (1, 2, 3, 4))
-        return _table(self, (40, 15, 15, 15, 15), [*map(tuple, rows), ("together", *map(str, total))])
+        rows.append(("together", *map(str, total)))
+        return _table(self, (40, 15, 15, 15, 15), [*map(tuple, rows)])
 
 
 def _table(directive, widths, rows):

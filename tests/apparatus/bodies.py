@@ -62,7 +62,7 @@ def _with_units(table):
     }
 
 
-def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None):
+def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None, corners=False):
     """Return a body by lot.
 
     Parameters
@@ -73,7 +73,11 @@ def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None):
         Friction to choose from.
     pressed : bool, optional
         Whether the load follows a contact; left to chance if left out.
+    corners : bool
+        Whether the drive gives way, and what shakes has corners.
     """
+    # What has come since is left to another chance: the bodies of a seed stay what they are.
+    since = rng.spawn(1)[0]
 
     def log(low, high):
         return math.exp(rng.uniform(math.log(low), math.log(high)))
@@ -116,7 +120,7 @@ def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None):
         if often(0.4):
             friction["viscous_damping"] = critical * log(0.01, 0.5)
     friction["transfer"] = one(1.0, 1.0, 0.71, 0.0)
-    rigid = often(0.35)
+    rigid = not corners and often(0.35)
     slider = {
         "drive_velocity": velocity, "normal_force": load, "mass": mass,
         "lateral": one("free", "guided"),
@@ -128,7 +132,8 @@ def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None):
         slider["drive_stiffness"] = drive
         if often(0.7):
             slider["drive_damping"] = 2.0 * math.sqrt(drive * mass) * log(0.01, 0.7)
-    waveform = one("sine", "sine", "sine", "triangle", "square", "sampled")
+    cornered = ("triangle", "square")
+    waveform = one(*cornered) if corners else one("sine", "sine", "sine", *cornered, "sampled")
     vibration = {"waveform": waveform, "frequency": frequency}
     rise = 0.0
     if waveform == "square":
@@ -166,6 +171,8 @@ def draw(rng, models=("dahl", "lugre", "coulomb", "springs"), *, pressed=None):
             friction["springs"] = 64  # sixteen are right to 1.3e-3 of the load only
         if model != "springs" and often(0.2):
             friction["load_exponent"] = one(2 / 3, 1.3)
+        if model in ("dahl", "lugre") and since.random() < 0.15:
+            friction["keeps"] = "deflection"
         tables["normal"] = _with_units(normal)
     tables["slider"], tables["friction"] = _with_units(slider), _with_units(friction)
     tables["vibration"] = _with_units(vibration)

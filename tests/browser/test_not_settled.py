@@ -93,7 +93,6 @@ def test_a_drive_that_coasts_has_no_verdict_and_saves_nothing(loose):
     # Three of its amplitudes have not settled, which its picture names.
     chart = page.get_by_role("img").and_(page.get_by_label("Creep of the wheel, the motor off"))
     expect(chart.first).to_have_accessible_name(re.compile("not settled"))
-    page.screenshot(path="/tmp/rb_drive.png", full_page=True)
 
 
 def test_the_least_of_a_grid_is_of_what_has_settled(seen):
@@ -110,4 +109,3 @@ def test_the_least_of_a_grid_is_of_what_has_settled(seen):
     expect(page.get_by_text("Least:")).to_contain_text("at velocity ratio 6")
     drawn = page.get_by_role("img").and_(page.get_by_label("mean drive force over mu F_N"))
     expect(drawn.first).to_have_accessible_name(re.compile("not settled over velocity ratio"))
-    page.screenshot(path="/tmp/rb_sweep.png")

@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 from apparatus.grid import slow
 
+from asperity.casefile import read_case
 from asperity.friction import Friction
 from asperity.normal import Normal
-from asperity.slider import solve
+from asperity.slider import TABLES, solve
 from asperity.slider.batch import solve_many
 from asperity.slider.model import Model
 from asperity.slider.parameters import Slider, Solve
@@ -175,6 +176,47 @@ def test_under_a_load_that_changes_the_order_is_two_and_one_at_corners(wave, exp
     assert coarse < 3e-5
 
 
+HELD = {
+    "drive_velocity": 2.127e-5, "normal_force": 253.96, "mass": 0.0896127, "lateral": "guided",
+    "drive_stiffness": 6955787.0, "drive_damping": 603.853,
+}  # fmt: skip
+LIGHT = {
+    "drive_velocity": 7.39854e-7, "normal_force": 0.53265, "mass": 0.000536564,
+    "lateral": "guided", "drive_stiffness": 339530.6, "drive_damping": 1.365696,
+}  # fmt: skip
+TRANSFERRED = {
+    "waveform": "square", "frequency": 430.63, "rise_time": 0.11484 / 430.63,
+    "velocity_ratio": 4.98662, "direction": 5.518693,
+}  # fmt: skip
+ON_THE_BODY = {
+    "waveform": "square", "frequency": 346.42, "rise_time": 0.1954016 / 346.42,
+    "velocity_ratio": 18.71752, "direction": 1.975815, "applied_to": "body",
+}  # fmt: skip
+# What tiny steps of a plain way give (`apparatus.plain_body`), to 2e-4 of mu F_N.
+STOPS_AT_CORNERS = [
+    (HELD, COULOMB | {"mu": 0.0541118, "transfer": 0.71}, TRANSFERRED, 0.87264),
+    (LIGHT, COULOMB | {"mu": 0.0544549}, ON_THE_BODY, 0.14721),
+]
+
+
+@pytest.mark.parametrize(("slider", "friction", "wave", "expected"), STOPS_AT_CORNERS)
+def test_a_body_that_friction_stops_at_corners_moves_as_in_tiny_steps(
+    slider, friction, wave, expected
+):
+    for steps in (500, 700, 1100):
+        step = 1.0 / (steps * wave["frequency"])
+        answer = solve(body(slider, friction, wave, step=step), history=False)
+        assert answer.ratio == pytest.approx(expected, abs=2e-4)
+
+
+def test_steps_that_end_on_corners_but_for_rounding_find_no_creep_in_a_square_wave_s_dwell():
+    for steps in range(510, 700, 6):
+        rise = 2.0 * round(0.1 * steps) / steps
+        model = body(GUIDED, COULOMB, across(rise), step=1.0 / (4000.0 * steps))
+        waves = model.shape.increments(0.0, 1.0 / steps, 5 * steps)
+        assert np.unique(np.abs(waves[np.abs(waves) < 1e-9])).tolist() == [0.0]
+
+
 def test_the_error_of_the_step_is_what_a_finer_step_shows():
     for slider, friction in ((RIGID, COULOMB), (FREE, COULOMB), (GUIDED, DAHL)):
         answer = solve(body(slider, friction, step=1.0 / (4000.0 * 300)), history=False)
@@ -209,6 +251,23 @@ def test_left_out_the_step_is_chosen_by_its_error_and_given_it_is_noted():
     assert given.step_error > WANTED * given.ratio
     assert "give a solve.step of at most" in given.notes[-1]
     assert abs(given.ratio - chosen.ratio) > WANTED * chosen.ratio
+
+
+def test_the_two_phase_scheme_tells_its_error_and_a_note_the_step_that_would_do():
+    # It is of order one, and goes to the law ``split``.
+    case = ["solve.scheme=two-phase", "friction.transfer=0.71"]
+    truth = in_table_4_4("solve.method=periodic", "friction.transfer=0.71").ratio
+    answers = [in_table_4_4(*case, f"solve.step={step} us") for step in (7.5, 2.0)]
+    for answer in answers:
+        assert answer.step_error == pytest.approx(abs(answer.ratio - truth), rel=0.5)
+        assert answer.settled
+    assert answers[0].step_error > WANTED * answers[0].ratio
+    assert "or leave solve.scheme out" in answers[0].notes[-1]
+    assert not any("solve.step" in note for note in answers[1].notes)
+
+
+def in_table_4_4(*settings):
+    return solve(Model.from_case(read_case("table-4.4", TABLES, settings)), history=False)
 
 
 def test_a_lane_tells_the_error_of_its_single_march():

@@ -95,7 +95,7 @@ def test_what_was_solved_before_it_was_interrupted_is_not_solved_again(cached):
             if done == 3:
                 raise Interrupted("")
 
-    with pytest.raises(Interrupted):
+    with pytest.raises(Interrupted, match="3 of 5 points are kept; the same command goes on"):
         misalign.answer(made, Stopped())
     assert len(cached) == 3
     told = []

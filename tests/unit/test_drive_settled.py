@@ -121,13 +121,13 @@ class TestLocking:
     def told(self, monkeypatch):
         """Return what `locking` says of marches that creep from there on, some not settled."""
 
-        def of(is_loose, given="20 um"):
+        def of(is_loose, given="20 um", spread=2.0):
             def marched(shaken, *_, **__):
                 each = []
                 for one, _ in shaken:
                     speed = -1e6 * max(one.amplitude - CREEPS_FROM, 0.0)
                     answer = dataclasses.replace(settled(), problem=one, creep=speed)
-                    each.append(loose(answer) if is_loose(one.amplitude) else answer)
+                    each.append(loose(answer, spread=spread) if is_loose(one.amplitude) else answer)
                 return each
 
             monkeypatch.setattr(locking, "solve_many", marched)
@@ -165,6 +165,18 @@ class TestLocking:
         below = told(lambda u: u < CREEPS_FROM)
         assert below.threshold is None
         assert any("between 0 and 0.3" in note for note in below.notes)
+
+    def test_takes_what_creeps_in_all_blocks_for_creeping_though_its_speed_has_not_settled(
+        self, told
+    ):
+        every = told(lambda _: False)
+        one = told(lambda u: u > CREEPS_FROM, spread=0.02)
+        assert one.threshold == every.threshold
+        assert not one.settled_over[one.amplitude > CREEPS_FROM].any()
+        assert any("not settled, but creeps in all its blocks" in note for note in one.notes)
+        assert not any("in all its blocks" in note for note in every.notes)
+        # What has not settled never shows that it holds.
+        assert told(lambda u: u < CREEPS_FROM, spread=0.0).threshold is None
 
     def test_says_that_the_creep_it_was_asked_for_has_not_settled(self, told):
         one = told(lambda u: u > 15e-6)

@@ -19,9 +19,10 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.drive.lacking import require_all
+from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import solve_many
-from asperity.drive.protocols.solve import asked
+from asperity.drive.protocols.solve import asked, least_creep
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult, inputs
@@ -47,8 +48,9 @@ _MICRO = 1e6
 class Locking(Result):
     """Whether a gearset holds, and from which vibration on it creeps.
 
-    A march that has not settled tells neither: the threshold is sought between those that have, and
-    is left out where others lie between them.
+    A march that has not settled holds nowhere, and creeps where each of its blocks does by more
+    than they are apart: the threshold is sought between what holds and what creeps, and is left out
+    where others lie between them.
     """
 
     title: ClassVar[str] = "Self-locking of a worm gearset under vibration"
@@ -132,7 +134,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     turn = 1.0 / (point.length * point.ratio)
     frequency = 2.0 * math.pi * problem.vibrated[1].frequency
     closed = slip * (1.0 - share) / along if locked else None
-    search = _Search(problem, reduced, turn * along * frequency, run)
+    search = _Search(problem, reduced, point, turn * along * frequency, run)
     amplitudes = _CHART * slip / along
     marched = search.marches([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
     own = marched[-1]
@@ -190,9 +192,18 @@ def _creeps_always(friction: Friction) -> bool:
 
 
 class _Marched(NamedTuple):
-    """What a march without a motor came to: the wheel's speed in the load's direction, rad/s."""
+    """What a march without a motor came to.
+
+    Attributes
+    ----------
+    creep, spread : float
+        The wheel's speed in the load's direction, and how far its blocks are apart in it, rad/s.
+    settled, settled_by, step_error
+        As of `asperity.drive.result.DriveResult`.
+    """
 
     creep: float
+    spread: float
     settled: bool
     settled_by: str
     step_error: float | None
@@ -201,14 +212,19 @@ class _Marched(NamedTuple):
 class _Search:
     """Marches at many amplitudes; ``unit`` is the wheel's speed per amplitude."""
 
-    def __init__(self, problem: DriveProblem, reduced: Reduction, unit: float, run: Run) -> None:
+    def __init__(
+        self, problem: DriveProblem, reduced: Reduction, point: MeshPoint, unit: float, run: Run
+    ) -> None:
         self._problem = problem
+        self._point = point
         self._reduced = reduced
         self._unit = unit
         self._run = run
         self._known = run.resume(key(code_key(__name__), asked(problem))) or {}
         # Whether it creeps at an amplitude, None where it has not settled.
         self._moves: dict[float, bool | None] = {}
+        # Those that creep, at a speed that has not settled.
+        self._unsteady: set[float] = set()
 
     def marches(self, amplitudes: Sequence[float] | FloatArray) -> list[_Marched]:
         """Return what it does at each amplitude."""
@@ -217,7 +233,7 @@ class _Search:
             for amplitude in amplitudes
         ]
         found = solve_many(shaken, self._run, what="amplitudes", known=self._known)
-        return [_marched(each) for each in found]
+        return [_marched(each, self._point) for each in found]
 
     def threshold(
         self, amplitudes: FloatArray, marched: Sequence[_Marched]
@@ -242,45 +258,50 @@ class _Search:
                     "amplitudes have not, and the threshold may be there",
                 )
             return None, ("no amplitude up to 20 times its elastic slip sets it free",)
-        if not _creeps_always(self._problem.friction):
-            for _ in range(_DEEPEST if low is None else 0):
-                self._try(_LOWER * high)
-                low, high, loose = self._bounds()
-                if low is not None:
-                    break
-        if low is None:
-            return (None, (_between(0.0, high, loose),)) if loose else (0.0, ())
-        for _ in range(_ROUNDS):
+        deeper = 0 if low or _creeps_always(self._problem.friction) else _DEEPEST
+        for _ in range(deeper):
+            self._try(_LOWER * high)
+            low, high, loose = self._bounds()
+            if low:
+                break
+        for _ in range(_ROUNDS if low else 0):
             self._try(np.geomspace(low, high, _AT_ONCE + 2)[1:-1])
             low, high, loose = self._bounds()
-        return (None, (_between(low, high, loose),)) if loose else (math.sqrt(low * high), ())
+        if loose:
+            return None, (_between(low, high, loose),)
+        told = f"the march at {_MICRO * high:.3g} um has not settled, but creeps in all its blocks"
+        return math.sqrt(low * high), (told,) if high in self._unsteady else ()
 
     def _try(self, amplitudes: FloatArray) -> None:
         self._keep(amplitudes, self.marches(amplitudes))
 
     def _keep(self, amplitudes: FloatArray, marched: Sequence[_Marched]) -> None:
         for amplitude, each in zip(amplitudes.tolist(), marched, strict=True):
-            creeps = bool(each.creep > _CREEPS * self._unit * amplitude)
+            creeps = bool(each.creep > (least := _CREEPS * self._unit * amplitude))
             self._moves[amplitude] = creeps if each.settled else None
+            if not each.settled and each.creep - each.spread > least:
+                self._moves[amplitude] = True
+                self._unsteady.add(amplitude)
 
-    def _bounds(self) -> tuple[float | None, float, list[float]]:
+    def _bounds(self) -> tuple[float, float, list[float]]:
         """Return the greatest that holds below the least that creeps, that, and what is between.
 
-        Infinite where none creeps.
+        0 and infinite where there is none.
         """
         high = min((u for u, moves in self._moves.items() if moves), default=math.inf)
-        holds = [u for u, moves in self._moves.items() if moves is False and u < high]
-        low = max(holds, default=None)
-        loose = [u for u, moves in self._moves.items() if moves is None and (low or 0.0) < u < high]
+        low = max((u for u, moves in self._moves.items() if moves is False and u < high), default=0)
+        loose = [u for u, moves in self._moves.items() if moves is None and low < u < high]
         return low, high, loose
 
 
-def _marched(found: DriveResult | AsperityError) -> _Marched:
+def _marched(found: DriveResult | AsperityError, point: MeshPoint) -> _Marched:
     if isinstance(found, AsperityError):
         raise found
     if found.creep is None:
         raise ConvergenceError("a march without a motor told no creep", reached={})
-    return _Marched(-found.creep + 0.0, found.settled, found.settled_by, found.step_error)
+    apart = math.inf if found.spread is None else found.spread
+    apart *= max(least_creep(found.problem, point), abs(found.creep))
+    return _Marched(-found.creep + 0.0, apart, found.settled, found.settled_by, found.step_error)
 
 
 def _between(low: float, high: float, loose: Sequence[float]) -> str:

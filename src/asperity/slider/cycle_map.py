@@ -45,6 +45,8 @@ class Cycle:
         Largest scaled change of an unknown over the cycle.
     run : int
         Cycles integrated so far.
+    step, phase : float
+        Its step, s, and where in the wave it begins, in cycles.
 
     Parameters
     ----------
@@ -55,6 +57,7 @@ class Cycle:
     def __init__(self, model: Model, steps: int, step: float, phase: float = 0.0) -> None:
         self.body = integrator(model, step)
         self.step = step
+        self.phase = phase
         self.residual = math.inf
         self.run = 0
         self.period = 1

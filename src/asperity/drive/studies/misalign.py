@@ -17,7 +17,7 @@ from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces, grid_of
 from asperity.drive.static.loaded import Loaded
-from asperity.drive.static.notes import rigid_parts
+from asperity.drive.static.notes import few_phases, rigid_parts
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.studies.misaligned import Misaligned
 from asperity.drive.studies.points import solve_points
@@ -113,7 +113,7 @@ def answer(study: Study, run: Run) -> Misaligned:
     if all(isinstance(each, str) for each in found[1:]):
         raise ConvergenceError(f"no point has an answer; the first: {found[1]}")
     names = tuple(place.name for place in study.places)
-    notes = [*rigid_parts(nominal)]
+    notes = [*few_phases(nominal), *rigid_parts(nominal)]
     notes.append(
         "the wheel's rim is held at its inside: what its web, its hub and the housing give is not "
         "in it but where [shaft] says so"

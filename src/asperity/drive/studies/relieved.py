@@ -10,6 +10,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.result import inputs
+from asperity.drive.static.notes import few_phases
 from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
@@ -121,6 +122,7 @@ class Relieved(Drawn):
             notes=(
                 "each design at the worst of: " + "; ".join(stands),
                 *(f"{each.name}: {each.failed}" for each in designs if each.failed),
+                *few_phases(problem),
             ),
             **{
                 key: np.array([getattr(each, key) for each in designs])

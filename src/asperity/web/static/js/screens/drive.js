@@ -80,7 +80,7 @@ function Worth({ answer, found }) {
     <p>${answer.settled
       ? html`<${Verdict} ok=${after > before} yes="it saves power" no="it saves no power" />`
       : "no verdict, since the state has not settled:"} ${says}</p>
-    ${answer.motor_shaken ? html`<p>
+    ${answer.settled && answer.motor_shaken ? html`<p>
       <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
       ${` motor ${answer.motor_shaken} for ${answer.motor_plain}; with the actuator `}
       ${digits(answer.saved_mass_kg, 3)} kg saved</p>` : null}
@@ -109,6 +109,9 @@ function Pattern({ data, found }) {
     <${Facts} found=${found} keys=${LOADED} />`;
 }
 
+/** What is no prediction stands in brackets. */
+const bracketed = (text, settled) => (settled ? text : `(${text})`);
+
 /** The ways side by side, each taken by a click. */
 function Ways({ answer, geometry, speed }) {
   const { set } = useCase();
@@ -123,7 +126,7 @@ function Directions({ answer }) {
   const number = (said, key, count = 4) => [said, (way) => digits(way[key] ?? NaN, count), "right"];
   return html`<${Table} region="directions" rows=${answer.directions} columns=${[
       ["way", ({ mode }) => mode, "row"],
-      ["torque ratio", (way) => (way.settled ? "" : "(") + digits(way.torque_ratio, 4) + (way.settled ? "" : ")"), "right"],
+      ["torque ratio", (way) => bracketed(digits(way.torque_ratio, 4), way.settled), "right"],
       number("balance", "torque_balance", 2),
       ["state", (way) => html`<${Verdict} ok=${way.settled} yes="settled" no="not settled" />`],
       number("saved (W)", "saved_W"), number("per µm (W)", "saved_per_micrometre_W"),
