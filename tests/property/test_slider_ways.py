@@ -213,12 +213,12 @@ def test_a_few_lanes_and_single_marches_are_the_same(tmp_path, shared):
 @pytest.mark.parametrize("part", range(12))
 def test_lanes_and_single_marches_are_the_same(tmp_path, part, shared):
     drawn = lots((3, part), 6, tmp_path, models=("dahl", "dahl", "lugre"))
-    for lot in drawn[::2]:
-        # What fewer batches can have.
+    for lot in drawn[:4]:
+        # What a batch cannot have.
         lot.tables["friction"].pop("exponent", None)
         lot.tables["slider"].pop("drive_damping", None)
     check_lanes([each for lot in drawn for each in shaken_otherwise(lot)], tmp_path, 40)
-    assert sum(shared) >= 8
+    assert sum(shared) >= 4
 
 
 def check_homogenised(seed, count, folder, **options):
