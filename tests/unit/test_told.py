@@ -14,6 +14,8 @@ from asperity.cli import new
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.results.svg import Drawing
+from asperity.results.system import shown_in, shown_text
+from asperity.results.xlsx import in_shown_units
 from asperity.slider import Model
 from asperity.slider import solve as slide
 from asperity.start import compare, listed
@@ -171,3 +173,20 @@ def test_a_multiple_that_is_an_end_but_for_rounding_is_kept_as_the_end(end):
     assert min(found) >= ends[0]
     assert max(found) <= ends[1]
     assert all(round(each / rounding.STEPS["diameter_factor"], 9) % 1.0 == 0.0 for each in found)
+
+
+def test_a_unit_of_several_is_converted_whole():
+    with shown_in("us"):
+        assert shown_text("5 N m is more") == "44.3 lbf in is more"
+        assert shown_text("5 N/mm and 5 N") == "28.6 lbf/in and 1.12 lbf"
+
+
+def test_a_workbook_has_plain_numbers_in_shown_units_behind_its_columns():
+    rows = (("what", "value", "unit"), ("a force", 10.0, "N"), ("a word", "no", "N"))
+    assert in_shown_units(rows, 3) == [*rows]
+    with shown_in("us"):
+        head, force, word = in_shown_units(rows, 3)
+    assert head[3:] == ("value, US", "unit, US")
+    assert (force[3].value, force[4]) == (pytest.approx(2.248089, rel=1e-6), "lbf")
+    assert force[3].text.startswith("B2*0.2248089")
+    assert word == rows[2]
