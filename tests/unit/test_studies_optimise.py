@@ -16,7 +16,7 @@ from asperity.files.store import read_dataset, write_dataset
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate_case
 from asperity.studies.climb import climb, spread
-from asperity.studies.design import VARIABLES, Bounds, Space
+from asperity.studies.design import LEAST_THREADS, VARIABLES, Bounds, Space
 from asperity.studies.optimise import optimise
 from asperity.studies.tradeoff import trade_off
 
@@ -353,3 +353,13 @@ def test_climbs_that_are_interrupted_as_they_set_out_wait_for_nobody(monkeypatch
     thread.start()
     thread.join(30.0)
     assert ended
+
+
+def test_a_design_keeps_its_threads_or_as_few_as_the_gearset_has():
+    parts = gearset("gearset-3")
+    space = Space(*parts, least={})
+    own = float(space.threads_of(parts[0].geometry.diameter_factor, parts[0].pressure_angle))
+    assert own > LEAST_THREADS
+    assert space.least_threads == LEAST_THREADS
+    # The thesis looks at none.
+    assert Space(*parts).least_threads is None
