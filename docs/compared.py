@@ -4,6 +4,7 @@ import math
 
 import comparisons
 import gear_cases
+import trust
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
@@ -75,13 +76,15 @@ class TextbookTable(Directive):
 
 
 class TrustTable(Directive):
-    """A row for each kind of number: how many are verified, of one source, from memory."""
+    """A row for each kind of number: how many are verified, of one source, our own, from memory."""
 
     def run(self):
-        found = list(gear_cases.trust())
-        rows = [("", "verified", "one source", "from memory"), *(map(str, each) for each in found)]
-        total = (sum(each[n] for each in found) for n in (1, 2, 3))
-        return _table(self, (46, 18, 18, 18), [*map(tuple, rows), ("together", *map(str, total))])
+        found = list(trust.trust())
+        heads = "", "verified", "one source", "own choice", "from memory"
+        rows = [heads, *(map(str, each) for each in found)]
+        total = (sum(each[n] for each in found) for n in (1, 2, 3, 4))
+        rows.append(("together", *map(str, total)))
+        return _table(self, (40, 15, 15, 15, 15), [*map(tuple, rows)])
 
 
 def _table(directive, widths, rows):

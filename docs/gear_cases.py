@@ -1,4 +1,4 @@
-"""Worm gearsets of others, and how far the numbers that rate them can be trusted.
+"""Worm gearsets of others, rated by the three standards.
 
 Sources: a catalogue of worm gearboxes of the NMRV kind (rated torques and efficiencies at 1400
 rpm; its starts and teeth, and a worm of 0.43 centre distances, are from memory); the table of
@@ -7,19 +7,11 @@ with 4-pole motors, as of 20 August 2026); R. Mott, Machine Elements in Mechanic
 edition, examples 10-7 and 10-8 (pages 343, 437); U. C. Jindal, Machine Design, example 28-2.
 """
 
-import importlib
 import math
-import pkgutil
-import tomllib
-from pathlib import Path
 from typing import NamedTuple
 
 import asperity.rating
-from asperity.errors import InputError
 from asperity.gearset import Gearset
-from asperity.gearset.library import Sourced, every
-from asperity.gearset.lubricants import BaseOil, Lubricant
-from asperity.gearset.materials import Steel, WheelMaterial, WormMaterial
 from asperity.rating import Operation, rate
 
 STARTS = {7.5: 4, 15: 2, 30: 1, 40: 1, 50: 1, 60: 1, 80: 1, 100: 1}
@@ -131,72 +123,3 @@ def mott():
     load = capacity.allowable_tangential_load(found[0], wheel, 1.25, *found[1:], **inch)
     names = "materials factor C_s", "ratio factor C_m", "velocity factor C_v", "rated load, lbf"
     yield from zip(names, (740.0, 0.814, 0.265, 1123.0), (*found, load), strict=True)
-
-
-class Trust(NamedTuple):
-    """How many numbers of a kind are verified, of one source, and from memory."""
-
-    kind: str
-    verified: int
-    one_source: int
-    from_memory: int
-
-
-def trust():
-    """Yield how far the numbers can be trusted, counted where they stand."""
-    yield _tables_of_bs721()
-    kinds = {
-        "wheel materials": WheelMaterial, "worm materials": WormMaterial, "steels": Steel,
-        "base oils": BaseOil, "oils": Lubricant,
-    }  # fmt: skip
-    for kind, model in kinds.items():
-        yield _counted(kind, [s for thing in every(model) for s in _sources(model, thing)])
-    for kind in ("iso14521", "bs721", "agma6034"):
-        found = {f.symbol + f.equation: f.source for f in _formulas(kind)}
-        yield _counted(f"formulas of {kind}", [s.confidence for s in found.values() if s])
-
-
-def _tables_of_bs721():
-    path = Path(asperity.rating.__file__).parent / "data" / "bs721.toml"
-    all_, checked = 0, 0
-    for table in tomllib.loads(path.read_text("utf-8")).values():
-        checked += sum(map(len, table.get("checked", {}).values()))
-        kept = {k: v for k, v in table.items() if k not in ("checked", "x", "diameter_factor")}
-        all_ += _count_numbers(kept)
-    return Trust("tables of BS 721", 0, checked, all_ - checked)
-
-
-def _count_numbers(value):
-    if isinstance(value, dict):
-        return sum(map(_count_numbers, value.values()))
-    if isinstance(value, list):
-        return len(value)
-    return int(isinstance(value, int | float) and not isinstance(value, bool))
-
-
-def _sources(model, thing):
-    for key in model.model_fields.keys() - Sourced.model_fields.keys():
-        value = getattr(thing, key, None)
-        if isinstance(value, int | float | dict) and not isinstance(value, bool):
-            count = len(value) if isinstance(value, dict) else 1
-            try:
-                yield from [thing.source(key).confidence] * count
-            except (InputError, KeyError):
-                continue
-    if model is Steel:
-        yield thing.source("number").confidence
-
-
-def _counted(kind, confidences):
-    words = "verified", "one source", "from memory"
-    return Trust(kind, *(sum(one == word for one in confidences) for word in words))
-
-
-def _formulas(kind):
-    package = importlib.import_module(f"asperity.rating.{kind}")
-    for module in pkgutil.iter_modules(package.__path__):
-        here = importlib.import_module(f"{package.__name__}.{module.name}")
-        for one in vars(here).values():
-            made = hasattr(one, "equation") and hasattr(one, "source")
-            if made and getattr(one, "__module__", "") == here.__name__:
-                yield one

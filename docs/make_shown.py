@@ -136,7 +136,37 @@ def jobs_of(served, seen, screen):
         yield keep(served, asked["command"].replace(" ", "-") + slot, asked, identity, slot)
 
 
-OTHERS = {"rig": rig, "thesis": thesis}
+OPENS = {"slide": ("slide", "curve"), "gear": ("rate",), "size": ("size",), "drive": ("rate",)}
+"""What a screen asks as it opens, of what computes."""
+
+
+def live(served, seen):
+    """Keep what is answered as screens open: a fresh machine compiles for a minute first."""
+    folder = SHOWN / "live"
+    folder.mkdir(exist_ok=True)
+    lines = []
+    for screen, verbs in OPENS.items():
+        told = {}
+
+        def heard(response, told=told):
+            verb = response.url.rpartition("/do/")[2]
+            if verb != response.url and response.status == 200:
+                told[verb] = json.loads(response.request.post_data), response.text()
+
+        seen.page.on("response", heard)
+        page = seen.open(screen)
+        page.wait_for_timeout(5000)
+        seen.page.remove_listener("response", heard)
+        for verb in verbs:
+            body, answer = told[verb]
+            name = verb if screen in (verb, "gear") else f"{screen}-{verb}"
+            (folder / f"{name}.json").write_text(answer + "\n")
+            lines.append({"verb": verb, "body": body, "at": f"{name}.json"})
+    (folder / "index.json").write_text(json.dumps(lines, indent=1, ensure_ascii=False) + "\n")
+    return ()
+
+
+OTHERS = {"rig": rig, "thesis": thesis, "live": live}
 
 
 def main(names):

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from asperity.errors import InputError, choices, is_plain, shown, suggestion
 
-Confidence = Literal["verified", "one source", "from memory"]
+Confidence = Literal["verified", "one source", "own choice", "from memory"]
 
 CONFIDENCES: tuple[str, ...] = get_args(Confidence)
 """How far a number can be trusted, the surest first."""
@@ -23,9 +23,9 @@ class Source:
     ----------
     name : str
         The document, such as ``"ISO/TR 14521:2010"``.
-    confidence : {'verified', 'one source', 'from memory'}
+    confidence : {'verified', 'one source', 'own choice', 'from memory'}
         Agreed upon by two public sources or by a reproduced number; found in one public source;
-        not checked against any document.
+        a bound, default or rule of our own, which needs no document; not checked against any.
     note : str, optional
         What else a reader should know, such as a value taken from a similar thing.
 

@@ -15,7 +15,7 @@ import pytest
 
 from asperity.commands import COMMANDS
 from asperity.results import read
-from asperity.results.quantity import Entry
+from asperity.results.quantity import Entry, unit_suffix
 
 HERE = Path(__file__).parent
 TEETH = (
@@ -73,6 +73,11 @@ def asked(name, lot):
             ["drive-screw", "--over", f"mount.axial_offset=0,{lot.uniform(5.0, 50.0):.4g} um"],
             ["drive.teeth=1", "drive.phases=2"],
         ),
+        "relief": (
+            ["drive-screw", "--over", f"modification.tip_relief=0,{lot.uniform(5.0, 30.0):.4g} um"],
+            ["drive.teeth=1", "drive.phases=2"],
+        ),
+        "wear": (["drive-screw", "--revolutions", "20"], ["drive.teeth=1", "drive.phases=2"]),
         "locking": (["drive-actuator"], [*TEETH]),
         "control": (["drive-actuator"], [*TEETH, "drive.stroke=16 deg", "control.failures=dead"]),
         "fit": ([ANSWERS / "ratios.csv", "table-4.3", "--free", "friction.max_deflection"], []),
@@ -97,7 +102,9 @@ ELSEWHERE = {
         "rexs",
     ),
 }
-QUICK = ("slide", "rig plan")
+QUICK = ("slide", "sweep", "rig plan")
+# Of those that print what stands in arrays.
+ARRAYS = {"sweep": 2, "branches": 9, "fit": 1}
 
 
 def number(value):
@@ -115,11 +122,31 @@ def check_netcdf(path, printed):
             continue
         told, kept = printed.get(entry.key), saved.dataset[entry.variable].to_numpy()
         if kept.ndim or kept.dtype.kind not in "fiub":
-            continue
+            continue  # see `check_arrays`
         if told is None:
             assert not np.isfinite(kept), entry.key
         else:
             assert float(kept) == float(told), entry.key
+        count += 1
+    return count
+
+
+def check_arrays(path, printed):
+    """Hold each array of a netCDF file to the list of its name that was printed, if one was."""
+    saved = read(path).dataset
+    named = {name: name for name in saved.variables}
+    # A name that tells the unit is printed in that; an axis as it was asked for.
+    named |= {n + unit_suffix(v.attrs.get("units", "")): n for n, v in saved.variables.items()}
+    count = 0
+    for name, told in {**printed, **printed.get("coords", {})}.items():
+        if name not in named or not isinstance(told, list) or printed.get("units", {}).get(name):
+            continue
+        kept = saved[named[name]].to_numpy()
+        of_rows = any(isinstance(row, dict) for row in told)
+        if not kept.ndim or kept.dtype.kind not in "fiub" or of_rows:
+            continue
+        # Nothing is no number.
+        np.testing.assert_array_equal(kept.astype(float), np.array(told, dtype=float), name)
         count += 1
     return count
 
@@ -170,6 +197,8 @@ def test_every_file_of_an_answer_has_the_numbers_that_are_printed(asperity, tmp_
     (written,) = (path for path in folder.glob("*.json") if path.with_suffix(".nc").exists())
     assert json.loads(written.read_text("utf-8")) == printed
     count = check_netcdf(written.with_suffix(".nc"), printed)
+    arrays = check_arrays(written.with_suffix(".nc"), printed)
+    assert arrays >= ARRAYS.get(name, 0)
     assert count > 3 or name not in ("slide", "static", "block", "drive")
     if (folder / "rate.csv").exists():
         check_workbook(folder / "rate.xlsx", check_csv(folder / "rate.csv", printed))

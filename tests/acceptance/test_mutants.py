@@ -1,6 +1,7 @@
-"""Tests notice when a line of the package is broken: a campaign of 200 lines, one at a time.
+"""Tests notice when a line of the package is broken: campaigns of 200 lines and 60, one at a time.
 
-``python tests/mutants/run.py`` tries the same list and says which share of it was caught.
+``python tests/mutants/run.py`` tries the same list and says which share of it was caught; with
+``--told`` that of what is told, marked and ranked.
 """
 
 import pytest
@@ -40,3 +41,9 @@ def test_a_line_that_was_once_broken_unnoticed_is_tested(copy, n):
 @pytest.mark.parametrize("n", range(sites.COUNT - ALWAYS))
 def test_a_line_cannot_be_broken_unnoticed(copy, n):
     _is_noticed(copy, sites.listed()[len(sites.always()) + n])
+
+
+@pytest.mark.campaign
+@pytest.mark.parametrize("n", range(sites.COUNT_TOLD))
+def test_what_is_told_cannot_be_broken_unnoticed(copy, n):
+    _is_noticed(copy, sites.listed_told()[n])

@@ -43,14 +43,9 @@ CHANGES = (
         for line in ("slide table-4.? --out OUT", "slide table-4.1-L4 * --out OUT")
         for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")
     ),
-    ("rate *", "json.verdict", "whether a gearset holds is told as such"),
-    ("rate *", "rate.json.verdict", "whether a gearset holds is told as such"),
     ("compare *", "*results.forces.*", "forces on shafts and bearings are told"),
     ("schema", "json.properties.project*", "a case says for whom it is made"),
-    ("rate *", "json.forces", "forces on shafts and bearings are told"),
     ("compare *", "*results.holding*", "what holds the load when the motor stops is told"),
-    ("rate *", "json.holding*", "what holds the load when the motor stops is told"),
-    ("rate *", "rate.json.holding*", "what holds the load when the motor stops is told"),
     *(
         (f"{line} *", f"{place}.geometry*", "the geometry that the report draws is told")
         for line in ("drive", "flank")
@@ -62,16 +57,8 @@ CHANGES = (
         for line in ("materials*", "lubricants*", "motors*")
         for what in ("name", "confidence", "note")
     ),
-    ("rate *", "json.agma6034.violations*", "the lead angles are those of Shigley"),
-    *(
-        ("rate *--out*", f"rate.csv:{column}", "documents have been found, forces are named")
-        for column in ("source", "confidence", "note", "meaning")
-    ),
     ("optimise *", "*json.locking", "whether a design locks itself is told"),
-    ("rate *", "rate.html", "the report takes its place"),
-    ("rate *", "rate.csv:equation", "the equation shown is the one that is calculated"),
     ("*", "json*.assumed.rating.iso14521_face_width", "b_2H is offered both ways, one is assumed"),
-    ("rate *--out*", "rate.csv:equation", "equations come from the formulas, in all their pieces"),
     *(
         ("thesis *", place, "a number asked for brings claims and tables of that number too")
         for place in ("json.claims*", "json.failed*", "json.tables*", "figure-4.3.nc:*")
@@ -85,10 +72,6 @@ CHANGES = (
         "drive drive-actuator *",
         "json.safety_wear*",
         "a valve's gearset lives for its strokes, not for a gearbox's 25000 h",
-    ),
-    *(
-        (line, "json.agma6034.violations", "a sump too hot is named")
-        for line in ("*output_torque='500 N m'*", "rate gearset-3 --set rating.friction=0.05")
     ),
 )
 

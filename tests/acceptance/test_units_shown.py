@@ -140,3 +140,9 @@ def test_the_workbook_has_units_of_the_us_as_live_formulas(asperity, tmp_path):
 def test_another_system_is_one_line(asperity):
     code, _, errors = asperity("rate", "gearset-3", "--units", "uk")
     assert (code, errors) == (2, "--units uk: it must be one of 'si', 'us'\n")
+
+
+def test_what_is_to_be_given_again_stays_as_it_is():
+    text = 'rate it with --set "gearset.axial_module=1.75 mm", 25.4 mm wide'
+    with shown_in("us"):
+        assert shown_text(text) == 'rate it with --set "gearset.axial_module=1.75 mm", 1 in wide'

@@ -128,7 +128,7 @@ def test_a_wave_of_the_folder_is_taken_from_there_and_named_so_in_the_case(page)
     assert tomllib.loads(asked.json["toml"])["vibration"]["samples"] == "sine.csv"
 
 
-_TRUST = "from memory", "one source", "verified"
+_TRUST = "from memory", "own choice", "one source", "verified"
 
 
 def test_behind_each_number_stand_symbol_meaning_source_and_trust(page):

@@ -2,11 +2,13 @@
 
 import json
 import math
+import os
 import shlex
 import shutil
 from pathlib import Path
 
 import pytest
+from apparatus.page import Served
 
 import asperity as package
 
@@ -45,7 +47,8 @@ def same(one, other, path=""):
 
 
 def test_every_answer_that_is_listed_is_there_and_no_other():
-    assert {one["at"] for one in LISTED} == {path.name for path in SHOWN.iterdir() if path.is_dir()}
+    folders = {path.name for path in SHOWN.iterdir() if path.is_dir()}
+    assert folders == {one["at"] for one in LISTED} | {"live"}
     for one in LISTED:
         folder = SHOWN / one["at"]
         told = json.loads((folder / "answer.json").read_text("utf-8"))
@@ -53,6 +56,21 @@ def test_every_answer_that_is_listed_is_there_and_no_other():
         assert told["command"].startswith(f"asperity {one['asked']['command']} ")
         assert all((folder / name).is_file() for name in one["files"])
     assert sum(path.stat().st_size for path in SHOWN.rglob("*") if path.is_file()) < 2_500_000
+
+
+AT_ONCE = json.loads((SHOWN / "live/index.json").read_text("utf-8"))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("one", AT_ONCE, ids=[one["verb"] for one in AT_ONCE])
+def test_what_ships_for_a_screen_that_opens_is_what_it_is_answered(tmp_path, one):
+    told = json.loads((SHOWN / "live" / one["at"]).read_text("utf-8"))
+    page = Served(tmp_path, dict(os.environ), "--port", "0")
+    try:
+        found = page.ask("POST", f"/api/do/{one['verb']}", one["body"]).json
+    finally:
+        page.close()
+    assert [key for key in ("answer", "series", "svg") if same(told[key], found[key])] == []
 
 
 COMMANDS = [one for one in LISTED if one["asked"]["command"] != "thesis"]

@@ -99,9 +99,15 @@ def words(value):
     if isinstance(value, tuple):
         return type(value).__name__, *map(words, value)
     if isinstance(value, np.ndarray):
-        return str(value.dtype), value.shape, value.strides, value.tobytes()
+        return str(value.dtype), value.shape, value.strides, _bits(value)
     if isinstance(value, np.void):
-        return str(value.dtype), value.tobytes()
+        return str(value.dtype), _bits(np.array([value], value.dtype))
     if isinstance(value, float):
         return type(value).__name__, np.float64(value).tobytes()
     return type(value).__name__, value
+
+
+def _bits(numbers):
+    """Return the bits of numbers; what lies between the fields of a record is nobody's."""
+    names = numbers.dtype.names
+    return tuple(_bits(numbers[name]) for name in names) if names else numbers.tobytes()

@@ -1,6 +1,7 @@
 """A simulated rig that stands on while procedures and guardians come and go, with faults."""
 
 import contextlib
+import dataclasses
 import importlib
 import json
 import os
@@ -9,6 +10,8 @@ import signal
 import sys
 import threading
 import time
+
+import numpy as np
 
 from apparatus import rigs
 from apparatus.forked_guardian import OwnTime, forked_guardians
@@ -19,6 +22,7 @@ from asperity.tribometer.guardian.rig import RigLine, RigServer, objects_of
 from asperity.tribometer.instruments.protocols import InstrumentError, Reading
 from asperity.tribometer.procedure import study
 
+_STUCK = 7  # counts
 PATIENT = 60.0  # s that a busy machine may take for what is to come
 
 
@@ -100,6 +104,10 @@ class _Server(RigServer):
             return False
         if kind == "stuck at a value" and verb == "reading":
             return Reading(1.0, 2.4)
+        if kind == "stuck at a value" and verb == "poll":
+            poll = super()._done(head)
+            stuck = tuple(np.full_like(one, _STUCK) for one in poll.counts)
+            return dataclasses.replace(poll, counts=stuck)
         if (key, verb) == ("clock", "sleep") and self._held and "vibration" in self._rig.on:
             time.sleep(0.02)
             return self._rig.now

@@ -53,8 +53,6 @@ def draw(seen: Seen, screen: str) -> None:
     if begin:
         ended = page.get_by_text(re.compile("^done after"))
         expect(ended).to_have_count(len(begin), timeout=LONGEST)
-    if screen == "block":
-        page.get_by_label("Marched in time").evaluate("each => each.scrollIntoView()")
     page.wait_for_timeout(2500)
     image = Image.open(io.BytesIO(page.screenshot())).convert("RGB")
     PICTURES.mkdir(exist_ok=True)

@@ -1,6 +1,7 @@
 """Gears in mesh on the page: the section is that of the gearset, and moves as gears do."""
 
 import math
+import time
 
 import pytest
 from apparatus.browser import answered
@@ -45,6 +46,14 @@ def test_teeth_and_threads_touch_where_it_is_said_and_slide_as_the_closed_form(s
     assert seen_so["speed"] == pytest.approx(expected, rel=1e-12)
     # Shaken along its own screw a worm leaves its threads where they are.
     assert seen_so["unmoved"] == pytest.approx([0.0] * 9, abs=1e-12)
+
+
+def test_ways_are_drawn_once_the_speed_of_their_case_is_there(seen):
+    # Of what is complained of the fixture tells.
+    seen.page.route("**/api/case/*", lambda route: (time.sleep(1.5), route.continue_()))
+    page = seen.open("drive")
+    expect(page.get_by_role("button", name="try each way")).to_be_visible()
+    expect(page.locator(".ways svg")).to_have_count(4)
 
 
 PRESSED = """async () => {

@@ -26,6 +26,9 @@ def test_on_paper_stands_what_is_shown_and_not_what_is_pressed(seen, screen):
     expect(page.get_by_role("heading", level=1)).to_be_visible()
     for each in page.locator(PRESSED).all():
         expect(each).to_be_hidden()
+    # What is pressed in a row names it: that stands on the paper as words.
+    for each in page.locator("main :is(th, li) button").all():
+        expect(each).to_be_visible()
     assert page.evaluate("document.documentElement.scrollWidth") <= A4
     # In a dark room too it is black on white.
     assert page.evaluate("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"

@@ -75,6 +75,8 @@ def test_a_run_is_seen_as_it_goes_on_and_its_stop_switches_everything_off(seen, 
     assert not OUTPUTS & set(rig.on())
     expect(panel.get_by_role("status")).to_have_text("interrupted: stopped after 0 of 2 cells")
     expect(drive).to_contain_text("its state is off")
+    # What it was told last, by the guardian.
+    expect(drive).not_to_contain_text("on, sine 250 Hz")
     expect(panel.get_by_role("button", name="stop")).to_have_count(0)
     assert vibrates.ended() == 130
 
@@ -92,6 +94,7 @@ def test_the_stop_works_where_the_procedure_hangs_and_what_stays_on_is_named(see
     )
     assert OUTPUTS & set(rig.on()) == {"steel"}
     expect(panel.get_by_role("status")).to_have_text("not all of it was read back to be off")
+    expect(panel).not_to_contain_text("Now: Cell 1")
     rig.sound()
     expect(panel).to_contain_text("Read back to be off within")
     vibrates.kill(signal.SIGCONT)

@@ -90,7 +90,7 @@ def test_the_keyboard_alone_drags_pins_reads_the_table_and_opens_an_origin(slide
     expect(slide.get_by_role("button", name="unpin")).to_be_visible()
     tab_to(slide, "Force left over direction as table")
     slide.keyboard.press("Enter")
-    expect(slide.get_by_role("columnheader", name="direction (°)")).to_be_visible()
+    expect(slide.get_by_role("columnheader", name="direction (deg)")).to_be_visible()
 
 
 def test_what_cannot_be_is_told_in_a_line_that_marks_its_field(slide):
@@ -144,7 +144,7 @@ def test_a_number_of_another_base_is_refused_and_a_meaning_names_no_other_unit(s
     assert alert.inner_text().count("vibration.velocity_ratio") == 1
     slide.get_by_text("every key of the case").click()
     says = slide.locator("#field-slider-drive_velocity-says")
-    expect(says).to_contain_text("v_d > 0. (")
+    expect(says).to_contain_text("vd > 0. (")
 
 
 def test_a_case_is_replaced_only_when_that_is_said(slide):

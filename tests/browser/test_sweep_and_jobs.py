@@ -176,7 +176,7 @@ def test_a_block_is_marched_and_its_pressure_shown(seen, server):
     # Its files stand on its screen, and the frames that were kept play.
     box = page.get_by_label("Marched in time")
     expect(box.get_by_role("button", name="block.nc", exact=True)).to_be_visible()
-    skin = box.locator("[data-of=skin]")
+    skin = page.get_by_label("in motion").locator("[data-of=skin]")
     before = skin.inner_html()
     page.wait_for_timeout(500)
     assert skin.inner_html() != before

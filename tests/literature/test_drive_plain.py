@@ -76,6 +76,36 @@ DRIVE = {
 }  # fmt: skip
 
 
+def test_axial_vibration_ten_times_as_fast_as_the_sliding_saves_energy_at_40_khz():
+    light = {
+        "frequency": 40e3, "speed": 4.79, "load": 92.0, "mu": 0.287, "damping": 1e-3,
+        "inertia": 6.33e-4, "worm_inertia": 5.16e-7, "worm_mass": 0.0916, "torsion": 9200.0,
+        "compliance": 2.9e-9, "amplitude": 1.91e-6,
+    }  # fmt: skip
+    answer, plain, ratio, powers = compared(DRIVE | light, "solve.duration=15 ms")
+    assert answer.settled
+    assert answer.k_w == pytest.approx(10.0, rel=5e-3)
+    assert answer.open_share == plain["open"] == 0.0
+    assert answer.energy_ratio < 0.9
+    assert plain["drive"] + plain["actuator"] == pytest.approx(answer.energy_ratio, abs=1e-3)
+    assert ratio < 1e-3
+    assert powers < 1e-3
+
+
+def test_torsional_vibration_of_a_light_load_saves_a_little_energy_at_20_khz():
+    light = {
+        "mode": "torsional", "frequency": 20e3, "speed": 190.8, "load": 9.415, "mu": 0.0832,
+        "damping": 0.0, "inertia": 9.54e-3, "worm_inertia": 2.205e-5, "worm_mass": 0.228,
+        "torsion": 707.7, "amplitude": 6.52e-6,
+    }  # fmt: skip
+    answer, plain, ratio, powers = compared(DRIVE | light, "solve.duration=20 ms")
+    assert answer.settled
+    assert answer.energy_ratio < 0.997
+    assert plain["drive"] + plain["actuator"] == pytest.approx(answer.energy_ratio, abs=2e-4)
+    assert ratio < 2e-4
+    assert powers < 2e-4
+
+
 def test_axial_vibration_of_brittle_flanks_can_save_energy_without_a_loss_of_contact():
     # It was held for a law that axial and torsional vibration buy torque, not energy.
     speed = DRIVE["speed"] * CIRCLE / np.cos(np.arctan2(4.0, 8.4))

@@ -27,6 +27,7 @@ FILES = Path(__file__).parents[1] / "rexs"
 EXAMPLE = FILES / "FVA_worm_stage_1-4.rexs"
 MODEL = json.loads((FILES / "worm-stage-1.5.json").read_text())
 CASES = ("gearset-2", "gearset-3", "gearset-3b")
+DESCRIBED = (*CASES, "actuator-shafts")
 MORE = (
     ("gearset.flank=ZC", "gearset.hand=left", "disc.diameter='400 mm'"),
     ("gearset.flank=ZK", "mount.axial_offset='0.1 mm'", "mount.shaft_angle_error='0.1 deg'"),
@@ -66,7 +67,7 @@ def same(one, other):
 
 
 @pytest.mark.parametrize("settings", [(), *MORE])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", DESCRIBED)
 def test_what_is_read_back_is_the_same_gearset(name, settings, tmp_path):
     case, path = written(name, tmp_path, settings)
     found = read_back(path)
@@ -111,7 +112,7 @@ def test_a_duty_cycle_becomes_load_cases_and_comes_back(tmp_path):
 
 
 @pytest.mark.parametrize("settings", [(), *MORE])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", DESCRIBED)
 def test_what_is_written_validates_against_the_schema_of_the_format(name, settings, tmp_path):
     xmlschema = pytest.importorskip("xmlschema")
     _, path = written(name, tmp_path, settings)
@@ -119,7 +120,7 @@ def test_what_is_written_validates_against_the_schema_of_the_format(name, settin
 
 
 @pytest.mark.parametrize("settings", [(), *MORE])
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", DESCRIBED)
 def test_components_attributes_units_and_relations_are_those_of_version_1_5(
     name, settings, tmp_path
 ):
@@ -228,3 +229,59 @@ def test_what_is_wrong_with_a_file_is_said(old, new, said, tmp_path):
         return
     with pytest.raises(InputError, match=said):
         read_rexs(wrong)
+
+
+def test_shafts_are_written_as_the_case_has_them(tmp_path):
+    case, path = written("actuator-shafts", tmp_path)
+    document = read_document(path)
+    for part in ("worm", "wheel"):
+        table = case.tables[f"{part}_shaft"]
+        (shaft,) = (
+            one for one in document.components
+            if one.type == "shaft" and one.name == f"{part} shaft"
+        )  # fmt: skip
+        parts = [*document.related("assembly", "assembly", shaft.number, "part")]
+        sections = [one for one in parts if one.type == "shaft_section"]
+        assert len(sections) == len(table.section)
+        end = 0.0  # numbers are in SI
+        for one, given in zip(sections, table.section, strict=True):
+            assert one.value("u_coordinate_on_shaft") == pytest.approx(end, abs=1e-12)
+            assert one.value("length") == pytest.approx(given.length, rel=1e-12)
+            if given.diameter is not None:
+                assert one.value("outer_diameter_end") == pytest.approx(given.diameter)
+            end += given.length
+        assert end == pytest.approx(table.length, rel=1e-12)
+        bearings = [*document.related("side", "inner_part", shaft.number, "assembly")]
+        for one, given in zip(bearings, table.bearing, strict=True):
+            rolling, wide = given.bearing, 2.0 if given.pair else 1.0
+            assert one.value("u_coordinate_on_shaft_inner_side") == pytest.approx(given.at)
+            assert one.value("inner_diameter") == pytest.approx(rolling.bore)
+            assert one.value("width") == pytest.approx(wide * rolling.width)
+        takes = [one.text("axial_force_absorption") for one in bearings]
+        assert takes == ["both_directions", "no_direction"]
+        (gear,) = (one for one in parts if one.type in ("worm_gear", "worm_wheel"))
+        assert gear.value("u_coordinate_on_shaft") == pytest.approx(table.mesh)
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "takes"),
+    [
+        ("adjusted face-to-face", ["negative", "positive"]),
+        ("adjusted back-to-back", ["positive", "negative"]),
+    ],
+)
+def test_of_adjusted_bearings_each_takes_the_axial_force_one_way(arrangement, takes, tmp_path):
+    table = read_case("actuator-shafts", case_tables()).raw["worm_shaft"]
+    ball = {
+        "kind": "angular contact", "contact_angle": "40 deg", "bore": "30 mm",
+        "outside_diameter": "62 mm", "width": "16 mm", "dynamic_rating": "36 kN",
+        "static_rating": "26 kN", "name": "x",
+    }  # fmt: skip
+    bearings = [
+        {"at": at, "arrangement": arrangement, "bearing": ball} for at in ("30 mm", "180 mm")
+    ]
+    given = prepare(read_case("actuator-shafts", case_tables()))
+    shaft = type(given.worm_shaft).model_validate({**table, "bearing": bearings})
+    document = answer(given._replace(worm_shaft=shaft), Run()).document
+    found = [one for one in document.components if one.type == "concept_bearing"][:2]
+    assert [one.text("axial_force_absorption") for one in found] == takes

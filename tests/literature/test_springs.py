@@ -240,3 +240,13 @@ def test_a_profile_of_nothing_is_refused_in_one_line(given, words):
     with pytest.raises(InputError, match=words) as raised:
         spring_profile(*given)
     assert len(str(raised.value).splitlines()) == 1
+
+
+@pytest.mark.parametrize("count", [4, 16, 37])
+@pytest.mark.parametrize("law", ["hertz", "rough"])
+@pytest.mark.parametrize("deeper", [0.0, 0.003, 0.4, 1.1])
+def test_springs_carry_the_reference_load_whatever_they_reach(law, count, deeper):
+    reference = REFERENCE_INDENTATION[law]
+    heights, weights = spring_profile(law, count, reference + deeper)
+    assert weights @ np.maximum(reference - heights, 0.0) == pytest.approx(1.0, abs=1e-12)
+    assert heights.max() <= reference + deeper + 0.7 * 16 / count

@@ -94,3 +94,28 @@ def test_nor_does_it_settle_what_sticks_and_slips():
     falls = *LAWS["lugre"], "friction.viscous_damping=0 N s/m", "solve.method=periodic"
     for ratio in (0.0, 1e-6):
         assert not shaken(ratio, *falls).settled
+
+
+@pytest.mark.parametrize("law", ["linear", "hertz", "rough"])
+@pytest.mark.parametrize("elevation", ["0 deg", "90 deg"])
+def test_springs_slide_steadily_at_their_limit_shaken_by_nothing(law, elevation):
+    given = ("friction.model=springs", f"normal.law={law}", "vibration.velocity_ratio=1e-6",
+             f"vibration.elevation={elevation}")  # fmt: skip
+    found = solve(Model.from_case(read_case("normal-pin", TABLES, given)))
+    assert found.settled
+    assert found.ratio == pytest.approx(1.0, rel=1e-6)
+
+
+def test_a_state_that_leaves_slowly_has_not_settled():
+    """Steady sliding on LuGre's falling branch, whose disturbances grow by some 0.3/s."""
+    given = (
+        "slider.drive_velocity=8.6 mm/s", "slider.normal_force=5.18 N", "slider.mass=0.4866 kg",
+        "slider.drive_stiffness=66.4 MN/m", "slider.drive_damping=0 N s/m",
+        "slider.lateral=guided", "friction.model=lugre", "friction.mu=0.568",
+        "friction.static_mu=0.7014", "friction.max_deflection=0.053 um",
+        "friction.stribeck_velocity=2.99 mm/s",
+        "vibration.frequency=5.088 kHz", "vibration.velocity_ratio=1e-6", "solve.method=periodic",
+    )  # fmt: skip
+    found = solve(Model.from_case(read_case("table-4.3", TABLES, given)))
+    assert not found.settled
+    assert "a disturbance grows 1.000" in found.settled_by

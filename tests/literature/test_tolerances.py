@@ -12,10 +12,11 @@ import pytest
 from apparatus.duties import A100
 
 from asperity.gearset.tolerancing.allowances import FITS, Allowances, fit_backlash
-from asperity.gearset.tolerancing.backlash import EXPANSION, backlash
+from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.grades import graded
 from asperity.gearset.tolerancing.iso286 import standard_tolerance
 from asperity.gearset.tolerancing.table import Tolerances
+from asperity.gearset.tolerancing.warmth import EXPANSION
 
 GIVEN = {
     "centre_distance": "js7", "thread": ["-40 um", "-70 um"], "tooth": ["-50 um", "-100 um"],

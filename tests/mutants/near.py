@@ -23,7 +23,7 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from mutants.sites import HERE, SOURCE, computing_modules
+from mutants.sites import HERE, SOURCE, computing_modules, telling_modules
 
 TESTS = HERE.parent
 ROOT = TESTS.parent
@@ -95,7 +95,7 @@ def _readers(mutant):
     }
     found = _naming_any(mutant.module, functions, names)
     dotted = ".".join(("asperity", *mutant.module.removesuffix(".py").split("/")))
-    for module in computing_modules():
+    for module in dict.fromkeys([*computing_modules(), *telling_modules()]):
         text = (package / module).read_text("utf-8")
         if f"from {dotted} import" in text:
             found += _naming_any(module, dict(_functions(ast.parse(text))), names)
@@ -125,7 +125,11 @@ def _naming(module):
     """Files of tests that name a module, or its room, the closest first."""
     parts = module.removesuffix(".py").split("/")
     found = []
-    texts = {path: path.read_text("utf-8") for path in sorted(TESTS.glob("*/test_*.py"))}
+    texts = {
+        path: path.read_text("utf-8")
+        for path in sorted(TESTS.glob("*/test_*.py"))
+        if path.parent.name != "browser"
+    }
     for depth in range(len(parts), 0, -1):
         name = ".".join(("asperity", *parts[:depth]))
         package, _, last = name.rpartition(".")
@@ -140,7 +144,7 @@ def _naming(module):
 
 def make(reached) -> dict:
     """Make the map of what :mod:`reach` noted of each test."""
-    modules = set(computing_modules())
+    modules = {*computing_modules(), *telling_modules()}
     lines = {line["test"]: line for line in reached}
     callers, size = defaultdict(set), {}
     for test, line in lines.items():

@@ -5,8 +5,9 @@ where it was stopped: what is known stands in ``out/mutants/results.jsonl``. ``-
 list, ``--only NAME`` tries those whose name or key holds NAME, ``--survivors`` those again that
 nothing had noticed, ``--count N`` the first N; ``--share`` tries nothing and tells what is known.
 ``--jobs N`` tries N at a time, ``--compiled`` those of compiled modules first, ``--minutes M``
-begins none after that time, ``--results FILE`` keeps what is known elsewhere: lines of JSON, of
-which the last on a mutant holds as long as its line is what it was.
+begins none after that time, ``--told`` takes the list of what is told, marked and ranked, and
+``--results FILE`` keeps what is known elsewhere: lines of JSON, of which the last on a mutant
+holds as long as its line is what it was.
 """
 
 import argparse
@@ -231,6 +232,7 @@ def share(mutants, file: Path = RESULTS) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--count", type=int, help="try so many at most")
+    parser.add_argument("--told", action="store_true", help="the list of what is told")
     parser.add_argument("--only", action="append", help="those whose name or key holds this")
     parser.add_argument("--again", action="store_true", help="also those that are known")
     parser.add_argument("--survivors", action="store_true", help="those that survived, again")
@@ -243,7 +245,7 @@ def main() -> None:
     parser.add_argument("--results", type=Path, default=RESULTS, help="file of what is known")
     asked = parser.parse_args()
     ends = time.monotonic() + 60.0 * asked.minutes
-    every = sites.listed()
+    every = sites.listed_told() if asked.told else sites.listed()
     chosen = every
     if asked.only:
         chosen = [m for m in every if any(o in m.name or o in m.key for o in asked.only)]

@@ -1,4 +1,7 @@
-"""Places in the package where a line can be broken, and the seeded list of those that are tried.
+"""Places in the package where a line can be broken, and the seeded lists of those that are tried.
+
+One list is of what computes, the other of what is told of it: marked, ranked, put into tables and
+heads. There a condition turned round, or a part left out of a list, is broken too.
 
 A place is known by what stands there: module, function, kind, text and, of equals in a function,
 which one. A hash of that and of the seed is its rank, and of each kind those of lowest rank are
@@ -18,8 +21,9 @@ from pathlib import Path
 HERE = Path(__file__).parent
 SOURCE = HERE.parents[1] / "src"
 SEED = 20
-COUNT = 200
+COUNT, COUNT_TOLD = 200, 60
 KINDS = ("sign", "factor", "exponent", "index", "bound", "constant")
+KINDS_TOLD = ("condition", "part", "order", "bound", "index", "sign")
 
 COMPUTING = (
     "slider/*", "friction/*", "normal.py", "vibration/*", "rating/*", "drive/*",
@@ -36,6 +40,14 @@ _NOT_COMPUTING = (
 )  # fmt: skip
 # Tables of a standard are numbers of the standard; those of other rooms list the case's tables.
 _COMPUTING_ALL_THE_SAME = ("rating/iso14521/tables.py", "rating/bs721/tables.py")
+
+# What is told, marked and ranked.
+TELLING = (
+    "results/*", "sweep/*", "start/*", "studies/*", "drive/headline.py", "drive/result.py",
+    "drive/directions.py", "drive/locking.py", "drive/judgement.py", "drive/studies/*",
+    "slider/result.py", "block/solution/*", "rating/result.py", "rating/standing.py",
+    "rating/verdict.py", "cli/*",
+)  # fmt: skip
 
 # Functions that make words, and calls whose arguments are words or declarations.
 _WORDS = ("note", "words", "text", "told", "sentence", "label", "title", "message", "describe",
@@ -102,34 +114,44 @@ def computing_modules(source: Path = SOURCE) -> list[str]:
     return [name for name in names if _computes(name)]
 
 
+def telling_modules(source: Path = SOURCE) -> list[str]:
+    """Modules that tell what was computed, as paths below ``asperity``."""
+    package = source / "asperity"
+    names = sorted(path.relative_to(package).as_posix() for path in package.rglob("*.py"))
+    return [name for name in names if _among(name, TELLING) and "__init__" not in name]
+
+
 def _computes(name: str) -> bool:
-    def among(patterns):
-        return any(fnmatch.fnmatch(name, pattern) for pattern in patterns)
+    return _among(name, _COMPUTING_ALL_THE_SAME) or (
+        _among(name, COMPUTING) and not _among(name, _NOT_COMPUTING)
+    )
 
-    return among(_COMPUTING_ALL_THE_SAME) or (among(COMPUTING) and not among(_NOT_COMPUTING))
+
+def _among(name, patterns):
+    return any(fnmatch.fnmatch(name, pattern) for pattern in patterns)
 
 
-def mutants_of(module: str, source: str) -> list[Mutant]:
-    """All places of a module."""
-    finder = _Finder(module, source)
+def mutants_of(module: str, source: str, *, told: bool = False) -> list[Mutant]:
+    """All places of a module, in what it computes or in what it tells."""
+    finder = (_Teller if told else _Finder)(module, source)
     finder.visit(ast.parse(source))
     return finder.found
 
 
-def _of(module, source):
+def _of(module, source, *, told=False):
     path = source / "asperity" / module
-    return mutants_of(module, path.read_text("utf-8")) if path.exists() else []
+    return mutants_of(module, path.read_text("utf-8"), told=told) if path.exists() else []
 
 
 def _every(source):
     return [mutant for module in computing_modules(source) for mutant in _of(module, source)]
 
 
-def seeded(candidates, count: int, seed: int = SEED) -> list[Mutant]:
+def seeded(candidates, count: int, seed: int = SEED, kinds=KINDS) -> list[Mutant]:
     """Of each kind as many, those of lowest rank; all kinds in turn mixed by their rank."""
     chosen = []
-    for n, kind in enumerate(KINDS):
-        share = (count + len(KINDS) - 1 - n) // len(KINDS)
+    for n, kind in enumerate(kinds):
+        share = (count + len(kinds) - 1 - n) // len(kinds)
         of_kind = [mutant for mutant in candidates if mutant.kind == kind]
         chosen += sorted(of_kind, key=lambda mutant: mutant.rank(seed))[:share]
     return sorted(chosen, key=lambda mutant: mutant.rank(seed))
@@ -154,6 +176,13 @@ def listed(count: int = COUNT, seed: int = SEED, source: Path = SOURCE) -> list[
     first = always(source)
     others = [mutant for mutant in _every(source) if mutant not in first]
     return first + seeded(others, count - len(first), seed)
+
+
+@functools.cache
+def listed_told(count: int = COUNT_TOLD, seed: int = SEED, source: Path = SOURCE) -> list[Mutant]:
+    """The seeded list of what is told."""
+    every = [m for module in telling_modules(source) for m in _of(module, source, told=True)]
+    return seeded(every, count, seed, KINDS_TOLD)
 
 
 class _Finder(ast.NodeVisitor):
@@ -333,6 +362,64 @@ class _Finder(ast.NodeVisitor):
     def _ends(self, node):
         start = self._starts[node.lineno - 1] + node.col_offset
         return start, self._starts[node.end_lineno - 1] + node.end_col_offset
+
+
+class _Teller(_Finder):
+    """Places in what is told: conditions, parts of lists and orders, in words' functions too."""
+
+    def visit_FunctionDef(self, node):
+        self._names.append(node.name)
+        for statement in node.body:
+            self.visit(statement)
+        self._names.pop()
+
+    def visit_If(self, node):
+        self._condition(node.test)
+        self.generic_visit(node)
+
+    def visit_IfExp(self, node):
+        self._condition(node.test)
+        self.generic_visit(node)
+
+    def visit_comprehension(self, node):
+        for test in node.ifs:
+            self._condition(test)
+        self.generic_visit(node)
+
+    def visit_Starred(self, node):
+        # An iteration's rest or a call's options are none that is told.
+        if isinstance(node.ctx, ast.Load) and not isinstance(node.value, ast.Name):
+            self._add(node.value, "part", "()", *self._ends(node.value))
+        self.generic_visit(node)
+
+    def visit_Call(self, node):
+        called = getattr(node.func, "id", getattr(node.func, "attr", ""))
+        if called in {"sorted", "sort"}:
+            turned = _copy(node)
+            flags = {keyword.arg: keyword for keyword in turned.keywords}
+            if "reverse" in flags:
+                flags["reverse"].value = ast.UnaryOp(ast.Not(), flags["reverse"].value)
+            else:
+                turned.keywords.append(ast.keyword("reverse", ast.Constant(True)))
+            self._take(node, "order", turned)
+        if called in _EXTREMES and (len(node.args) > 1 or "." not in ast.unparse(node.func)):
+            other = _copy(node)
+            if isinstance(other.func, ast.Name):
+                other.func.id = _EXTREMES[called]
+            else:
+                other.func.attr = _EXTREMES[called]
+            self._take(node, "order", other)
+        self.generic_visit(node)
+
+    def _condition(self, test):
+        if id(test) not in self._taken and not isinstance(test, ast.Constant):
+            self._mark(test)
+            other = (
+                test.operand
+                if isinstance(test, ast.UnaryOp) and isinstance(test.op, ast.Not)
+                else ast.UnaryOp(ast.Not(), test)
+            )
+            self._take(test, "condition", other)
 
 
 def _copy(node):

@@ -70,6 +70,28 @@ def test_the_worm_s_torque_stays_between_reversed_and_static_friction():
     check(24, 7)
 
 
+def test_how_far_beyond_them_slip_across_the_sliding_takes_it_is_a_closed_form_that_is_reached():
+    ways = [
+        (f"vibration.mode={mode}", "friction.model=coulomb", "friction.mu=0.2",
+         "drive.tangential_compliance=0 m/N", "operation.output_torque=300 N m",
+         "vibration.frequency=3 kHz", "vibration.velocity_ratio=1.2", "solve.duration=4 ms")
+        for mode in ("axial", "wheel-axial")
+    ]  # fmt: skip
+    found = all_solved(ways)
+    point = found[0].problem.point(found[0].problem.drive.effective_radius)
+    # Of the flank's normal 0.376 is radial and 0.9266 across the sliding.
+    assert aslant(point, 0.2) / 0.2 == pytest.approx(
+        1.0 / math.sqrt(1.0 - (0.2 * 0.376 / 0.9266) ** 2), rel=1e-5
+    )
+    floor, most = (
+        point.worm_torque(1.0, sign * aslant(point, 0.2)) / point.worm_torque(1.0, sign * 0.2)
+        for sign in (-1.0, 1.0)
+    )
+    assert (floor, most) == pytest.approx((0.9965, 1.0014), abs=5e-5)
+    assert min(one.advantage_min / one.floor_reversed for one in found) == pytest.approx(floor)
+    assert max(one.advantage_max for one in found) == pytest.approx(most)
+
+
 @pytest.mark.slow
 def test_the_same_over_five_hundred_drives():
     check(500, 11)

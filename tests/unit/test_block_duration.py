@@ -7,6 +7,7 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.block.solution import march as block_march
+from asperity.block.solution.course import _frame_steps
 from asperity.block.solution.march import BlockMarch, solve_block
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -208,3 +209,12 @@ def test_quarters_of_a_window_are_of_whole_cycles_where_there_are_four(cycles):
         assert max(spans) - min(spans) <= 2.0
     assert spans.sum() == pytest.approx(cycles)
     assert all(one < other for one, other in itertools.pairwise(edges))
+
+
+def test_frames_are_of_the_last_two_cycles_to_the_last_step():
+    made = problem(*QUICK, "solve.duration=20 ms")
+    steps = _frame_steps(made)
+    assert steps[-1] == made.timetable.steps
+    cycles = made.model.frequency * made.timetable.step * (steps[-1] - steps[0])
+    assert cycles == pytest.approx(2.0, abs=0.01)
+    assert np.ptp(np.diff(steps)) <= 1

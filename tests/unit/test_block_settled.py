@@ -37,6 +37,25 @@ def test_a_block_settles_to_what_its_answer_says_and_how_surely(found):
     assert gains.startswith("asperities keep their deflection")
 
 
+NOTHING = (
+    "block.elements=[2, 2, 2]", "block.element=hex8", "vibration.start=0 s",
+    "slider.drive_stiffness=1e7 N/m", "slider.drive_damping=2000 N s/m",
+    "vibration.velocity_ratio=1e-6",
+)  # fmt: skip
+
+
+def test_a_vibration_of_nothing_changes_nothing_of_a_block():
+    settled_block, marched = (
+        solver(BlockProblem.from_case(read_case("block-longitudinal", case_tables(), settings)))
+        for solver, settings in (
+            (settle, (*NOTHING, SETTLED)),
+            (solve_block, (*NOTHING, "solve.duration=20 ms", "solve.step=5 us")),
+        )
+    )
+    for found in (settled_block, marched):
+        assert found.ratio == pytest.approx(1.0, abs=1e-6)
+
+
 @pytest.mark.slow
 def test_the_figures_of_the_thesis_settle_blocks_in_the_same_way(found):
     block = blocks.settle("block-longitudinal", (*LIGHT, "vibration.velocity_ratio=2"))

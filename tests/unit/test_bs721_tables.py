@@ -95,6 +95,36 @@ def test_end_of_a_table_is_masked_in_arrays():
     assert "from 1 to 1200 rpm" in result.legend[result.reason[1]]
 
 
+SUMS = {
+    "zone_factor": (1.25498, 0.215412), "sliding_speed_factor": (0.524, 0.238084),
+    "rotation_speed_factor": (0.6766, 0.224819), "strength_speed_factor": (0.45875, 0.108102),
+    "friction": (0.0586, 0.0405854), "bending_stress_factor": (106.0, 78.7337),
+    "surface_stress_factor": (7.175, 3.14593), "worm_surface_stress_factor": (18.1875, 15.6409),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SUMS)
+def test_no_number_of_a_table_is_another_than_it_was(name):
+    # Most of them are from memory: no document tells which is wrong, so that mean and spread do.
+    table = getattr(bs721.tables.read_tables(), name)
+    if isinstance(table, bs721.tables.ZoneFactor):
+        numbers = np.concatenate([row.y for row in table.rows.values()])
+    elif isinstance(table, bs721.tables.Curve):
+        numbers = table.y
+    else:
+        numbers = np.array([v for row in table.values.values() for v in row.values()])
+    assert (numbers.mean(), numbers.std()) == pytest.approx(SUMS[name], rel=1e-5)
+
+
+def test_factors_of_speed_and_friction_fall_and_that_of_the_zone_rises():
+    tables = bs721.tables.read_tables()
+    for name in ("sliding_speed_factor", "rotation_speed_factor", "strength_speed_factor"):
+        assert np.all(np.diff(getattr(tables, name).y) < 0.0)
+    assert np.all(np.diff(tables.friction.y) < 0.0)
+    for row in tables.zone_factor.rows.values():
+        assert np.all(np.diff(row.y) > 0.0)
+
+
 WEAK = ("gearset.worm_material=0.4C steel",)
 
 

@@ -195,6 +195,7 @@ def test_the_motor_gives_a_cam_s_power_too():
         (("control.kind=clutch", "control.failures="), "'12 per turn'"),
         (("vibration.ramp=1 ms",), "vibration.ramp"),
         (("control.seat_edge=5 deg",), "both seats leave nothing"),
+        (("drive.stroke=100000 deg",), "a stroke is marched over 2e"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_refused_in_a_line(settings, words):

@@ -39,6 +39,13 @@ def test_orders_put_together_are_the_error_they_were_found_of(count):
     np.testing.assert_allclose(found[1], phase, atol=1e-11)
 
 
+def test_what_is_rounding_has_neither_amplitude_nor_phase():
+    even = 1e-4 + 1e-17 * np.random.default_rng(1).standard_normal(12)
+    amplitude, phase = harmonics(even)
+    assert not amplitude.any()
+    assert not phase.any()
+
+
 def test_begun_elsewhere_amplitudes_stay_and_phases_turn_by_their_order():
     rng = np.random.default_rng(5)
     error = rng.standard_normal(13)

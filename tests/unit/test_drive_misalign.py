@@ -12,7 +12,11 @@ from asperity.commands import case_tables
 from asperity.drive.static.loaded import Loaded, loaded
 from asperity.drive.static.spread import STRIPS, Spread, k_h_alpha
 from asperity.drive.studies import misalign, points
+from asperity.drive.studies.misalign_plots import over_axes
 from asperity.errors import ConvergenceError, InputError
+from asperity.gearset import Gearset
+from asperity.gearset.tolerancing.table import Tolerances
+from asperity.gearset.tolerancing.warmth import Warmth
 from asperity.runs import Interrupted, Run
 from asperity.runs.cache import Cache
 
@@ -91,7 +95,7 @@ def test_what_was_solved_before_it_was_interrupted_is_not_solved_again(cached):
             if done == 3:
                 raise Interrupted("")
 
-    with pytest.raises(Interrupted):
+    with pytest.raises(Interrupted, match="3 of 5 points are kept; the same command goes on"):
         misalign.answer(made, Stopped())
     assert len(cached) == 3
     told = []
@@ -176,3 +180,63 @@ def test_a_left_hand_gearset_is_off_as_the_right_hand_one_mirrored():
     for name in ("pressure_flank", "force_worm_tip", "k_h_beta", "line_load", "deflection"):
         assert getattr(left, name) == pytest.approx(getattr(right, name), rel=1e-6)
     assert right.centre_face != pytest.approx(numbers().centre_face, rel=1e-2)
+
+
+WARM = ("tolerances.temperatures={ housing = '60 degC', gears = '80 degC' }",)
+
+
+def test_a_warm_gearset_is_a_point_of_its_own(cached):
+    made = study(*WARM, over=["mount.axial_offset=0,20 um"])
+    place = made.places[1]
+    # By hand: iron housing 40 K, bronze rim on steel and steel worm 60 K.
+    g = place.problem.geometry
+    rim = 0.5 * g.wheel_root_diameter - g.rim_thickness
+    wheel = 17.5e-6 * (0.5 * g.wheel_mean_diameter - rim) + 11.5e-6 * rim
+    apart = 10.5e-6 * g.centre_distance * 40.0
+    apart -= 60.0 * (wheel + 11.5e-6 * 0.5 * g.worm_pitch_diameter)
+    assert place.problem.mount.centre_distance_error == pytest.approx(1e-3 * apart, rel=1e-9)
+    assert apart < 0.0
+    pitch = (1.0 + 11.5e-6 * 60.0) / (1.0 + 60.0 * wheel / (0.5 * g.wheel_mean_diameter)) - 1.0
+    lead = g.lead_angle + place.problem.modification.lead_correction
+    assert math.tan(lead) / math.tan(g.lead_angle) - 1.0 == pytest.approx(pitch, rel=1e-6)
+    found = misalign.answer(made, Run())
+    assert found.name[1].startswith("warm: centre distance ")
+    assert found.to_json()["points"][1]["values"] == {"mount.axial_offset [um]": None}
+    assert any("the second row is the gearset warm" in each for each in found.tables()[0].remarks)
+
+
+def test_gears_and_housing_of_one_material_at_one_temperature_mesh_as_cold():
+    settings = (
+        "tolerances.temperatures={ housing = '70 degC', gears = '70 degC' }",
+        "tolerances.housing=cast iron", "gearset.wheel_material=EN-GJS-400-15",
+    )  # fmt: skip
+    case = read_case("drive-screw", case_tables(), settings)
+    gearset = case.require(Gearset)
+    given = case.require(Tolerances)
+    found = Warmth.of(gearset, given.temperatures, given.housing)
+    # Of steel is the worm alone: an eighth of the centre distance by a millionth a kelvin.
+    g = gearset.geometry
+    assert found.apart == pytest.approx(-1e-6 * 50.0 * 0.5 * g.worm_pitch_diameter, rel=0.02)
+    assert found.pitch == pytest.approx(1e-6 * 50.0, rel=1e-3)
+
+
+def test_each_axis_has_a_column_of_its_own_and_a_line_where_it_alone_is_off(cached):
+    made = study(over=["mount.axial_offset=-50,50 um", "mount.shaft_angle_error=0,0.1 deg"])
+    figure = over_axes(misalign.answer(made, Run()).to_dataset())
+    grid = figure.axes[0].get_gridspec()
+    assert (grid.nrows, grid.ncols) == (4, 2)
+    points_of = figure.axes[0].lines[0].get_xdata()
+    np.testing.assert_allclose(points_of, [0, -50, -50, 50, 50])
+    np.testing.assert_allclose(figure.axes[1].lines[0].get_xdata(), [0, 0, 0.1, 0, 0.1])
+    # Alone off by -50, 0 and 50 um, in that order.
+    np.testing.assert_allclose(figure.axes[0].lines[1].get_xdata(), [-50, 0, 50])
+    assert figure.axes[0].get_legend() is not None
+    assert all(axes.get_legend() is None for axes in figure.axes[1:])
+
+
+def test_where_no_point_has_an_axis_off_alone_there_is_no_line_and_no_legend(cached):
+    made = study(over=["mount.axial_offset=50 um", "mount.shaft_angle_error=0.1 deg"])
+    figure = over_axes(misalign.answer(made, Run()).to_dataset())
+    assert all(axes.get_legend() is None for axes in figure.axes)
+    # The points of each curve, and the case as it is.
+    assert [len(axes.lines) for axes in figure.axes[:2]] == [4, 4]

@@ -1,5 +1,7 @@
 """What a drive's ratios refer to: the same drive without vibration, as a march has it."""
 
+import re
+
 import numpy as np
 import pytest
 from apparatus.drives import problem, solved
@@ -77,6 +79,19 @@ def test_a_drive_that_shakes_by_itself_is_what_its_ratios_refer_to(way, step):
     # A step that was given is kept, and what it makes wrong told.
     assert (one.step_error > 1e-3) == (step is not None)
     assert any("give a smaller solve.step" in note for note in one.notes) == (step is not None)
+
+
+def test_a_drive_that_shakes_by_itself_for_a_short_while_and_in_a_step_that_is_given():
+    short = "vibration.frequency=4 kHz", "solve.step=0.5 us", "solve.duration=20 ms"
+    one = nothing("falling", "screw", "rigid", *SLOW, *short)
+    assert one.settled
+    assert one.torque_ratio == pytest.approx(1.0, abs=5e-4)
+    assert one.energy_ratio == pytest.approx(1.0, abs=5e-4)
+    (note,) = [note for note in one.notes if "shakes by itself" in note]
+    steady = float(re.search(r"sliding would take (\S+) N m", note)[1])
+    # The middle of what it swings over is less than it slides by.
+    assert 0.9 * steady < one.torque_static < 0.97 * steady
+    assert one.torque == pytest.approx(one.torque_static, rel=5e-4)
 
 
 def test_a_held_wheel_refers_to_what_it_takes_once_the_worm_stands():

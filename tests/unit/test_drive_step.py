@@ -51,6 +51,17 @@ def test_a_step_that_is_not_given_is_chosen_by_what_it_makes_wrong():
     assert not any("makes an error" in note for note in chosen.notes)
 
 
+@pytest.mark.parametrize(("ratio", "powers"), [(1e-3, 0.0), (0.0, 2.5e-3)])
+def test_a_step_is_short_enough_below_a_thousandth_of_the_ratio_and_a_quarter_percent_of_powers(
+    ratio, powers
+):
+    begun = math.inf
+    assert StepError(0.98 * ratio, 0.98 * powers).finer(1.0, begun) is None
+    finer = StepError(1.02 * ratio, 1.02 * powers).finer(1.0, begun)
+    assert 0.4 < finer <= 0.5
+    assert StepError(10.0 * ratio, 10.0 * powers).finer(1.0, begun) == pytest.approx(0.07)
+
+
 def test_where_half_the_step_says_the_same_the_step_stays():
     screw = ("vibration.velocity_ratio=1.5",)
     one = solved(*screw)

@@ -151,6 +151,9 @@ def test_a_stroke_s_headline_says_what_vibration_is_worth_and_what_fails(stroke)
     assert asked.safety_wear > 1.1
     assert not any("FAILS" in line for line in asked.headline())
     assert len(asked.headline()) == 3
+    # Nothing is said of the torque between the seats: a valve's is a third.
+    assert asked.part_load == pytest.approx([66.0, 22.0, 66.0], rel=1e-12)
+    assert asked.part_plain[1] == pytest.approx(asked.part_plain[0] / 3.0, rel=1e-9)
 
 
 def test_a_shaken_wheel_s_actuator_counts_by_what_it_gives_at_least():

@@ -285,6 +285,16 @@ def test_a_screw_near_the_resonance_begins_of_elastic_teeth_as_of_these_reduced(
     assert teeth.open_share == 0.0
 
 
+def test_a_vibration_of_nothing_changes_nothing_of_elastic_teeth():
+    model = model_of(
+        "drive.flanks=driving", "vibration.frequency=20 kHz", "vibration.velocity_ratio=1e-6",
+        "drive.protocol=window", "drive.window=2",
+    )  # fmt: skip
+    found = solve_shaken(model.problem, model, Run())
+    assert found.torque_ratio == pytest.approx(1.0, abs=1e-9)
+    assert found.energy_ratio == pytest.approx(1.0, abs=1e-9)
+
+
 def test_by_the_standard_s_friction_teeth_are_loaded_as_without_vibration():
     settings = ("drive.friction=iso14521", "drive.flanks=driving", "drive.phases=8")
     model = model_of(*settings, "vibration.displacement_amplitude=1e-6 um", "drive.window=1")

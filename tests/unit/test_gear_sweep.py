@@ -12,6 +12,7 @@ from asperity.errors import InputError
 from asperity.rating.rate import rate_case
 from asperity.results import read
 from asperity.sweep import branches, read_grid, run
+from asperity.sweep.gear_plots import plot_along
 
 FACTORS = "gearset.diameter_factor=9.5:10.5:0.5"
 TORQUES = "operation.output_torque=200,300 N m"
@@ -76,6 +77,16 @@ def test_over_one_axis_of_words_every_safety_is_drawn_against_what_is_asked():
     assert [tick.get_text() for tick in lower.get_xticklabels()] == ["ZI", "ZC"]
     margins = np.min([line.get_ydata() for line in upper.lines[:-1]], axis=0)
     assert margins == pytest.approx(swept.arrays["margin"], rel=1e-15)
+
+
+def test_one_curve_alone_needs_no_legend(swept):
+    along = swept.to_dataset().isel(output_torque=0, drop=True)
+    upper, lower = plot_along(along).axes
+    assert len(lower.get_legend().get_texts()) == 4
+    few = along.drop_vars(["iso14521_eta_z1_2", "bs721_eta", "agma6034_eta"])
+    upper, lower = plot_along(few).axes
+    assert lower.get_legend() is None
+    assert len(upper.get_legend().get_texts()) == 8
 
 
 def test_a_point_is_known_again_by_its_content():

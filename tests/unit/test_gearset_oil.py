@@ -31,6 +31,19 @@ def test_an_oil_expands_as_it_warms():
     assert oil.density(115.0, 890.0, 7e-4) == pytest.approx(890.0 / 1.07, rel=1e-15)
 
 
+def test_an_oil_is_an_oil_from_20_below_to_150_degc_and_from_2_to_2e7_mm2_s():
+    # ASTM D341: its plain formula holds from 2.0 mm2/s; the other three are of our own or memory.
+    assert (oil.TEMPERATURE.lower, oil.TEMPERATURE.upper) == (-20.0, 150.0)
+    assert oil.TEMPERATURE.source.confidence == "own choice"
+    assert (oil.VISCOSITY.lower, oil.VISCOSITY.upper) == (2.0, 2e7)
+    assert oil.VISCOSITY.source.confidence == "from memory"
+    vg68 = find(Lubricant, "Fuchs Titan Gear MP SAE 80")
+    # SAE J306, grade 80: from 8.5 to below 11.0 mm2/s at 100 degC.
+    assert 8.5e-6 <= vg68.viscosity_100 < 11e-6
+    assert vg68.source("viscosity_100").confidence == "verified"
+    assert vg68.source("viscosity_40").confidence == "from memory"
+
+
 def test_a_lubricant_answers_in_si_units():
     vg220 = find(Lubricant, "ISO VG 220 mineral")
     assert vg220.kinematic_viscosity(313.15) == pytest.approx(220e-6, rel=1e-12)

@@ -1,3 +1,4 @@
+import dataclasses
 import math
 from dataclasses import asdict
 
@@ -250,6 +251,38 @@ def test_a_drive_force_that_still_changes_is_noted():
         history=False,
     )  # fmt: skip
     assert any(note.startswith("not steady") for note in answer.notes)
+    # The law's own state stays; the slow motion has not come to it.
+    assert not answer.settled
+    assert answer.settled_by.endswith("; the law's states repeat themselves to 1e-09")
+
+
+def test_a_state_of_the_law_that_does_not_stay_is_no_prediction_of_a_march_with_it(
+    monkeypatch, law
+):
+    loose = dataclasses.replace(law, unsettled=(0.5e-3, -0.5e-3))
+    monkeypatch.setattr(homogenised, "homogenise", lambda model: loose)
+    answer = solve(body("table-4.3", "solve.method=homogenised"), history=False)
+    assert not answer.settled
+    assert "the periodic state at the drive velocity does not stay" in answer.settled_by
+    assert any("does not stay, among them 0.0005, -0.0005 m/s" in note for note in answer.notes)
+
+
+def test_the_law_names_the_velocities_whose_state_does_not_stay(monkeypatch, law):
+    few = law.velocity[law.velocity > 0.0][:3]
+
+    def attempt(model, **asked):
+        found = solved(model, **asked)
+        stays = model.slider.drive_velocity not in few
+        return dataclasses.replace(found, settled=found.settled and stays)
+
+    solved = hl.solve_periodic
+    monkeypatch.setattr(hl, "solve_periodic", attempt)
+    loose = homogenise(body("table-4.3"))
+    assert sorted(loose.unsettled) == sorted([*few, *-few])
+    assert loose.velocity == pytest.approx(law.velocity)
+    (note,) = loose.notes
+    assert note.startswith(f"at 6 of {len(law.velocity) - 1} mean velocities the periodic state")
+    assert "6 not settled" in repr(loose)
 
 
 @pytest.mark.parametrize(("case", "direction", "law_name"), grid(CASES, [45, -45, 135], LAWS))

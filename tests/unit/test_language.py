@@ -10,6 +10,8 @@ from asperity.commands.shown import shown_as
 from asperity.errors import InputError, StorageError
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
+from asperity.results.system import shown_table
+from asperity.results.table import Table
 from asperity.results.terminal import rendered
 from asperity.results.words import Number, Sentence
 from asperity.runs import Run
@@ -102,6 +104,16 @@ def test_a_german_report_has_the_numbers_of_the_english_one(given):
         german = result.to_html()
     marked = re.compile(r"<data [^>]*>[^<]*</data>")
     assert sorted(marked.findall(german)) == sorted(marked.findall(english))
+
+
+def test_a_table_is_shown_in_the_language_that_is_spoken_and_else_as_it_is(words):
+    table = Table.of(("wheel", "and"), [("wear of wheel", "and")], title="wheel", remarks=["and"])
+    assert shown_table(table) == table
+    with spoken(words):
+        shown = shown_table(table)
+    assert [column.heading for column in shown.columns] == ["Rad", "und"]
+    assert shown.rows == (("Radverschleiß", "und"),)
+    assert (shown.title, *shown.remarks) == ("Rad", "und")
 
 
 def test_every_line_of_a_shipped_language_has_the_holes_of_the_english():

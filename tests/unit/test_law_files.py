@@ -1,6 +1,7 @@
 """The mean friction law as other programs take it: C compiled, CSV and MATLAB read back."""
 
 import ctypes
+import dataclasses
 import shutil
 import subprocess
 
@@ -102,6 +103,16 @@ def test_a_map_is_linear_between_its_laws_and_has_the_nearest_beyond(surface):
 @compiled
 def test_a_comment_cannot_be_left_by_the_name_of_a_case(curve, tmp_path):
     library(curve, tmp_path, ["*/ int main = 1; /*", "a\n#error", "??/", "a\\"])
+
+
+@pytest.mark.parametrize("kind", ["c", "csv"])
+def test_a_file_says_where_the_law_is_no_prediction(curve, kind):
+    (law,) = curve.laws
+    loose = FrictionMap([dataclasses.replace(law, unsettled=(float(law.velocity[3]),))])
+    said = ["".join(WRITERS[kind](each, ["a case"]).values()) for each in (curve, loose)]
+    told = [" ".join(text.split()) for text in said]
+    assert ["no prediction" in text for text in told] == [False, True]
+    assert f"{law.velocity[3]:.3g} m/s" in told[1]
 
 
 def test_csv_has_the_table_with_units(curve, tmp_path):

@@ -151,7 +151,7 @@ def test_results_say_when_they_rest_on_memory():
 
 def test_a_number_is_trusted_no_more_than_those_in_its_equation():
     rated = rate(*minimal())
-    levels = ["verified", "one source", "from memory"]
+    levels = ["verified", "one source", "own choice", "from memory"]
     for rating in rated.ratings:
         trust = {e.symbol: e.source.confidence for e in rating if not e.assumed}
         given = {e.symbol for e in rating if e.source.name == "the case"}
@@ -521,6 +521,26 @@ class TestVariants:
             np.testing.assert_array_equal(missing, rated.reason(key) != 0)
             for code in np.unique(rated.reason(key)[missing]):
                 assert rated.legend(standard)[int(code)]
+
+    @pytest.mark.parametrize("standard", ["iso14521", "bs721", "agma6034"])
+    def test_blocks_side_by_side_give_what_one_block_gives(self, monkeypatch, standard):
+        lots = np.random.default_rng(5)
+        given = {
+            "diameter_factor": lots.uniform(0.5, 40.0, 500),
+            "worm_speed": lots.uniform(0.5, 500.0, 500),
+        }
+        whole = variants(*minimal(), (standard,), **given)
+        # The function stands for its module in the room's names.
+        monkeypatch.setitem(variants.__globals__, "BLOCK", 17)
+        parts = variants(*minimal(), (standard,), **given)
+        for key in whole:
+            np.testing.assert_array_equal(parts[key], whole[key])
+            told, wanted = (
+                [one.legend(standard).get(int(code), "") for code in one.reason(key)]
+                for one in (parts, whole)
+            )
+            assert told == wanted
+        assert any(told)
 
     def test_number_that_all_variants_share_and_no_formula_allows_masks_them_all(self):
         rated = variants(*minimal({"starts": 5}), worm_roughness=[1e-6, 2e-6])

@@ -1,6 +1,11 @@
 """What standards come to: short on the terminal, whole in the report."""
 
-from asperity.rating.standing import WIDTH, Standing
+from types import SimpleNamespace
+
+import pytest
+
+from asperity.rating.iso14521.limits import PLAUSIBLE, VALIDITY
+from asperity.rating.standing import WIDTH, Standing, efficiency_outside
 
 WHY = (
     "h* is -0.00541; it must be above 0. m_x1 = 0.9891 mm drives it (with x_2 = -2.48e-06); any "
@@ -25,3 +30,16 @@ def test_a_reason_that_fits_and_one_without_parts_stay_as_they_were():
 def test_the_report_has_the_whole_reason():
     _, told = Standing.sentences(NONE, whole=True)
     assert told == f"ISO/TR 14521: {WHY}"
+
+
+LIMITS = {**VALIDITY, **PLAUSIBLE}
+OF_EFFICIENCY = {"centre_distance", "profile_shift", "geometry_factor", "idle_share"}
+"""Limits of what friction, or what is lost without load, rests on."""
+
+
+@pytest.mark.parametrize("key", LIMITS)
+def test_an_efficiency_is_marked_by_what_it_rests_on_alone(key):
+    assert set(LIMITS) >= OF_EFFICIENCY
+    sentence = LIMITS[key].violation(2.0 * LIMITS[key].upper + 1.0)
+    marked = efficiency_outside(SimpleNamespace(violations=(sentence,)))
+    assert len(marked) == (key in OF_EFFICIENCY)

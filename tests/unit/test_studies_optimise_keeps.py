@@ -3,6 +3,7 @@
 import random
 
 import pytest
+from apparatus.rated_cases import ACTUATOR
 
 import asperity
 from asperity.casefile import read_case
@@ -114,6 +115,21 @@ def test_what_is_to_be_kept_does_not_fall():
     case = read_case("gearset-3", case_tables())
     kept = found(case, keep=["S_W"])
     assert kept.after.iso14521["S_W"] >= kept.before.iso14521["S_W"] * (1 - 2e-6)
+
+
+def test_a_smoother_worm_that_no_longer_locks_itself_is_told_and_not_taken_where_it_is_to(tmp_path):
+    (tmp_path / "own.toml").write_text(ACTUATOR)
+    case = read_case(tmp_path / "own.toml", case_tables(), ["gearset.worm_roughness=1.6 um"])
+    smooth = {"free": "worm_roughness", "bounds": ["worm_roughness=0.1:1.6 um"]}
+    best, kept = found(case, **smooth), found(case, **smooth, keep=["locking"])
+    said = "no longer locks itself at rest by ISO/TR 14521 (--keep locking holds that)"
+    assert said in best.notes
+    assert not any("locks itself" in note for note in kept.notes)
+    words = [one.to_json()["locking"] for one in (best, kept)]
+    assert [one["given"]["locks itself at rest"] for one in words] == ["yes", "yes"]
+    assert [one["optimum"]["locks itself at rest"] for one in words] == ["by BS and AGMA", "yes"]
+    assert [one["made"]["locks itself at rest"] for one in words] == ["by BS and AGMA", "yes"]
+    assert 0.0 < kept.gain < best.gain
 
 
 def test_what_is_not_free_stays_and_bounds_are_kept():

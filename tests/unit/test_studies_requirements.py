@@ -120,7 +120,8 @@ def test_a_proposal_under_a_spectrum_is_written_without_another_life(tmp_path):
     asked = {"output_torque": "250 N m", "worm_speed": "1400 rpm"}
 
     def written(folder, *settings):
-        size("", "50", asked, settings, "size", "", cut=False, as_json=True, out=tmp_path / folder)
+        out = tmp_path / folder
+        size("", "50", asked, settings, "size", "", ("", ""), cut=False, as_json=True, out=out)
         return tomllib.loads((tmp_path / folder / "proposal-1.toml").read_text())
 
     assert "life" in written("plain")["operation"]

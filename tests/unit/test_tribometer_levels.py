@@ -264,8 +264,10 @@ def test_a_motor_gives_way_to_the_torque_as_far_as_that_swings():
     assert found["speed_steel"].give == pytest.approx(-GIVE * largest, rel=0.1)
     assert found["current_steel"].give == pytest.approx(DRAW * largest, rel=0.1)
     assert found["speed_bronze"].give == pytest.approx(0.0, abs=0.2)
+    # Where nothing swings, what vibration does tells it, to a third.
     still = joint(NOISES["white"], 1).levels
-    assert still["speed_steel"].give == 0.0
+    assert still["speed_steel"].give == pytest.approx(-GIVE * largest, rel=1.0 / 3.0)
+    assert still["speed_steel"].give_variance > 0.0
 
 
 def test_run_out_is_found_where_turns_are_seen():

@@ -55,6 +55,14 @@ def test_a_screen_takes_at_most_200_kb_and_what_draws_in_space_580_more():
     assert sum(size[path] for path in in_space) <= 580_000
 
 
+def test_all_that_the_page_begins_with_is_asked_for_at_once():
+    static = PAGE.parent.resolve()
+    begins = loaded(static / "js/main.js", set())
+    text = (static / "index.html").read_text("utf-8")
+    told = re.findall(r'<link rel="modulepreload" href="([^"]+)">', text)
+    assert {static / name for name in [*told, "js/main.js"]} == begins
+
+
 def test_the_modules_of_the_page_are_short_and_so_are_their_lines():
     for path in (PAGE.parent / "js").rglob("*.js"):
         lines = path.read_text("utf-8").splitlines()

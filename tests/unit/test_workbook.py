@@ -47,6 +47,16 @@ def differences(sheets, found):
     return count, wrong
 
 
+SMALL_FAN = [
+    "gearset.starts=1",
+    "gearset.wheel_teeth=30",
+    "gearset.centre_distance=26.6 mm",
+    "gearset.axial_module=1.33 mm",
+    "gearset.diameter_factor=10",
+    "operation.fan=true",
+    "operation.output_torque=2 N m",
+    "operation.through_travel_torque=2 N m",
+]
 CASES = {
     "splash": {},
     "gearset 2": {"name": "gearset-2"},
@@ -100,18 +110,8 @@ CASES = {
             "housing.area": 0.3,
         }
     },
-    "small, with a fan": {
-        "settings": [
-            "gearset.starts=1",
-            "gearset.wheel_teeth=30",
-            "gearset.centre_distance=26.6 mm",
-            "gearset.axial_module=1.33 mm",
-            "gearset.diameter_factor=10",
-            "operation.fan=true",
-            "operation.output_torque=2 N m",
-            "operation.through_travel_torque=2 N m",
-        ]
-    },
+    "small, with a fan": {"settings": SMALL_FAN},
+    "small, with a fan, at 30000 rpm": {"settings": [*SMALL_FAN, "operation.worm_speed=30000 rpm"]},
     "polyglycol, fan": {
         "settings": ["operation.lubricant=ISO VG 460 polyglycol", "operation.fan=true"]
     },

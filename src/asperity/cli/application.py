@@ -91,10 +91,11 @@ def export(
 ) -> None:
     """Take a case to another program: an input deck, or a body's mean friction as a table.
 
-    An elastic block or a gearset's loaded teeth become block.inp or teeth.inp, for Abaqus also
-    user.f, the friction law as user subroutine FRIC. The mean friction of a sliding body over a
-    cycle of its vibration, against its mean velocity, becomes law.c and law.h, law.csv or law.mat;
-    with --over map.c and so on. With dahl its law, step by step, is asperity_dahl.c, .h and .m.
+    An elastic block or a gearset's loaded teeth become block.inp or teeth.inp; for Abaqus also
+    gear.inp, a gearset shaken along its worm, and user.f, the friction law as subroutine FRIC.
+    The mean friction of a sliding body over a cycle of its vibration, against its mean velocity,
+    becomes law.c and law.h, law.csv or law.mat; with --over map.c and so on. With dahl its law,
+    step by step, is asperity_dahl.c, .h and .m.
     """
     from asperity.cli.export import export as run
 

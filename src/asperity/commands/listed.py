@@ -224,6 +224,44 @@ COMMANDS = (
         ),
     ),
     Command(
+        "relief",
+        "Find the relief of a worm gearset that takes the load off its edges.",
+        "Each design counts by the worst of its loads and mountings. With --out also report.html, "
+        "relief.json, relief.nc and relief.png.",
+        module="asperity.drive.studies.relief",
+        needs=("gearset", "operation", "drive"),
+        counts="points",
+        options=(
+            Option(
+                "over",
+                "Values of a key of modification, hob or disc; again for another. Left out: tip "
+                "relief from 0 to 40 um.",
+                "TABLE.KEY=VALUES",
+                many=True,
+            ),
+            Option(
+                "at",
+                "Loads and mountings to bear with, as mount.axial_offset=-20,20 um; again for "
+                "another. Left out: the load, a third of it, and the corners of [tolerances].",
+                "TABLE.KEY=VALUES",
+                many=True,
+            ),
+        ),
+    ),
+    Command(
+        "wear",
+        "Let a loaded worm wheel bed in: pressure, error, efficiency, pattern over its turns.",
+        "By Archard's law with [wear], or as ISO/TR 14521 has it. With --out also report.html, "
+        "wear.json, wear.nc and pictures.",
+        module="asperity.drive.wear.solve",
+        needs=("gearset", "operation", "drive"),
+        counts="steps",
+        options=(
+            Option("depth", "Largest depth at which it ends.", "LENGTH", default="20 um"),
+            Option("revolutions", "Turns of the wheel after which it ends.", "N"),
+        ),
+    ),
+    Command(
         "directions",
         "Shake a worm gearset each way: what a micrometre and a watt save, and what forces.",
         "With --out also directions.json, directions.nc and directions.png.",

@@ -6,7 +6,7 @@
 :Where: `static` (a pitch under load), `teeth` and `elastic` (bending teeth, at rest and in motion),
     `reduced` (one point a flank, `reduced.mesh`: its forces, damping), `motion` (the march),
     `protocols` (what is asked of it), `shafts` (bearings, bending, torsion), `motor`, `actuator`,
-    `life`, `deck`.
+    `life`, `wear` (a wheel that beds in), `deck`.
 :Tests: `unit/test_drive_*`, `literature/test_drive_*`, `literature/test_tooth_contact`,
     `property/test_drive`.
 """

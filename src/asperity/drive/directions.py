@@ -31,8 +31,8 @@ _TOLD_ELSEWHERE = ("settled_by", "step_error")  # in JSON and the file; in notes
 class Directions(Result):
     """What each way of shaking does at the same frequency and amplitude.
 
-    Everything is over the modes, in the order of `MODES`; what did not settle is shown as such, and
-    what is not defined is NaN.
+    Everything is over the modes, in the order of `PLACES`; what did not settle is shown as such and
+    saves nothing, and what is not defined is NaN.
     """
 
     title: ClassVar[str] = "Ways of shaking a worm gearset"
@@ -78,12 +78,10 @@ class Directions(Result):
                 "settled": bool(self.settled[n]),
                 "settled_by": str(self.settled_by[n]),
                 "step_error": float(self.step_error[n]),
-                "saved_W": float(self.saved[n]),
-                "saved_per_micrometre_W": float(self.saved[n]) / micrometres,
+                "saved_W": _told(self.saved[n]),
+                "saved_per_micrometre_W": _told(self.saved[n] / micrometres),
                 "actuator_W": float(self.actuator[n]),
-                "saved_per_actuator_W_W": float(self.saved_per_actuator[n])
-                if np.isfinite(self.saved_per_actuator[n])
-                else None,
+                "saved_per_actuator_W_W": _told(self.saved_per_actuator[n]),
                 "energy_ratio": float(self.energy_ratio[n]),
                 "force_ratio": float(self.force_ratio[n]),
                 "open_share": float(self.open_share[n]),
@@ -133,6 +131,10 @@ class Directions(Result):
             for name, order in self.rankings.items()
         )
         return (Table.of(headings, rows, remarks=(*best, *self.notes)),)
+
+
+def _told(value: float) -> float | None:
+    return float(value) if np.isfinite(value) else None
 
 
 def prepare(case: Case) -> DriveProblem:
@@ -190,7 +192,7 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
             [each.settled_by if isinstance(each, DriveResult) else str(each) for each in found]
         ),
         step_error=column(lambda each: each.step_error),
-        saved=column(lambda each: static - each.ledger.drive),
+        saved=column(lambda each: static - each.ledger.drive if each.settled else None),
         actuator=column(lambda each: each.ledger.actuator),
         saved_per_actuator=column(lambda each: each.saved_per_actuator),
         energy_ratio=column(lambda each: each.energy_ratio),

@@ -11,7 +11,7 @@ under the smallest vibration (Coulomb, Dahl's exponent 0); those of exponent 1 c
 import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -19,9 +19,10 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.drive.lacking import require_all
+from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import solve_many
-from asperity.drive.protocols.solve import asked
+from asperity.drive.protocols.solve import asked, least_creep
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult, inputs
@@ -29,6 +30,7 @@ from asperity.drive.solve import prepare as prepare_drive
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.friction import Friction
 from asperity.results import Result, quantity
+from asperity.results.settled import told
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
 
@@ -40,10 +42,16 @@ _ROUNDS, _AT_ONCE = 2, 4
 _LOWER, _DEEPEST = np.array([1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0]), 5
 # Creep below so much of the vibration's own speed is the rest of settling down.
 _CREEPS = 2e-4
+_MICRO = 1e6
 
 
 class Locking(Result):
-    """Whether a gearset holds, and from which vibration on it creeps."""
+    """Whether a gearset holds, and from which vibration on it creeps.
+
+    A march that has not settled holds nowhere, and creeps where each of its blocks does by more
+    than they are apart: the threshold is sought between what holds and what creeps, and is left out
+    where others lie between them.
+    """
 
     title: ClassVar[str] = "Self-locking of a worm gearset under vibration"
     stem: ClassVar[str] = "locking"
@@ -82,6 +90,13 @@ class Locking(Result):
     creep_limit: FloatArray = quantity(
         "", "rad/s", "far beyond the threshold, by its closed form", dims=_AMPLITUDES
     )
+    settled_over: npt.NDArray[np.int8] = quantity(
+        "", "", "1 where that speed stays", dims=_AMPLITUDES
+    )
+
+    def headline(self) -> tuple[str, ...]:
+        """Return that the creep under the case's vibration is none that stays, where it is not."""
+        return told(self)
 
     @property
     def inputs(self) -> Mapping[str, Any]:
@@ -119,18 +134,18 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     turn = 1.0 / (point.length * point.ratio)
     frequency = 2.0 * math.pi * problem.vibrated[1].frequency
     closed = slip * (1.0 - share) / along if locked else None
-    search = _Search(problem, reduced, turn * along * frequency, run)
+    search = _Search(problem, reduced, point, turn * along * frequency, run)
     amplitudes = _CHART * slip / along
-    creeps = search.creeps([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
-    own = search.last
+    marched = search.marches([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
+    own = marched[-1]
+    over = marched[:-1] if locked else marched
     notes = list(reduced.notes)
     if not own.settled:
         notes.append(f"the creep under the case's vibration has not settled: {own.settled_by}")
     threshold = None
     if locked:
-        threshold = search.threshold(amplitudes, creeps[:-1])
-        if threshold is None:
-            notes.append("no amplitude up to 20 times its elastic slip sets it free")
+        threshold, remarks = search.threshold(amplitudes, over)
+        notes += remarks
         if _creeps_always(problem.friction):
             notes.append(
                 f"friction.exponent is {problem.friction.exponent:g}: such asperities creep at any "
@@ -147,14 +162,15 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         elastic_slip=slip,
         threshold=threshold,
         threshold_closed_form=closed,
-        creep=float(creeps[-1]),
+        creep=own.creep,
         settled=own.settled,
         settled_by=own.settled_by,
         step_error=own.step_error,
         creep_closed_form=limit * problem.amplitude if locked else None,
         amplitude=chart,
-        creep_over=creeps[:-1] if locked else creeps,
+        creep_over=np.array([each.creep for each in over]),
         creep_limit=limit * chart,
+        settled_over=np.array([each.settled for each in over], np.int8),
         notes=tuple(notes),
     )
 
@@ -175,65 +191,123 @@ def _creeps_always(friction: Friction) -> bool:
     return friction.model != "coulomb" and friction.exponent > 0.0
 
 
+class _Marched(NamedTuple):
+    """What a march without a motor came to.
+
+    Attributes
+    ----------
+    creep, spread : float
+        The wheel's speed in the load's direction, and how far its blocks are apart in it, rad/s.
+    settled, settled_by, step_error
+        As of `asperity.drive.result.DriveResult`.
+    """
+
+    creep: float
+    spread: float
+    settled: bool
+    settled_by: str
+    step_error: float | None
+
+
 class _Search:
     """Marches at many amplitudes; ``unit`` is the wheel's speed per amplitude."""
 
-    def __init__(self, problem: DriveProblem, reduced: Reduction, unit: float, run: Run) -> None:
+    def __init__(
+        self, problem: DriveProblem, reduced: Reduction, point: MeshPoint, unit: float, run: Run
+    ) -> None:
         self._problem = problem
+        self._point = point
         self._reduced = reduced
         self._unit = unit
         self._run = run
         self._known = run.resume(key(code_key(__name__), asked(problem))) or {}
-        self.last: DriveResult
+        # Whether it creeps at an amplitude, None where it has not settled.
+        self._moves: dict[float, bool | None] = {}
+        # Those that creep, at a speed that has not settled.
+        self._unsteady: set[float] = set()
 
-    def creeps(self, amplitudes: Sequence[float] | FloatArray) -> FloatArray:
-        """Return the wheel's mean speed in the load's direction at each amplitude, rad/s.
-
-        The answer to the last of them is kept.
-        """
+    def marches(self, amplitudes: Sequence[float] | FloatArray) -> list[_Marched]:
+        """Return what it does at each amplitude."""
         shaken = [
             (self._problem.shaken(self._problem.mode, float(amplitude)), self._reduced)
             for amplitude in amplitudes
         ]
         found = solve_many(shaken, self._run, what="amplitudes", known=self._known)
-        for each in found:
-            if isinstance(each, AsperityError):
-                raise each
-        *_, self.last = (each for each in found if isinstance(each, DriveResult))
-        speeds = [each.creep for each in found if isinstance(each, DriveResult)]
-        if None in speeds:
-            raise ConvergenceError("a march without a motor told no creep", reached={})
-        return -np.array(speeds, float) + 0.0
+        return [_marched(each, self._point) for each in found]
 
-    def threshold(self, amplitudes: FloatArray, creeps: FloatArray) -> float | None:
-        """Return the least amplitude that creeps; None where none does, 0 where every one does."""
-        moving = self._moving(amplitudes, creeps)
-        if not moving.any():
-            return None
-        first = int(np.argmax(moving))
-        bounds = (amplitudes[first - 1], amplitudes[first]) if first else self._below(amplitudes[0])
-        if bounds is None:
-            return 0.0
-        low, high = bounds
-        for _ in range(_ROUNDS):
-            inside = np.geomspace(low, high, _AT_ONCE + 2)
-            creeping = self._moving(inside[1:-1], self.creeps(inside[1:-1]))
-            place = int(np.argmax(creeping)) if creeping.any() else _AT_ONCE
-            low, high = inside[place], inside[place + 1]
-        return math.sqrt(low * high)
+    def threshold(
+        self, amplitudes: FloatArray, marched: Sequence[_Marched]
+    ) -> tuple[float | None, tuple[str, ...]]:
+        """Return the least amplitude that creeps, and what to know of it.
 
-    def _below(self, creeping: float) -> tuple[float, float] | None:
-        """Return an amplitude that holds and one that creeps, below one that creeps; or None."""
-        if _creeps_always(self._problem.friction):
-            return None
-        for _ in range(_DEEPEST):
-            tried = np.array([*(_LOWER * creeping), creeping])
-            moving = [*self._moving(tried[:-1], self.creeps(tried[:-1])), True]
-            place = moving.index(True)
-            if place:
-                return float(tried[place - 1]), float(tried[place])
-            creeping = float(tried[0])
-        return None
+        None where none does, or where marches beside it have not settled; 0 where every one does.
 
-    def _moving(self, amplitudes: FloatArray, creeps: FloatArray) -> npt.NDArray[np.bool_]:
-        return creeps > _CREEPS * self._unit * amplitudes
+        Parameters
+        ----------
+        amplitudes : ndarray
+            Those tried, m.
+        marched : sequence of _Marched
+            What it does at each of them.
+        """
+        self._keep(amplitudes, marched)
+        low, high, loose = self._bounds()
+        if not math.isfinite(high):
+            if loose:
+                return None, (
+                    f"no march that has settled creeps: {len(loose)} of {len(amplitudes)} "
+                    "amplitudes have not, and the threshold may be there",
+                )
+            return None, ("no amplitude up to 20 times its elastic slip sets it free",)
+        deeper = 0 if low or _creeps_always(self._problem.friction) else _DEEPEST
+        for _ in range(deeper):
+            self._try(_LOWER * high)
+            low, high, loose = self._bounds()
+            if low:
+                break
+        for _ in range(_ROUNDS if low else 0):
+            self._try(np.geomspace(low, high, _AT_ONCE + 2)[1:-1])
+            low, high, loose = self._bounds()
+        if loose:
+            return None, (_between(low, high, loose),)
+        told = f"the march at {_MICRO * high:.3g} um has not settled, but creeps in all its blocks"
+        return math.sqrt(low * high), (told,) if high in self._unsteady else ()
+
+    def _try(self, amplitudes: FloatArray) -> None:
+        self._keep(amplitudes, self.marches(amplitudes))
+
+    def _keep(self, amplitudes: FloatArray, marched: Sequence[_Marched]) -> None:
+        for amplitude, each in zip(amplitudes.tolist(), marched, strict=True):
+            creeps = bool(each.creep > (least := _CREEPS * self._unit * amplitude))
+            self._moves[amplitude] = creeps if each.settled else None
+            if not each.settled and each.creep - each.spread > least:
+                self._moves[amplitude] = True
+                self._unsteady.add(amplitude)
+
+    def _bounds(self) -> tuple[float, float, list[float]]:
+        """Return the greatest that holds below the least that creeps, that, and what is between.
+
+        0 and infinite where there is none.
+        """
+        high = min((u for u, moves in self._moves.items() if moves), default=math.inf)
+        low = max((u for u, moves in self._moves.items() if moves is False and u < high), default=0)
+        loose = [u for u, moves in self._moves.items() if moves is None and low < u < high]
+        return low, high, loose
+
+
+def _marched(found: DriveResult | AsperityError, point: MeshPoint) -> _Marched:
+    if isinstance(found, AsperityError):
+        raise found
+    if found.creep is None:
+        raise ConvergenceError("a march without a motor told no creep", reached={})
+    apart = math.inf if found.spread is None else found.spread
+    apart *= max(least_creep(found.problem, point), abs(found.creep))
+    return _Marched(-found.creep + 0.0, apart, found.settled, found.settled_by, found.step_error)
+
+
+def _between(low: float, high: float, loose: Sequence[float]) -> str:
+    """Return where a threshold is that marches which have not settled hide."""
+    return (
+        f"it begins to creep between {_MICRO * low:.3g} and {_MICRO * high:.3g} um, where "
+        f"{len(loose)} marches have not settled: no threshold is told; a longer solve.duration may "
+        "settle them"
+    )

@@ -14,6 +14,7 @@ from typing import Annotated, ClassVar
 
 from asperity.errors import InputError
 from asperity.gearset.library import Sourced, every
+from asperity.sources import Source
 from asperity.units import Quantity
 
 PRICE_PER_MASS = 23.0 / 6.0
@@ -23,12 +24,16 @@ PRICE_PER_MASS = 23.0 / 6.0
 LOWEST_VOLTAGE = 0.9
 """Of the supply over its rated one; IEC 60038: 230/400 V within 10 %."""
 
+SUPPLY = Source("IEC 60038", "verified", "230/400 V within 10 %")
+
 # Of the speed, by which motors at the same mains differ by their slip.
 _SPEEDS = 0.1
 
 TRANSDUCER_MASS, GENERATOR_MASS = 1e-3, 3e-3
 """kg/W of a bolted ultrasonic transducer with its horn; kg/VA of its generator, those of
 welding equipment of 1 to 3 kW, from memory, to a factor of 2."""
+
+ULTRASOUND = Source("welding equipment of 1 to 3 kW", "from memory", "to a factor of 2")
 
 
 class Motor(Sourced):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.drive.headline import state_of
 from asperity.results.figures import (
     BLACK,
@@ -19,7 +20,7 @@ from asperity.results.figures import (
     draw,
     panels,
 )
-from asperity.results.panels import BELOW, Panel, band, drawn, level, line, shade
+from asperity.results.panels import BELOW, Mark, Panel, band, drawn, level, line, points, shade
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -152,6 +153,19 @@ def plot_directions(dataset: "xr.Dataset") -> "Figure":
     return figure
 
 
+def _loose(
+    along: FloatArray, values: FloatArray, settled: "xr.DataArray | None"
+) -> tuple[Mark, ...]:
+    """Return crosses on what has not settled."""
+    out = np.zeros(along.size, bool) if settled is None else settled.values == 0
+    if not out.any():
+        return ()
+    return (
+        points(0, along[out], values[out], "not settled", filled=True, color=BLACK, marker="x",
+               zorder=5),
+    )  # fmt: skip
+
+
 def plot_locking(dataset: "xr.Dataset") -> "Figure":
     """Draw the creep over the amplitude, the threshold, and what both are by closed forms."""
     amplitude = 1e6 * dataset["amplitude"].values
@@ -160,6 +174,7 @@ def plot_locking(dataset: "xr.Dataset") -> "Figure":
         line(0, amplitude, dataset["creep_limit"],
              r"$v_a\,\sin(\pi\varphi/2)$, far beyond the threshold",
              color=BLACK, dashes=(4, 3), linewidth=1.0),
+        *_loose(amplitude, dataset["creep_over"].values, dataset.get("settled_over")),
         *(
             level(1e6 * float(dataset[name]), words, upright=True, color=colour, dashes=(2, 2),
                   linewidth=1.2)

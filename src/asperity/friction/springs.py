@@ -21,6 +21,7 @@ contact to independent springs, L. Popov and M. Hess 2015; checked here against 
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -28,9 +29,12 @@ from numpy.typing import NDArray
 
 from asperity.errors import InputError
 from asperity.kernels.compiled import kernel
+from asperity.roots import root_between
 
 #: Indentation at the reference load by normal law, over N_ref/k: N/N' of that law.
 REFERENCE_INDENTATION = {"linear": 1.0, "hertz": 1.5, "rough": 0.0}
+
+_PARTS = np.linspace(0.0, 0.99, 12)
 
 # Only the sum may be taken in another order, so that the loop becomes vector instructions.
 _REORDER = {"reassoc"}
@@ -93,7 +97,8 @@ def spring_profile(
     Each spring stands for an interval of heights, with its curvature and first moment. The
     intervals are equal in :math:`\int\sqrt{N''}`, which makes the polygon that the springs carry
     miss the law by equally much everywhere, on one side; the lowest spring is lowered until it
-    misses it by nothing on average.
+    misses it by nothing on average. They reach so much deeper than they must, by less than an
+    interval, that the reference load is carried as it is.
     """
     if law not in REFERENCE_INDENTATION:
         known = ", ".join(REFERENCE_INDENTATION)
@@ -104,6 +109,12 @@ def spring_profile(
         raise InputError(f"the deepest indentation is {deepest:g}; it must be positive")
     if law == "linear":
         return np.zeros(1), np.ones(1)
+    return _profile(law, count, _level(law, count, deepest))
+
+
+def _profile(
+    law: str, count: int, deepest: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     part = np.arange(count + 1) / count
     if law == "hertz":
         edges = deepest * part ** (4.0 / 3.0)
@@ -117,6 +128,33 @@ def spring_profile(
     heights = np.diff(moment) / weights
     heights[0] -= bend / (24.0 * count * count * weights[0])
     return heights, weights
+
+
+def _level(law: str, count: int, deepest: float) -> float:
+    """Return how deep springs reach that carry the reference load, no deeper than they must.
+
+    What they miss of the law comes and goes from interval to interval.
+    """
+    reference = REFERENCE_INDENTATION[law]
+    # The place of the reference among the intervals, which springs a little deeper move by one.
+    if law == "hertz":
+        place = count * (reference / deepest) ** 0.75
+    else:
+        place = count * math.exp(0.5 * (reference - deepest))
+    if not 1.0 < place <= count * (1.0 + 1e-12):
+        return deepest
+    share = count / (place - _PARTS)
+    depths = reference * share ** (4.0 / 3.0) if law == "hertz" else reference + 2.0 * np.log(share)
+
+    def missed(depth: float) -> float:
+        heights, weights = _profile(law, count, depth)
+        return float(weights @ np.maximum(reference - heights, 0.0)) - 1.0
+
+    found = [missed(depth) for depth in depths]
+    for n, (low, high) in enumerate(itertools.pairwise(found)):
+        if low * high <= 0.0:
+            return root_between(missed, float(depths[n]), float(depths[n + 1]), within=1e-15)
+    return deepest
 
 
 @kernel(fastmath=_REORDER)

@@ -17,7 +17,7 @@ TEMPERATURE = Range(
     -20.0,
     150.0,
     "degC",
-    Source("usual practice", "one source", "bounds of our own; ASTM D341 has none"),
+    Source("usual practice", "own choice", "bounds of our own; ASTM D341 has none"),
 )
 """Where an oil follows them: above its pour point and before it boils off."""
 

@@ -10,6 +10,7 @@ from asperity.errors import InputError
 from asperity.gearset.geometry import Flank
 from asperity.gearset.library import Sourced, every
 from asperity.gearset.parameters import Gearset
+from asperity.sources import Source
 from asperity.units import Quantity
 
 _Length = Annotated[float, Quantity("m", what="a length", example="4 mm", gt=0, le=1)]
@@ -22,6 +23,8 @@ PAIRS = {
     8.0: (80.0, 140.0), 10.0: (90.0, 160.0), 12.5: (112.0, 200.0), 16.0: (140.0, 250.0),
 }  # fmt: skip
 """Axial modules and reference diameters of worms, mm, as DIN 3976 pairs them (from memory)."""
+
+PAIRS_SOURCE = Source("DIN 3976", "from memory", "modules and diameters of worms in pairs")
 
 
 class ShelfHob(Sourced):

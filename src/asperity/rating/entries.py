@@ -163,7 +163,7 @@ def _given_entries(given: Inputs, section: str) -> list[Entry]:
         reason = _reason(fact.path, assumed)
         equation, source = _equation(given, fact), _source(given, fact)
         if reason:
-            source = Source("default of asperity", "one source", reason)
+            source = Source("default of asperity", "own choice", reason)
         elif fact.derived and _at(given, fact.path) is None:
             equation, source = _derived(given, fact), DEFINITION
         value: Any = _at(given, fact.of)

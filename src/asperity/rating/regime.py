@@ -13,8 +13,14 @@ from typing import Any, NamedTuple
 
 from asperity.rating.result import Rating
 from asperity.results.words import Number, Sentence
+from asperity.sources import Source
 
-_MIXED, _FULL = 1.0, 3.0
+LIMITS = 1.0, 3.0
+"""From where the film is mixed, and from where it is full."""
+
+LIMITS_SOURCE = Source("exercises on Hamrock's text", "one source", "lower ends of two regimes")
+
+_MIXED, _FULL = LIMITS
 _RMS = math.sqrt(math.pi / 2.0)  # over the arithmetic mean, of heights normally distributed
 
 

@@ -3,6 +3,8 @@
 import math
 from typing import TYPE_CHECKING, Any
 
+from asperity.results.language import ENGLISH, language, said
+
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
@@ -52,6 +54,17 @@ def legend(axes: "Axes", **options: Any) -> None:
 
     with mpl.rc_context(STYLE):
         axes.legend(**options)
+
+
+def spoken_figure(figure: "Figure") -> "Figure":
+    """Return a figure with its words in the language that people are shown."""
+    if language() != ENGLISH:
+        from matplotlib.text import Text
+
+        for text in figure.findobj(Text):
+            if text.get_text():
+                text.set_text(said(text.get_text()))
+    return figure
 
 
 def draw(dataset: "xr.Dataset") -> "Figure":

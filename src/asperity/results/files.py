@@ -41,11 +41,12 @@ def write_picture(figure: "Figure", path: Path) -> Path:
     """Write a picture in the format its name ends with."""
     import matplotlib as mpl
 
-    from asperity.results.figures import DOTS_PER_INCH
+    from asperity.results.figures import DOTS_PER_INCH, spoken_figure
 
     def write(target: Path) -> None:
         with mpl.rc_context(_LASTING):
-            figure.savefig(target, dpi=DOTS_PER_INCH, metadata=_UNDATED.get(path.suffix))
+            undated = _UNDATED.get(path.suffix)
+            spoken_figure(figure).savefig(target, dpi=DOTS_PER_INCH, metadata=undated)
 
     return write_atomically(path, write)
 

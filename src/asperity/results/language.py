@@ -22,7 +22,7 @@ from asperity.results.words import Number, Sentence
 ENGLISH = "en"
 _FOLDER = Path(__file__).with_name("languages")
 _HOLE = re.compile(r"\{(\w+)\}")
-_WORD = re.compile(r"(?<![\w.])[a-z][a-z-]{2,}(?![\w(=]|\.\w)")
+_WORD = re.compile(r"(?<![\w.])(?:[a-z][a-z-]{2,}|[A-Z][a-z]{3,})(?![\w(=]|\.\w)")
 # Numbers of a sentence keep their digits and keys: signs of no language stand for them meanwhile.
 _FIRST = 0xE000
 _MARK = re.compile("[\ue000-\uf8ff]")
@@ -88,6 +88,10 @@ class Catalogue:
             return None if inner is None else text.replace(bare, inner)
         if text in self._kept or not _WORD.search(text):
             return text
+        small = text[0].lower() + text[1:]
+        if small in self._texts:
+            begun = self._texts[small]
+            return begun[0].upper() + begun[1:]
         # A line is of one sentence of a row rather than of the whole row.
         return (
             self._by_line(text, whole=True)

@@ -69,7 +69,9 @@ class Picture:
             kind, content = "png", self.png.read_bytes()
         elif self.figure is not None:
             drawn = io.BytesIO()
-            self.figure.savefig(drawn, format="svg", metadata={"Date": None})
+            from asperity.results.figures import spoken_figure
+
+            spoken_figure(self.figure).savefig(drawn, format="svg", metadata={"Date": None})
             content = drawn.getvalue()
         encoded = base64.b64encode(content).decode("ascii")
         return Markup('<img alt="{}" src="data:image/{};base64,{}">').format(

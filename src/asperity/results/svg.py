@@ -8,8 +8,10 @@ from collections.abc import Iterable, Sequence
 
 from markupsafe import Markup, escape
 
+from asperity.results.language import said
 from asperity.results.typeset import typeset
-from asperity.results.words import Number
+from asperity.results.words import Number, Sentence
+from asperity.sources import Source
 
 Point = tuple[float, float]
 Words = Sequence[str]
@@ -24,6 +26,8 @@ _PENS = {
 }
 SCALES = (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001)
 """Of drawings (ISO 5455), from memory."""
+
+SCALES_SOURCE = Source("ISO 5455", "from memory", "scales of drawings")
 
 
 def scale_for(width: float, height: float, widest: float, highest: float) -> float:
@@ -86,7 +90,8 @@ class Drawing:
 
     def text(self, at: Point, words: Words, anchor: str = "middle", turned: bool = False) -> None:
         """Write words; numbers among them keep all their digits, symbols are set."""
-        parts = [word if isinstance(word, Number) else str(word) for word in words]
+        shown = said(Sentence(*(w if isinstance(w, Number) else str(w) for w in words)))
+        parts = shown.parts if isinstance(shown, Sentence) else (shown,)
         length = 0.58 * LETTERS * sum(map(len, parts))
         start = {"middle": -0.5, "start": 0.0, "end": -1.0}[anchor] * length
         x, y = at
@@ -172,7 +177,9 @@ class Drawing:
         return Markup(
             '<svg xmlns="http://www.w3.org/2000/svg" role="img" width="{:.2f}mm" '
             'height="{:.2f}mm" viewBox="{:.3f} {:.3f} {:.3f} {:.3f}"><title>{}</title>{}</svg>'
-        ).format(width, height, x, y, width, height, self._title, Markup("".join(self._parts)))
+        ).format(
+            width, height, x, y, width, height, said(self._title), Markup("".join(self._parts))
+        )
 
 
 def _span(word: str) -> str:

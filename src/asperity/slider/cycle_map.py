@@ -26,6 +26,8 @@ UNSTABLE = 1.0 + 1e-3
 _PUSH = 1e-3
 _WATCHED = 64  # cycles of a march that is pushed
 _LASTING = 1.0 - 1e-5  # a multiplier by differences is as exact
+_SURE = 1.0 + 2e-5  # above which it is not 1
+_LONGER = 64, 4  # times the cycles, and times these: over which a slow growth is told
 _FAR_PUSH = 0.1
 _SAME_RATIO, _SAME_IN_PLANE = 1e-6, 2e-5
 _MOST_WATCHED = 2000
@@ -110,14 +112,32 @@ class Cycle:
         By differences; but the map has corners, where a difference of one side is no derivative, so
         that what seems to grow is marched, pushed to either side.
         """
+        growth = self._by_differences()
+        return self._marched(growth) if growth > UNSTABLE else growth
+
+    def _by_differences(self) -> float:
         if self.q is not None:
             self.jacobian = np.empty_like(self.jacobian, order="C")
             differentiated(
                 self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
                 self.rises, self.body.no_sums()[0], self.jacobian,
             )  # fmt: skip
-        growth = _growth(self.jacobian)
-        return self._marched(growth) if growth > UNSTABLE else growth
+        return _growth(self.jacobian)
+
+    def grows_slowly(self, growth: float) -> bool:
+        """Whether what is 1 within the bound of what is told unstable is above it nevertheless.
+
+        A corner of the map or its rounding adds to a multiplier once, however many cycles it is
+        over; what grows does so in each of them.
+        """
+        if not _SURE < growth <= UNSTABLE:
+            return False
+        longer = self.copied()
+        told = []
+        for cycles in _LONGER:
+            longer.repeat(cycles)
+            told.append(longer._by_differences() if longer.find(0) else 0.0)
+        return told[0] > UNSTABLE and math.log(max(told[1], 1.0)) > 3.0 * math.log(told[0])
 
     def one_of_many(self, growth: float) -> bool:
         """Whether a disturbance of a state lasts, and the drive force follows it."""

@@ -18,6 +18,7 @@ from asperity.kernels.compiled import kernel
 from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.results.settled import Standing
 from asperity.slider import homogenised_law as hl
+from asperity.slider.carried import carried
 from asperity.slider.history import History
 from asperity.slider.homogenised_law import HomogenisedLaw, homogenise
 from asperity.slider.homogenised_normal import gain_notes, mean_motion
@@ -362,20 +363,17 @@ def _result(
 
 def _what_it_is(model: Model, law: HomogenisedLaw) -> Iterator[str]:
     if not model.vibrates:
-        yield (
-            "nothing vibrates: this is steady sliding at the drive velocity; solve.method 'march' "
-            "shows the motion"
-        )
+        steady = "nothing vibrates: this is steady sliding at the drive velocity"
+        yield f"{steady}; solve.method 'march' shows the motion"
         return
     means = "friction and powers are means over a vibration cycle, from a table"
     if model.slider.drive_velocity in law.missing:
         means += " without a state at the drive velocity itself: compare solve.method 'march'"
     yield means
+    yield from carried(model)
     if model.vibration is not None and model.vibration.ramp > 0.0:
-        yield (
-            "vibration.ramp is left out: the law is that of the full amplitude from the start on; "
-            "solve.method 'march' follows the ramp"
-        )
+        full = "vibration.ramp is left out: the law is that of the full amplitude from the start on"
+        yield f"{full}; solve.method 'march' follows the ramp"
 
 
 def _history(model: Model, law: HomogenisedLaw, rows: FloatArray, pull: FloatArray) -> History:

@@ -187,6 +187,8 @@ def standing_of(cycle: Cycle, growth: float) -> Standing:
     repeats = f"the state repeats itself {cycles} to {ACCEPTED:g}"
     if growth > UNSTABLE:
         return Standing(False, f"{repeats}, but a disturbance grows {growth:.3g} times")
+    if cycle.grows_slowly(growth):
+        return Standing(False, f"{repeats}, but a disturbance grows {growth:.7g} times")
     if cycle.one_of_many(growth):
         return Standing(False, f"{repeats}, but is {_OF_MANY}")
     p = cycle.body.p

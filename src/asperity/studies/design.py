@@ -35,7 +35,7 @@ NEEDED = ("iso14521", "bs721")
 """Standards that judge a design: the efficiency, and the permissible torques."""
 
 ASSUMED = Source(
-    "default of asperity", "one source", "Table 3.6 of the thesis, which has them, is lost"
+    "default of asperity", "own choice", "Table 3.6 of the thesis, which has them, is lost"
 )
 """Where the default bounds come from."""
 

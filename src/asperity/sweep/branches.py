@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
@@ -92,10 +93,16 @@ class Branches(Result):
 
     @property
     def two(self) -> FloatArray:
-        """Values at which the ways differ, in the axis's unit."""
+        """Values at which the ways differ in states that both stay, in the axis's unit."""
         there, back = self.ratio
-        found: FloatArray = self.value[np.abs(there - back) > _APART]
+        found: FloatArray = self.value[self._both & (np.abs(there - back) > _APART)]
         return found
+
+    @property
+    def _both(self) -> npt.NDArray[np.bool_]:
+        """Whether a state that stays was found both ways, at each value."""
+        stays: npt.NDArray[np.bool_] = (np.isfinite(self.ratio) & (self.settled != 0.0)).all(axis=0)
+        return stays
 
     @property
     def failure(self) -> ConvergenceError | None:
@@ -118,13 +125,17 @@ class Branches(Result):
         return {**ends, "values": self.value.tolist(), **arrays, **super().to_json()}
 
     def heading(self) -> str:
-        """Return where there are two states."""
-        both = np.isfinite(self.ratio).all(axis=0)
+        """Return where there are two states that stay."""
+        found, both = np.isfinite(self.ratio), self._both
+        if not found.any():
+            return "no stable periodic state found"
+        loose = (found & (self.settled == 0.0)).any()
         if not both.any():
-            found = np.isfinite(self.ratio).any()
-            return "no value with a state both ways" if found else "no stable periodic state found"
+            return f"no value with a {'settled ' if loose else ''}state both ways"
         if not self.two.size:
-            where = "" if both.all() else f", at the {both.sum()} of {both.size} values with both"
+            which = "settled states both ways" if loose else "both"
+            many = f", at the {both.sum()} of {both.size} values with {which}"
+            where = "" if both.all() else many
             return f"the same states both ways{where}"
         low, high = self.axis_text(self.two.min()), self.axis_text(self.two.max())
         between = f"at {low}" if low == high else f"between {low} and {high}"

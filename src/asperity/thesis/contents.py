@@ -17,7 +17,7 @@ CHAPTERS = chapters()
 _MADE_IN = {
     FIGURE: {
         "sliding.figures": "2.7 2.14 2.15 2.16 4.3 4.4 4.17 4.18 4.19 4.20 4.21 4.22 4.23",
-        "sliding.schemes": "4.11 4.14 4.15",
+        "sliding.schemes": "4.9 4.10 4.11 4.13 4.14 4.15",
         "rating.figures": "3.1 3.2 3.3 3.4 3.5",
         "flanks.figures": "2.9 2.10 2.11 2.12 2.13",
         "flanks.solids": "7.1 7.2 7.3 7.4 7.11",

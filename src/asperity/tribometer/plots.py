@@ -87,7 +87,7 @@ def plot_findings(dataset: "xr.Dataset") -> "Figure":
         begin, end = dataset["marks"].values[place]
         # A course that is short ends in copies of its last point.
         same = (x[1:] == x[-1]) & (y[1:] == y[-1])
-        own = x.size - int(np.argmin(same[::-1])) if not same.all() else 1
+        own = x.size + 1 - int(np.argmin(same[::-1])) if not same.all() else 1
         if end > begin:
             # What is short is seen all the same.
             wide = max(0.5 * (_LEAST_MARK * float(np.ptp(x)) - (end - begin)), 0.0)

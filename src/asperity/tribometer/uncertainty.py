@@ -147,11 +147,10 @@ class Budget:
     @property
     def coverage_factor(self) -> float:
         """k, by Student's distribution with these degrees of freedom."""
-        from scipy.stats import norm
-        from scipy.stats import t as student
+        from scipy.special import ndtri, stdtrit
 
         end, freedom = 0.5 + 0.5 * self.confidence, self.freedom
-        return float(student.ppf(end, freedom) if freedom < math.inf else norm.ppf(end))
+        return float(stdtrit(freedom, end) if freedom < math.inf else ndtri(end))
 
     @property
     def expanded(self) -> float:

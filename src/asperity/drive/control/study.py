@@ -13,6 +13,7 @@ from asperity.drive.control.sensor import alias, late_by, passed
 from asperity.drive.control.stroke import Stroke, march_stroke
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.setup import system
 from asperity.drive.protocols.solve import asked
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.reduction import reduction
@@ -28,6 +29,7 @@ from asperity.vibration.waveform import SAMPLED
 _COARSER = 2.0
 _CHATTERS = 2  # times on in a stroke from seat to seat: once at each
 _PLAIN = ""
+_MOST_CYCLES = 2e6
 
 
 def prepare(case: Case) -> DriveProblem:
@@ -62,6 +64,12 @@ def prepare(case: Case) -> DriveProblem:
                 f"drive.stroke_seat {math.degrees(drive.stroke_seat):.4g} deg; both seats leave "
                 f"nothing of a stroke of {math.degrees(drive.stroke):.4g} deg: give less"
             )
+        cycles = drive.stroke * problem.geometry.gear_ratio / problem.worm_speed * shape.frequency
+        if not cycles <= _MOST_CYCLES:
+            raise InputError(
+                f"drive.stroke is {math.degrees(drive.stroke):.4g} deg, {cycles:.3g} cycles of the "
+                f"vibration; a stroke is marched over {_MOST_CYCLES:.0e} at most: give less"
+            )
     return problem
 
 
@@ -90,6 +98,10 @@ def _strokes(
     names = (_PLAIN, *control.tried)
     wanted = [*((name, 1.0) for name in names), (_PLAIN, _COARSER)]
     found = []
+    longest = system(problem, model).longest
+    time = problem.drive.stroke * model.point.ratio / problem.worm_speed
+    steps = time / longest * len(wanted)
+    run.forecast(model.step_seconds * steps, f"{steps:.3g} steps")
     with run.interruptible():
         for n, (name, coarser) in enumerate(wanted):
             label = f"{name or 'none'}-{coarser:g}"

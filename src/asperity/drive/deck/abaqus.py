@@ -1,7 +1,8 @@
 """Loaded teeth as an input deck for Abaqus/Standard, in statics.
 
 The worm's flanks are a discrete rigid surface that turns by its reference node on its axis; the rim
-is coupled to a node on the wheel's axis, which turns. Friction is Abaqus's own for Coulomb, else
+is coupled to a node on the wheel's axis, which is turned against the worm and then turns freely
+under the load. Friction is Abaqus's own for Coulomb, else
 the user subroutine FRIC for Dahl's law, which follows the pressure at once: in statics, where the
 pressure only rises, that is as good as one that keeps its stiffness.
 """
@@ -13,6 +14,7 @@ import numpy as np
 from asperity.block.deck.abaqus import SUBROUTINES
 from asperity.block.deck.fric import FricSubroutine, fric_subroutine
 from asperity.drive.deck.setup import FLANK, WHEEL, WORM, TeethSetup
+from asperity.drive.deck.shaken import SHAKEN, shaken_lines
 from asperity.drive.teeth.sector import RIM
 from asperity.friction import Friction
 from asperity.mesh.inp import mesh_lines, numbers
@@ -31,6 +33,9 @@ def abaqus_files(setup: TeethSetup) -> dict[str, str]:
     if friction.model == "dahl":
         fric = fric_subroutine(_sliding(setup, friction))
     files = {DECK: "\n".join([*_deck(setup, fric), ""])}
+    if setup.shaken is not None:
+        moved = shaken_lines(setup, model_lines(setup, fric, SHAKEN))
+        files[SHAKEN] = "\n".join([*moved, ""])
     if fric is not None:
         files[SUBROUTINES] = fric.text
     return files
@@ -55,6 +60,38 @@ def _sliding(setup: TeethSetup, friction: Friction) -> Model:
 
 
 def _deck(setup: TeethSetup, fric: FricSubroutine | None) -> Iterator[str]:
+    yield "*HEADING"
+    yield f"Loaded teeth: {setup.name.replace(',', ' ')}"
+    yield from (f"** {line}" for line in setup.notes())
+    if setup.unshaken:
+        yield f"** There is no {SHAKEN} beside it: {setup.unshaken}"
+    yield from model_lines(setup, fric, DECK)
+    yield from ("*BOUNDARY", "wheel_centre, 1, 6", "worm_centre, 1, 6")
+    begun = setup.wheel_angles[0], setup.worm_angles[0]
+    for step, most in enumerate(_INCREMENTS, start=1):
+        yield f"*STEP, NAME=step_{step}, NLGEOM=YES, UNSYMM=YES, INC={100 * most}"
+        yield from ("*STATIC", numbers(1.0 / most, 1.0, 1e-6, 1.0 / most))
+        yield "*BOUNDARY, OP=NEW"
+        yield from ("wheel_centre, 1, 5", "worm_centre, 1, 3")
+        if step == 1:
+            yield f"wheel_centre, 6, 6, {numbers(setup.wheel_angles[step] - begun[0])}"
+        turn = (setup.worm_angles[step] - begun[1]) * setup.axis
+        for freedom, amount in enumerate(turn, start=4):
+            yield f"worm_centre, {freedom}, {freedom}, {numbers(float(amount))}"
+        if step > 1:
+            yield from ("*CLOAD", f"wheel_centre, 6, {numbers(-setup.problem.load)}")
+        yield from ("*OUTPUT, FIELD", "*NODE OUTPUT", "U,", "*CONTACT OUTPUT", "CSTRESS, CDISP")
+        yield "*OUTPUT, HISTORY"
+        for name in ("wheel_centre", "worm_centre"):
+            yield from (f"*NODE OUTPUT, NSET={name}", "RF1, RF2, RF3, RM1, RM2, RM3, UR3")
+        yield "*END STEP"
+
+
+def model_lines(setup: TeethSetup, fric: FricSubroutine | None, deck: str) -> Iterator[str]:
+    """Yield what stands before the steps of a deck: meshes, sets, rim, material, contact.
+
+    Nodes of sets ``wheel_centre`` and ``worm_centre`` move the rim and the worm.
+    """
     wheel, worm = setup.wheel, setup.worm
     nodes, cells = len(wheel.points), len(wheel.cells)
     # Only the flank side of the worm's layer is written.
@@ -62,11 +99,8 @@ def _deck(setup: TeethSetup, fric: FricSubroutine | None) -> Iterator[str]:
     used, local = np.unique(quads, return_inverse=True)
     centre, turner = nodes + len(used) + 1, nodes + len(used) + 2
     material = setup.problem.gearset.wheel_material
-    yield "*HEADING"
-    yield f"Loaded teeth: {setup.name.replace(',', ' ')}"
-    yield from (f"** {line}" for line in setup.notes())
     user = "" if fric is None else f" user={SUBROUTINES}"
-    yield f"** Run: abaqus job=teeth input={DECK}{user}"
+    yield f"** Run: abaqus job={deck.removesuffix('.inp')} input={deck}{user}"
     yield from mesh_lines(wheel, "C3D8I", element_set=WHEEL)
     yield "*NODE"
     for number, point in enumerate(worm.points[used], start=nodes + 1):
@@ -89,21 +123,6 @@ def _deck(setup: TeethSetup, fric: FricSubroutine | None) -> Iterator[str]:
     yield numbers(material.youngs_modulus, material.poisson_ratio)
     yield from (f"*SOLID SECTION, ELSET={WHEEL}, MATERIAL=wheel", ",")
     yield from _interaction(setup, fric)
-    yield from ("*BOUNDARY", "wheel_centre, 1, 6", "worm_centre, 1, 6")
-    begun = setup.wheel_angles[0], setup.worm_angles[0]
-    for step, most in enumerate(_INCREMENTS, start=1):
-        yield f"*STEP, NAME=step_{step}, NLGEOM=YES, UNSYMM=YES, INC={100 * most}"
-        yield from ("*STATIC", numbers(1.0 / most, 1.0, 1e-6, 1.0 / most))
-        yield "*BOUNDARY"
-        yield f"wheel_centre, 6, 6, {numbers(setup.wheel_angles[step] - begun[0])}"
-        turn = (setup.worm_angles[step] - begun[1]) * setup.axis
-        for freedom, amount in enumerate(turn, start=4):
-            yield f"worm_centre, {freedom}, {freedom}, {numbers(float(amount))}"
-        yield from ("*OUTPUT, FIELD", "*NODE OUTPUT", "U,", "*CONTACT OUTPUT", "CSTRESS, CDISP")
-        yield "*OUTPUT, HISTORY"
-        for name in ("wheel_centre", "worm_centre"):
-            yield from (f"*NODE OUTPUT, NSET={name}", "RF1, RF2, RF3, RM1, RM2, RM3")
-        yield "*END STEP"
 
 
 def _interaction(setup: TeethSetup, fric: FricSubroutine | None) -> Iterator[str]:

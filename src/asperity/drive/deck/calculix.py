@@ -1,8 +1,8 @@
 """Loaded teeth as an input deck for CalculiX, in statics.
 
-The worm is a layer of elements whose nodes all move as they are told, the rim's nodes likewise: a
-straight way for each from before a step to after it, which is off the arc by nanometres. Friction
-is Coulomb's.
+The worm is a layer of elements whose nodes all move as they are told: a straight way for each from
+before a step to after it, which is off the arc by nanometres. The rim turns as a rigid body: first
+against the worm, then as a constant torque and the worm let it. Friction is Coulomb's.
 """
 
 from collections.abc import Iterator
@@ -15,6 +15,7 @@ from asperity.drive.teeth.sector import RIM
 from asperity.mesh.inp import mesh_lines, numbers
 
 DECK = "teeth.inp"
+_TURNING = "wheel_turning"
 _STICK = 0.2
 """Friction's slope before it slides over the contact's stiffness."""
 
@@ -49,20 +50,33 @@ def _deck(setup: TeethSetup) -> Iterator[str]:
         yield from ("*FRICTION", numbers(setup.model.friction, _STICK * setup.stiffness))
     yield "*CONTACT PAIR, INTERACTION=flanks, TYPE=SURFACE TO SURFACE"
     yield f"{FLANK}, {WORM}"
+    centre, turning = nodes + len(worm.points) + 1, nodes + len(worm.points) + 2
+    yield from _rim(wheel.node_set(RIM) + 1, centre, turning)
     begun = setup.wheel_angles[0], setup.worm_angles[0]
-    rim = wheel.node_set(RIM)
-    z = np.array([0.0, 0.0, 1.0])
     for step, most in enumerate(_INCREMENTS, start=1):
         yield f"*STEP, NLGEOM, INC={100 * most}"
         yield from ("*STATIC", numbers(1.0 / most, 1.0, 1e-6, 1.0 / most))
-        yield "*BOUNDARY"
-        turn = setup.wheel_angles[step] - begun[0]
-        yield from _moved(rim + 1, wheel.points[rim], z, np.zeros(3), turn)
+        yield "*BOUNDARY, OP=NEW"
+        yield from (f"{centre}, 1, 3", f"{turning}, 1, 2")
+        if step == 1:
+            yield f"{turning}, 3, 3, {numbers(setup.wheel_angles[1] - begun[0])[:-1]}"
         turn = setup.worm_angles[step] - begun[1]
         there = np.arange(len(worm.points)) + nodes + 1
         yield from _moved(there, worm.points, setup.axis, setup.origin, turn)
+        if step > 1:
+            yield from ("*CLOAD", f"{turning}, 3, {numbers(-setup.problem.load)[:-1]}")
         yield from ("*NODE FILE", "U", "*CONTACT FILE", "CDIS, CSTR")
+        yield from (f"*NODE PRINT, NSET={_TURNING}", "U")
         yield from (f"*CONTACT PRINT, SLAVE={FLANK}, MASTER={WORM}", "CF", "*END STEP")
+
+
+def _rim(names: IntArray, centre: int, turning: int) -> Iterator[str]:
+    """The rim as a rigid body: a node on the wheel's axis, and one whose places are its turns."""
+    for node, called in ((centre, "wheel_centre"), (turning, _TURNING)):
+        yield from (f"*NODE, NSET={called}", f"{node}, 0., 0., 0.")
+    yield "*NSET, NSET=rim"
+    yield from (f"{name}," for name in names.tolist())
+    yield f"*RIGID BODY, NSET=rim, REF NODE={centre}, ROT NODE={turning}"
 
 
 def _moved(
@@ -72,6 +86,19 @@ def _moved(
     for name, shift in zip(names.tolist(), way, strict=True):
         for freedom, amount in enumerate(shift, start=1):
             yield f"{name}, {freedom}, {freedom}, {numbers(float(amount))[:-1]}"
+
+
+def deflection(setup: TeethSetup, turned: float) -> float:
+    """Return the wheel's turn under its load from where the flanks touch, rad.
+
+    Parameters
+    ----------
+    setup : TeethSetup
+        What was written.
+    turned : float
+        Third displacement of the node ``wheel_turning`` at the end, rad.
+    """
+    return setup.touching - setup.wheel_angles[0] - turned
 
 
 def torques(setup: TeethSetup, force: FloatArray, moment: FloatArray) -> tuple[float, float]:

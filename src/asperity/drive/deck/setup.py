@@ -2,11 +2,11 @@
 
 The sector of teeth of `asperity.drive.teeth`, held at its rim, and the flanks of the worm's threads
 in its spaces as a rigid surface. Both are moved from where they hardly touch: first the rim turns
-back against the worm, by as much as the load turns it, then both turn on as the gearset runs, far
-enough that friction is that of sliding. What the program finds at the end stands beside
-`TeethSetup.balance`: the wheel's moment about the origin is the load, and the worm's about its axis
-is its torque. Faces between nodes lie micrometres off the exact flanks that the package goes by, so
-that torques at the same turn differ, and their ratio hardly.
+back against the worm, by as much as the load turns it; then it turns freely under the load as the
+worm turns on, far enough that friction is that of sliding. What the program finds at the end stands
+beside `TeethSetup.balance`: the worm's torque about its axis, and the wheel's turn from where the
+flanks touch. Nodes of both flanks stand where the faces between them are on the exact ones
+(`asperity.drive.deck.facets`).
 """
 
 import dataclasses
@@ -17,15 +17,19 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
+from asperity.drive.deck.facets import on_faces, rows_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.solve import prepare
 from asperity.drive.static.equilibrium import Balance, Equilibrium
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS
 from asperity.drive.teeth.sector import RIM
+from asperity.errors import InputError
 from asperity.flanks.worm.setting import Pair
 from asperity.mesh import HexMesh
 from asperity.runs import Run
+from asperity.vibration import Vibration
+from asperity.vibration.waveform import SINE
 
 _MILLIMETRES = 1e3
 SLID = 5e-3
@@ -50,11 +54,17 @@ class TeethSetup:
         The drive.
     model : StaticModel
         Its loaded contact, as the package itself solves it.
+    shaken : DriveProblem, optional
+        The same under its vibration, where a deck of it can be written.
+    unshaken : str
+        Why it cannot, else empty.
     """
 
     name: str
     problem: DriveProblem
     model: StaticModel
+    shaken: DriveProblem | None = None
+    unshaken: str = ""
 
     @classmethod
     def from_case(cls, case: Case, run: Run | None = None) -> "TeethSetup":
@@ -66,7 +76,8 @@ class TeethSetup:
             The case makes no drive, or its teeth cannot carry the torque.
         """
         problem = prepare(case, static=True)
-        return cls(case.source, problem, StaticModel(problem, run or Run(), phases=1))
+        model = StaticModel(problem, run or Run(), phases=1)
+        return cls(case.source, problem, model, *_shaken(case))
 
     @property
     def pair(self) -> Pair:
@@ -85,7 +96,7 @@ class TeethSetup:
 
     @property
     def wheel_angles(self) -> tuple[float, float, float]:
-        """Of the wheel before, after the first and after the second step, rad."""
+        """Of the wheel before and after the first step, and at the end by the package, rad."""
         end = self.balance.wheel_angle
         back = SLID / self.pair.ratio
         radius = 0.5e-3 * self.pair.geometry.wheel_mean_diameter
@@ -113,10 +124,13 @@ class TeethSetup:
         teeth = self.model.sector.teeth
         names = ["flank_plus"] if teeth == 1 else [f"flank_plus_{k}" for k in range(teeth)]
         faces = np.concatenate([mesh.face_sets[name] for name in names])
+        places = mesh.points.copy()
+        for name in names:
+            flank = rows_of(mesh.face_nodes(name)[:, :4])
+            places[flank] = on_faces(places[flank])
         points = turned_about(
-            mesh.points / _MILLIMETRES, np.array([0.0, 0.0, 1.0]), np.zeros(3),
-            self.wheel_angles[0],
-        )  # fmt: skip
+            places / _MILLIMETRES, np.array([0.0, 0.0, 1.0]), np.zeros(3), self.wheel_angles[0]
+        )
         rim = mesh.node_set(RIM)
         return HexMesh(points, mesh.cells, node_sets={RIM: rim}, face_sets={FLANK: faces})
 
@@ -146,19 +160,19 @@ class TeethSetup:
     def _layer(self, space: int) -> HexMesh:
         """The thread beside a space of the worm, under the flank that drives."""
         worm = self.pair.worm
-        rho, axial = worm.curve(np.linspace(0.0, 1.0, _ON_FLANK))[:2]
+        # Denser towards the root, where the flank bends.
+        rho, axial = worm.curve(np.linspace(0.0, 1.0, _ON_FLANK) ** 2)[:2]
         count = 1 + math.ceil(2.0 * _SWEPT * _PER_TURN / (2.0 * math.pi))
         turn = np.linspace(-_SWEPT, _SWEPT, count)
         place = 2.0 * worm.half_pitch * space
         z = axial[:, None] + worm.reduced_lead * turn + place
-        points = np.stack(
-            [
-                np.stack(np.broadcast_arrays(
-                    rho[:, None] * np.cos(turn), rho[:, None] * np.sin(turn), z + depth,
-                ), axis=-1)
-                for depth in (0.0, _THICK)
-            ], axis=2,
-        )  # fmt: skip
+        flank = on_faces(
+            np.stack(
+                np.broadcast_arrays(rho[:, None] * np.cos(turn), rho[:, None] * np.sin(turn), z),
+                axis=-1,
+            )
+        )
+        points = np.stack([flank, flank + np.array([0.0, 0.0, _THICK])], axis=2)
         number = np.arange(points[..., 0].size).reshape(points.shape[:3])
         corners = [
             number[i : i + len(rho) - 1, j : j + count - 1, k]
@@ -179,19 +193,21 @@ class TeethSetup:
         end = self.balance
         teeth, sharing = self.model.sector.teeth, np.count_nonzero(end.action.normal)
         alone = (
-            f" Its load is shared by {sharing} teeth, and this deck has {teeth}: its torques are "
-            "smaller, and only their ratio may be compared."
+            f" Its load is shared by {sharing} teeth, and this deck has {teeth}, which bear it "
+            "alone: only the ratio of torques may be compared."
         )
         return [
             "SI units: m, kg, s, N, Pa. The wheel's axis is Z through the origin, its middle tooth "
             "about +Y.",
             f"The worm's axis goes through ({', '.join(f'{x:.6g}' for x in self.origin)}) along "
             f"({', '.join(f'{x:.6g}' for x in self.axis)}).",
-            "Step 1: the rim turns back against the worm. Step 2: both turn on as the gearset "
-            "runs, until friction is that of sliding.",
+            "Step 1: the rim turns back against the worm. Step 2: it turns freely under the load "
+            "as the worm turns on, until friction is that of sliding.",
             f"asperity itself, on exact flanks, shaft rigid: {self.problem.load:.6g} N m on the "
             f"wheel, {end.worm_torque:.6g} N m on the worm, ratio "
-            f"{self.problem.load / end.worm_torque:.5g}." + (alone if teeth < sharing else ""),
+            f"{self.problem.load / end.worm_torque:.5g}, the wheel "
+            f"{1e6 * (self.touching - end.wheel_angle):.5g} urad from where the flanks touch."
+            + (alone if teeth < sharing else ""),
         ]
 
 
@@ -208,3 +224,19 @@ def turned_about(
         + cosine * (away - along)
         + sine * np.cross(np.broadcast_to(axis, away.shape), away)
     )
+
+
+def _shaken(case: Case) -> tuple[DriveProblem | None, str]:
+    """Return a case's drive under a vibration that a deck can make, or why there is none."""
+    if Vibration.table not in case:
+        return None, ""
+    try:
+        problem = DriveProblem.from_case(case)
+    except InputError as error:
+        return None, str(error)
+    vibration, shape = problem.vibrated
+    if problem.mode != "axial" or vibration.applied_to != "worm" or shape.code != SINE:
+        return None, "it is of a worm that a sine shakes along its axis (vibration.mode = 'axial')"
+    if problem.shaft.torsion is None:
+        return None, "it takes the torsion of the shaft (shaft.torsional_stiffness)"
+    return problem, ""

@@ -11,6 +11,7 @@ from asperity.drive.actuator import Demand, demand, elastic_energy, system_effic
 from asperity.drive.closed_form import screw_ratio
 from asperity.drive.lugre import of_speed
 from asperity.drive.motion.system import System
+from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import StepError, beside, sensitive, step_error, told_of
 from asperity.drive.protocols.judgement import Judgement, steady_speed
@@ -148,11 +149,16 @@ def kind_of(problem: DriveProblem) -> type[DriveResult]:
 def _measured(problem: DriveProblem, rest: Rest, model: MeshModel) -> tuple[str, float]:
     """Return what of a protocol's motion has to stay, and what it is measured by."""
     if problem.drive.protocol == "back-drive":
-        speed = problem.velocity / model.point.length or problem.worm_speed
-        return "rolled", _CREEP * speed / model.point.ratio
+        return "rolled", least_creep(problem, model.point)
     if problem.drive.protocol == "held-wheel":
         return "wheel_torque", problem.load
     return "torque", rest.torque
+
+
+def least_creep(problem: DriveProblem, point: MeshPoint) -> float:
+    """Return the wheel's speed by which a creep that has to stay is measured at least, rad/s."""
+    speed = problem.velocity / point.length or problem.worm_speed
+    return _CREEP * speed / point.ratio
 
 
 def _first_cycles(march: March, window: int, torque: float, power: float) -> Judgement:
@@ -217,6 +223,7 @@ def _summarise(
     if kind is HeldWheel:
         # The motor pushes as it does without vibration, and the wheel's torque is what changes.
         measured, ratio = torque, rest.wheel_torque / mean(last, "wheel_torque")
+    settled = judged.settled and rest.settled
     saved = power - ledger.drive
     efficiency = None
     if driven and taken is not None and ledger.drive + taken.electrical_power > 0.0:
@@ -229,7 +236,7 @@ def _summarise(
         torque_ratio=ratio,
         torque_ratio_closed_form=_closed_form(problem, model),
         torque_balance=judged.balance,
-        settled=judged.settled and rest.settled,
+        settled=settled,
         settled_by=settled_by(problem, judged, rest),
         step_error=None if off is None or not math.isfinite(off.ratio) else off.ratio,
         spread=judged.spread if math.isfinite(judged.spread) else None,
@@ -245,7 +252,7 @@ def _summarise(
         ledger=ledger,
         energy_ratio=put_in / power if driven else None,
         saved_per_actuator=saved / ledger.actuator
-        if driven and ledger.actuator > _LEAST_ACTUATOR * power
+        if settled and driven and ledger.actuator > _LEAST_ACTUATOR * power
         else None,
         actuator_electrical=None if taken is None else taken.electrical_power,
         actuator_apparent=None if taken is None else taken.apparent_power,

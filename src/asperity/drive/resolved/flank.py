@@ -21,7 +21,7 @@ from asperity.flanks.wheel.enveloped import Wheel
 from asperity.gearset.materials import Material
 
 if TYPE_CHECKING:
-    from scipy.interpolate import RegularGridInterpolator
+    from scipy.interpolate import RectBivariateSpline
 
 _MILLIMETRES = 1e3
 _ROWS, _COLUMNS = 41, 61
@@ -150,23 +150,22 @@ class ExactFlank:
         return sparse.csr_array((values.ravel(), columns.ravel(), starts), shape=shape)
 
     @cached_property
-    def _worn_at(self) -> RegularGridInterpolator | None:
-        from scipy.interpolate import RegularGridInterpolator
+    def _worn_at(self) -> RectBivariateSpline | None:
+        from scipy.interpolate import RectBivariateSpline
 
         if self.worn is None:
             return None
         _, _, share, z = self.grid
         rows = share.reshape(_ROWS, -1)[:, 0], z.reshape(_ROWS, -1)[0]
         # Smooth: a kink in the gap would bear.
-        return RegularGridInterpolator(rows, self.worn.reshape(_ROWS, -1), "cubic")
+        return RectBivariateSpline(*rows, self.worn.reshape(_ROWS, -1))
 
     def depth_at(self, share: FloatArray, z: FloatArray) -> FloatArray:
         """Return the depth worn off at places on the flank, m."""
         if self._worn_at is None:
             return np.zeros(len(share))
         half = self.half_face
-        at = np.column_stack([np.clip(share, 0.0, 1.0), np.clip(z, -half, half)])
-        return np.asarray(self._worn_at(at))
+        return np.asarray(self._worn_at.ev(np.clip(share, 0.0, 1.0), np.clip(z, -half, half)))
 
     def heights(
         self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray

@@ -26,6 +26,8 @@ from asperity.flanks.wheel.enveloped import Wheel
 _STEPS = 30
 # To which the worm's angle is met, rad: a wheel's angle to a millionth of a microradian.
 _CLOSE = 1e-12
+# Amplitudes below it are rounding, rad: they and their phases are 0.
+_ROUNDING = 1e-13
 
 
 def harmonics(error: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -44,6 +46,7 @@ def harmonics(error: FloatArray) -> tuple[FloatArray, FloatArray]:
     """
     count = len(error)
     turned = np.fft.rfft(error)[1 : (count - 1) // 2 + 1] * (2.0 / count)
+    turned[np.abs(turned) < _ROUNDING] = 0.0
     phase = np.mod(-np.angle(turned), 2.0 * math.pi)
     return np.abs(turned), np.asarray(np.where(turned == 0.0, 0.0, phase))
 

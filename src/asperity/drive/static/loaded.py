@@ -29,6 +29,7 @@ class Loaded:
     force_worm_tip: float  #: Largest force there, N
     force_wheel_tip: float  #: N
     force_face_end: float  #: N
+    normal_force: float  #: Of all teeth, mean, N
     flow_depth: float  #: Pressed in at the pressure of plastic flow, m
     transmission_error: float  #: Under load, peak to peak, rad
     deflection: float  #: Mean over the pitch, rad
@@ -86,6 +87,7 @@ def loaded_of(model: StaticModel) -> Loaded:
         force_worm_tip=float(forces[WORM_TIP]),
         force_wheel_tip=float(forces[WHEEL_TIP]),
         force_face_end=float(forces[FACE_END]),
+        normal_force=float(course.tooth_force.sum(axis=1).mean()),
         flow_depth=max(seen.depths),
         transmission_error=float(np.ptp(course.error)),
         deflection=course.mean_deflection,

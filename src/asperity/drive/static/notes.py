@@ -27,6 +27,15 @@ def notes_of(problem: DriveProblem, seen: Seen, forward: Course, noise: float) -
     return (*rigid_parts(problem), *_pressures(problem, seen), *_error(problem, forward, noise))
 
 
+def few_phases(problem: DriveProblem) -> Iterator[str]:
+    """Yield that a pitch has too few phases, where it has."""
+    if problem.drive.phases < _FEW:
+        yield (
+            f"drive.phases is {problem.drive.phases}: a transmission error needs {_FEW} phases or "
+            "more, and peaks between them are not seen"
+        )
+
+
 def rigid_parts(problem: DriveProblem) -> Iterator[str]:
     """Yield what of the drive is taken as rigid."""
     left_out = [
@@ -89,10 +98,7 @@ def _pressures(problem: DriveProblem, seen: Seen) -> Iterator[str]:
 
 def _error(problem: DriveProblem, forward: Course, noise: float) -> Iterator[str]:
     if problem.drive.phases < _FEW:
-        yield (
-            f"drive.phases is {problem.drive.phases}: a transmission error needs {_FEW} phases or "
-            "more, and peaks between them are not seen"
-        )
+        yield from few_phases(problem)
         return
     if float(np.ptp(forward.error)) < _NOISE * noise:
         yield (

@@ -293,5 +293,6 @@ class StaticResult(Drawn):
         from asperity.drive.static.view import write_teeth
 
         names = super().write(folder, pictures=pictures)
-        write_teeth(self.problem, self.sector, self.nodal_force, folder / "drive_teeth.vtu")
+        path = folder / "drive_teeth.vtu"
+        write_teeth(self.problem, self.sector, self.nodal_force, self.pattern[-1], path)
         return [*names, "drive_teeth.vtu"]

@@ -8,12 +8,19 @@ from asperity.arrays import FloatArray
 from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.interface.surface import contact_surface
 from asperity.drive.problem import DriveProblem
-from asperity.drive.teeth.sector import DENSITY, ELEMENT, RIM, Sector
+from asperity.drive.resolved.flank import grid_of
+from asperity.drive.teeth.sector import DENSITY, ELEMENT, RIM, Sector, lattice
 from asperity.flanks.wheel.frame import turned
 from asperity.mesh.vtu import write_vtu
 
 
-def write_teeth(problem: DriveProblem, sector: Sector, nodal_force: FloatArray, path: Path) -> Path:
+def write_teeth(
+    problem: DriveProblem,
+    sector: Sector,
+    nodal_force: FloatArray,
+    pattern: FloatArray,
+    path: Path,
+) -> Path:
     """Write the sector under the forces on its flanks.
 
     Parameters
@@ -24,6 +31,9 @@ def write_teeth(problem: DriveProblem, sector: Sector, nodal_force: FloatArray, 
         The condensed teeth.
     nodal_force : ndarray, shape (K, 3n)
         On the flanks of its teeth, N, each in the tooth's own frame, about +Z.
+    pattern : ndarray, shape (k,)
+        Largest resolved pressures over a pitch at the points of
+        `asperity.drive.resolved.flank.grid_of`, Pa.
     path : Path
         Of the ``.vtu`` file.
     """
@@ -36,7 +46,8 @@ def write_teeth(problem: DriveProblem, sector: Sector, nodal_force: FloatArray, 
         tied=RIM,
     )
     forces = np.zeros((len(mesh.points), 3))
-    pressure = np.zeros(len(mesh.points))
+    pressure, largest = np.zeros(len(mesh.points)), np.zeros(len(mesh.points))
+    of_pitch = at_nodes(sector, pattern)
     middle, teeth = len(nodal_force) // 2, sector.teeth
     for k, own in enumerate(nodal_force):
         # In the mesh teeth follow one another about -Z.
@@ -50,6 +61,10 @@ def write_teeth(problem: DriveProblem, sector: Sector, nodal_force: FloatArray, 
         forces[surface.nodes] += values
         normal = -np.einsum("ni,ni->n", values, surface.nodal_normals)
         pressure[surface.nodes] = np.maximum(normal, 0.0) / surface.nodal_area
+    # Every tooth goes through the whole pitch.
+    for place in range(teeth):
+        name = "flank_plus" if teeth == 1 else f"flank_plus_{place}"
+        largest[contact_surface(mesh, name).nodes] = of_pitch
     moved = body.response(forces.reshape(-1)).reshape(-1, 3)
     mirror = np.array([1.0, 1.0, float(sector.wheel.pair.mirror)])
     shown = mesh if sector.wheel.pair.mirror > 0 else mesh.transformed(np.diag(mirror))
@@ -60,5 +75,21 @@ def write_teeth(problem: DriveProblem, sector: Sector, nodal_force: FloatArray, 
             "displacement_mm": 1e3 * moved * mirror,
             "force_N": forces * mirror,
             "pressure_MPa": 1e-6 * pressure,
+            "largest_pressure_MPa": 1e-6 * largest,
         },
     )
+
+
+def at_nodes(sector: Sector, pattern: FloatArray) -> FloatArray:
+    """Return at the nodes of a flank what is known at the points of its exact grid, (n,)."""
+    from scipy.interpolate import RegularGridInterpolator
+
+    _, _, share, z = grid_of(sector.wheel)
+    shares = np.unique(share)
+    columns = z[: len(z) // len(shares)]
+    nodes = lattice(sector.surface)
+    own = np.empty(nodes.size)
+    own[nodes] = np.linspace(0.0, 1.0, len(nodes))[:, None]
+    at = np.clip(sector.surface.positions[:, 2], columns[0], columns[-1])
+    known = RegularGridInterpolator((shares, columns), pattern.reshape(len(shares), -1))
+    return np.asarray(known(np.column_stack([own, at])))

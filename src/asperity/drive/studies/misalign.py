@@ -17,14 +17,15 @@ from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces, grid_of
 from asperity.drive.static.loaded import Loaded
-from asperity.drive.static.notes import rigid_parts
+from asperity.drive.static.notes import few_phases, rigid_parts
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.studies.misaligned import Misaligned
 from asperity.drive.studies.points import solve_points
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.parameters import Mount
+from asperity.flanks.parameters import Modification, Mount
 from asperity.gearset.tolerancing.allowances import Allowances
 from asperity.gearset.tolerancing.table import Tolerances
+from asperity.gearset.tolerancing.warmth import Warmth
 from asperity.runs import Run
 from asperity.sweep.axes import parse_axes
 from asperity.sweep.axis import Axis, spanned
@@ -43,8 +44,9 @@ _EXAMPLE = (
 class Place(NamedTuple):
     """A point of the study."""
 
-    where: tuple[int, ...]  #: Value of each axis by number; empty for the case as it is
+    where: tuple[int, ...]  #: Value of each axis by number; empty where it is off another way
     problem: DriveProblem | str  #: Or why there is none
+    name: str  #: In words
 
 
 class Study(NamedTuple):
@@ -52,7 +54,7 @@ class Study(NamedTuple):
 
     case: Case
     axes: tuple[Axis, ...]
-    places: tuple[Place, ...]  #: The case as it is first
+    places: tuple[Place, ...]  #: The case as it is first; where temperatures are given, warm then
 
 
 def prepare(case: Case, *, over: Sequence[str] | None = ()) -> Study:
@@ -67,7 +69,7 @@ def prepare(case: Case, *, over: Sequence[str] | None = ()) -> Study:
     """
     require_all(case, shaken=False)
     nominal = DriveProblem.from_case(case, shaken=False)
-    axes = tuple(parse_axes(over, case)) if over else tuple(_of_tolerances(case, nominal))
+    axes = tuple(parse_axes(over, case)) if over else tuple(of_tolerances(case, nominal))
     if not axes:
         raise InputError(f"nothing says how far the gearset may be off: {_EXAMPLE}")
     if words := next((axis for axis in axes if not axis.numeric), None):
@@ -77,16 +79,18 @@ def prepare(case: Case, *, over: Sequence[str] | None = ()) -> Study:
         raise InputError(
             f"there are {math.prod(shape)} points; a study has at most {MOST}: take fewer values"
         )
-    places = [Place((), nominal)]
+    places = [Place((), nominal, described(axes, ()))]
+    if (warm := _warm(case, nominal)) is not None:
+        places.append(warm)
     for index in itertools.product(*map(range, shape)):
         where = tuple(index[run] for run in runs)
         values = {axis.path: axis.values[n] for axis, n in zip(axes, where, strict=True)}
         try:
             problem = DriveProblem.from_case(case.replace_values(values), shaken=False)
         except InputError as error:
-            places.append(Place(where, str(error)))
+            places.append(Place(where, str(error), described(axes, where)))
         else:
-            places.append(Place(where, problem))
+            places.append(Place(where, problem, described(axes, where)))
     return Study(case, axes, tuple(places))
 
 
@@ -108,19 +112,45 @@ def answer(study: Study, run: Run) -> Misaligned:
         raise ConvergenceError(f"the gearset as the case has it: {found[0]}")
     if all(isinstance(each, str) for each in found[1:]):
         raise ConvergenceError(f"no point has an answer; the first: {found[1]}")
-    names = tuple(_described(study.axes, place.where) for place in study.places)
-    notes = [*rigid_parts(nominal)]
+    names = tuple(place.name for place in study.places)
+    notes = [*few_phases(nominal), *rigid_parts(nominal)]
     notes.append(
         "the wheel's rim is held at its inside: what its web, its hub and the housing give is not "
         "in it but where [shaft] says so"
     )
     notes += [f"{n}: {e}" for n, e in zip(names, found, strict=True) if isinstance(e, str)]
-    own = [_own(study.case, axis) for axis in study.axes]
-    where = [place.where for place in study.places]
+    own = [own_value(study.case, axis) for axis in study.axes]
+    values = [own] + [_values(study.axes, place.where) for place in study.places[1:]]
     return Misaligned.of(
-        nominal, study.axes, own, where, names, found,
-        _flank(nominal), tuple(notes),
+        nominal, study.axes, values, names, found, _flank(nominal), tuple(notes)
     )  # fmt: skip
+
+
+def _values(axes: Sequence[Axis], where: tuple[int, ...]) -> list[float]:
+    """Return the values of a point in their units; NaN where it is off another way."""
+    if not where:
+        return [math.nan] * len(axes)
+    return [float(axis.shown[n]) for axis, n in zip(axes, where, strict=True)]
+
+
+def _warm(case: Case, problem: DriveProblem) -> Place | None:
+    """Return the gearset as it runs warm; None where no temperatures are given."""
+    given = case.get(Tolerances)
+    if given is None or given.temperatures is None:
+        return None
+    warmth = Warmth.of(problem.gearset, given.temperatures, given.housing)
+    mount, own = problem.mount or Mount(), problem.modification or Modification()
+    apart = warmth.apart / _MILLIMETRES
+    lead = warmth.lead_correction(problem.geometry.lead_angle)
+    name = f"warm: centre distance {_MICRO * apart:+.3g} um, lead {_MICRO * warmth.pitch:+.3g} um/m"
+    values = {
+        "mount.centre_distance_error": mount.centre_distance_error + apart,
+        "modification.lead_correction": own.lead_correction + lead,
+    }
+    try:
+        return Place((), DriveProblem.from_case(case.replace_values(values), shaken=False), name)
+    except InputError as error:
+        return Place((), str(error), name)
 
 
 def _flank(problem: DriveProblem) -> tuple[FloatArray, FloatArray, IntArray]:
@@ -130,13 +160,14 @@ def _flank(problem: DriveProblem) -> tuple[FloatArray, FloatArray, IntArray]:
     return radius, problem.gearset.hand_sign * points[:, 2], grid_faces()
 
 
-def _described(axes: Sequence[Axis], where: tuple[int, ...]) -> str:
+def described(axes: Sequence[Axis], where: tuple[int, ...]) -> str:
+    """Return a point in words; the case itself has no values."""
     if not where:
         return "as the case is"
     return ", ".join(axis.text(n) for axis, n in zip(axes, where, strict=True))
 
 
-def _own(case: Case, axis: Axis) -> float:
+def own_value(case: Case, axis: Axis) -> float:
     """Return the value that the case itself has of an axis, in its unit; NaN for none."""
     model = case.known[axis.table]
     table = case.get(model)
@@ -152,7 +183,7 @@ def _unit(model: type[Table], key: str) -> str:
     return quantity.unit if quantity is not None else ""
 
 
-def _of_tolerances(case: Case, problem: DriveProblem) -> Iterator[Axis]:
+def of_tolerances(case: Case, problem: DriveProblem) -> Iterator[Axis]:
     """Yield what may be off of how the worm stands: to either side, and not at all."""
     given = case.get(Tolerances)
     if given is None:

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 _LEVELS = 24
 _MOST = 9
+# Beyond the largest, which rounding else leaves out.
+_ABOVE = 1.0 + 1e-6
 _SAME = 1e-9
 
 
@@ -79,15 +81,13 @@ def patterns(dataset: "xr.Dataset") -> "Figure":
     halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     mega = 1e-6 * dataset["pattern"].values
     most = float(np.nanmax(mega[chosen]))
+    levels = np.linspace(0.0, _ABOVE * most, _LEVELS)
     for number, panel in enumerate(axes):
         if number >= len(chosen):
             panel.set_visible(False)
             continue
         point = chosen[number]
-        panel.tricontourf(
-            Triangulation(z, r, halves), mega[point], levels=np.linspace(0.0, most, _LEVELS),
-            cmap="cividis", extend="max",
-        )  # fmt: skip
+        panel.tricontourf(Triangulation(z, r, halves), mega[point], levels=levels, cmap="cividis")
         panel.set_aspect("equal")
         panel.grid(visible=False)
         panel.set_title(_title(dataset, point), fontsize=9.0)
@@ -106,7 +106,7 @@ def patterns(dataset: "xr.Dataset") -> "Figure":
 def _alone(values: FloatArray, column: int) -> "np.ndarray":
     """Return the points at which this axis alone is off from the case."""
     others = np.delete(np.arange(values.shape[1]), column)
-    size = np.maximum(np.ptp(values, axis=0), 1e-300)
+    size = np.maximum(np.nanmax(values, axis=0) - np.nanmin(values, axis=0), 1e-300)
     off = np.abs(values - values[0])[:, others] / size[others]
     return np.flatnonzero((off <= _SAME).all(axis=1))
 
@@ -123,6 +123,7 @@ def _chosen(dataset: "xr.Dataset") -> list[int]:
     edge = np.max(
         [dataset[f"force_{edge}"].values for edge in ("worm_tip", "wheel_tip", "face_end")], axis=0
     )
+    found += [int(n) for n in np.flatnonzero(solved) if np.isnan(values[n]).all()]
     found.append(int(np.nanargmax(np.where(solved, edge, -1.0))))
     return list(dict.fromkeys(found))[:_MOST]
 
@@ -131,6 +132,8 @@ def _title(dataset: "xr.Dataset", point: int) -> str:
     if point == 0:
         return "as the case is"
     values, own = dataset["value"].values[point], dataset["value"].values[0]
+    if np.isnan(values).all():
+        return "warm"
     units = [str(unit) for unit in np.atleast_1d(dataset["axis_unit"].values)]
     names = [str(name).partition(".")[2] for name in np.atleast_1d(dataset["axis"].values)]
     parts = [

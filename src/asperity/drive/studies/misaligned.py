@@ -40,8 +40,6 @@ class Misaligned(Drawn):
         The case as it is.
     axes : tuple of Axis
         What is varied.
-    where : ndarray
-        (points, axes) values by number, -1 for the case as it is.
     """
 
     title: ClassVar[str] = "Misalignment of a loaded worm gearset"
@@ -58,7 +56,6 @@ class Misaligned(Drawn):
 
     problem: DriveProblem
     axes: tuple[Axis, ...]
-    where: IntArray
 
     name: npt.NDArray[np.str_] = quantity(
         "", "", "what is off", dims=_POINT, coordinate=True, variable="point"
@@ -118,8 +115,7 @@ class Misaligned(Drawn):
         cls,
         problem: DriveProblem,
         axes: tuple[Axis, ...],
-        own: Sequence[float],
-        where: Sequence[tuple[int, ...]],
+        values: Sequence[Sequence[float]],
         names: Sequence[str],
         found: Sequence[Loaded | str],
         flank: tuple[FloatArray, FloatArray, IntArray],
@@ -127,7 +123,7 @@ class Misaligned(Drawn):
     ) -> Self:
         """Return it of the points' answers, or reasons, and of the points of the flank.
 
-        ``own`` are the values of the axes that the case itself has, in their units.
+        ``values`` are those of the axes at each, in their units; NaN where it is off another way.
         """
         radius, face, faces = flank
         first = found[0]
@@ -138,20 +134,14 @@ class Misaligned(Drawn):
                 [np.nan if isinstance(each, str) else getattr(each, name) for each in found]
             )
 
-        places = np.array([[-1] * len(axes) if not at else list(at) for at in where], np.int64)
         nothing = np.full(len(radius), np.nan)
         return cls(
             problem=problem,
             axes=axes,
-            where=places,
             name=np.array(names),
             axis=np.array([axis.path for axis in axes]),
             axis_unit=np.array([axis.unit or "1" for axis in axes]),
-            value=np.array([
-                [middle if n < 0 else float(axis.shown[n])
-                 for axis, middle, n in zip(axes, own, row, strict=True)]
-                for row in places
-            ]),
+            value=np.array(values, np.float64),
             pressure_edge=np.max(
                 [column(f"pressure_{edge}") for edge in ("worm_tip", "wheel_tip", "face_end")], 0
             ),
@@ -215,7 +205,7 @@ class Misaligned(Drawn):
             {
                 "name": str(name),
                 "values": {
-                    f"{axis.path} [{axis.unit or '1'}]": float(value)
+                    f"{axis.path} [{axis.unit or '1'}]": float(value) if value == value else None
                     for axis, value in zip(self.axes, values, strict=True)
                 },
                 **{
@@ -285,6 +275,7 @@ class Misaligned(Drawn):
         ]  # fmt: skip
         remarks = (
             "the first row is the case as it is; face, radial: shift of the pattern's middle",
+            *(f"the second row is the gearset {name}" for name in self.name[1:2] if "warm" in name),
             *self.notes,
         )  # fmt: skip
         return (Table.of(heads, rows, left=0, remarks=remarks),)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded, loaded
 from asperity.errors import AsperityError
-from asperity.runs import Run
+from asperity.runs import Interrupted, Run
 from asperity.runs.cache import Cache
 from asperity.runs.key import code_key, key
 from asperity.runs.workers import Task, cores, done
@@ -52,20 +52,28 @@ def solve_points(
             kept.put(name, answer.to_tree())
         run.checkpoint(len(found), total, what=what)
 
-    with run.interruptible():
-        run.checkpoint(len(found), total, what=what)
-        if processes <= 1:
-            for name, problem in missing.items():
-                take(name, solved(problem))
-        else:
-            # The first condenses the teeth, which others then find.
-            tasks = [
-                Task(name, functools.partial(solved, problem), _ROOM)
-                for name, problem in missing.items()
-            ]
-            tell = functools.partial(run.checkpoint, what=what)
-            for task, future in done(tasks, processes, lambda: tell(len(found), total)):
-                take(task.name, future.result())
+    try:
+        with run.interruptible():
+            run.checkpoint(len(found), total, what=what)
+            if processes <= 1:
+                for name, problem in missing.items():
+                    take(name, solved(problem))
+            else:
+                # The first condenses the teeth, which others then find.
+                tasks = [
+                    Task(name, functools.partial(solved, problem), _ROOM)
+                    for name, problem in missing.items()
+                ]
+                tell = functools.partial(run.checkpoint, what=what)
+                for task, future in done(tasks, processes, lambda: tell(len(found), total)):
+                    take(task.name, future.result())
+    except Interrupted:
+        if kept.folder is None:
+            raise
+        raise Interrupted(
+            f"interrupted: {len(found)} of {total} {what} are kept; the same command goes on from "
+            "there"
+        ) from None
     return [found[name] for name in names]
 
 

@@ -18,9 +18,10 @@ from functools import cached_property
 
 import numpy as np
 
-from asperity.arrays import FloatArray
-from asperity.drive.resolved.contact import Resolved, ResolvedContact
+from asperity.arrays import FloatArray, IntArray
+from asperity.drive.resolved.contact import ResolvedContact
 from asperity.drive.resolved.flank import ExactFlank, grid_faces
+from asperity.drive.resolved.strip import ZONES
 from asperity.drive.static.equilibrium import Balance, Equilibrium
 from asperity.drive.static.seen import resolved
 from asperity.drive.static.solve import StaticModel
@@ -81,8 +82,9 @@ class Taken:
         self.step = step
         self.moved = np.zeros(owner.flank.nodes)  #: Force times way about the points, N m
         self.work = 0.0  #: Of the normal forces on the way that they slide, N m
-        self.peak = 0.0  #: Largest pressure, Pa
-        self.found: list[Resolved] = []
+        self.peaks = np.zeros(len(ZONES))  #: Largest pressure by zone, Pa
+        self.force = 0.0  #: Normal forces of all phases, N
+        self.area = 0.0  #: That bears, of all phases, m^2
 
     def evaluate(self, _number: int, balance: Balance) -> None:
         """Take a phase."""
@@ -94,9 +96,7 @@ class Taken:
         shift, turn = np.zeros(3), np.zeros((3, 3))
         for tooth in found.teeth:
             k = tooth.number - first
-            sliding(
-                contact.stand, rotation[k], translation[k], contact.side, 1.0, shift, turn
-            )
+            sliding(contact.stand, rotation[k], translation[k], contact.side, 1.0, shift, turn)
             on = tooth.force > 0.0
             points, out, force = (
                 tooth.strip.points[on], tooth.strip.normals[on], tooth.force[on]
@@ -107,7 +107,9 @@ class Taken:
             self.work += float(slid.sum())
             for nodes, weights in _about(flank, tooth.strip.share[on], points[:, 2]):
                 np.add.at(self.moved, nodes, weights * slid)
-        self.peak = max(self.peak, *(float(tooth.pressure.max()) for tooth in found.teeth))
+            self.peaks = np.maximum(self.peaks, tooth.peaks())
+            self.force += tooth.normal
+            self.area += tooth.area
 
     @cached_property
     def depth(self) -> FloatArray:
@@ -117,7 +119,7 @@ class Taken:
 
 def _about(
     flank: ExactFlank, share: FloatArray, z: FloatArray
-) -> "list[tuple[np.ndarray, FloatArray]]":
+) -> list[tuple[IntArray, FloatArray]]:
     """Points of the flank's grid about places, and their shares, which sum up to 1."""
     shares, columns = axes_of(flank)
     i = np.clip(np.searchsorted(shares, share, side="right") - 1, 0, len(shares) - 2)

@@ -23,18 +23,10 @@ from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.allowances import Allowances
 from asperity.gearset.tolerancing.table import Temperatures, Tolerances
+from asperity.gearset.tolerancing.warmth import Warmth
 from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
-from asperity.sources import Source
 
-EXPANSION: Mapping[str, float] = {
-    "steel": 11.5e-6, "cast iron": 10.5e-6, "aluminium": 23.0e-6, "bronze": 17.5e-6,
-}  # fmt: skip
-"""Coefficients of expansion, 1/K."""
-
-EXPANSION_SOURCE = Source("textbooks", "from memory", "coefficients of expansion, typical")
-
-_REFERENCE = 293.15
 _MICROMETRES = 1e3
 _ARCMINUTES = 60.0 * 180.0 / math.pi
 
@@ -342,17 +334,10 @@ def assembled(
 def warm_backlash(gearset: Gearset, temperatures: Temperatures, housing: str) -> float:
     """Return what warmth adds to the backlash on the mean circle, um.
 
-    Inside its rim a wheel of bronze is taken to be of steel.
+    As `Warmth` has it.
     """
-    g = gearset.geometry
-    bronze = "bronze" in gearset.wheel_material.family
-    rim = max(0.0, 0.5 * g.wheel_root_diameter - g.rim_thickness)
-    worm, wheel = 0.5 * g.worm_pitch_diameter, 0.5 * g.wheel_mean_diameter
-    grows = EXPANSION["bronze" if bronze else "cast iron"] * (wheel - rim)
-    grows += EXPANSION["steel"] * worm + EXPANSION["steel" if bronze else "cast iron"] * rim
-    apart = EXPANSION[housing] * g.centre_distance * (temperatures.housing - _REFERENCE)
-    apart -= grows * (temperatures.gears - _REFERENCE)
-    return 2.0 * _MICROMETRES * apart * math.tan(g.axial_pressure_angle)
+    apart = Warmth.of(gearset, temperatures, housing).apart
+    return 2.0 * _MICROMETRES * apart * math.tan(gearset.geometry.axial_pressure_angle)
 
 
 def _between(name: str, allowances: tuple[float, float], slant: float) -> Part:

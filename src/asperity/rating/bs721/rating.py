@@ -47,7 +47,7 @@ def rate(given: Inputs, tables: Tables) -> Rating:
         "BS 721-2:1983",
         entries(given, "bs721", values, _sources(given, tables), _equations(given, values)),
         _violations(given, values),
-        (*notes, *_notes(given, values)),
+        (*notes, *_notes(given, values, tables)),
         (*notes, *_parts_unrated(given, tables)),
     )
 
@@ -209,7 +209,7 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     return tuple(sentence for sentence in found if sentence)
 
 
-def _notes(given: Inputs, values: Values) -> list[str]:
+def _notes(given: Inputs, values: Values, tables: Tables) -> list[str]:
     notes = [_OF_DUTY] if given.duty else []
     notes += [
         f"{part}: {note}"
@@ -219,6 +219,8 @@ def _notes(given: Inputs, values: Values) -> list[str]:
     bronze = given.gearset.wheel_material.family == "tin bronze"
     if given.friction is None and not (bronze and given.gearset.worm_material.hardened):
         notes.append("the friction is that of phosphor bronze on a case-hardened worm")
+    if doubt := tables.surface_stress_factor.doubts.get(", ".join(_rows(given))):
+        notes.append(f"S_c of the wheel is {values['S_c_MPa']:g} MPa; it is {doubt}")
     if given.gearset.flank != "ZI":
         notes.append(f"the flank is {given.gearset.flank}; the standard is for ZI")
     return [*failures("bs721", values), *notes]

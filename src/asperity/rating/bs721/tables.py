@@ -17,7 +17,7 @@ from asperity.formulas import Bounds, Symbol, check, current_mask
 from asperity.sources import Source, weakest
 
 _SHIPPED = Path(__file__).parents[1] / "data" / "bs721.toml"
-_ABOUT = ("source", "confidence", "note", "checked")
+_ABOUT = ("source", "confidence", "note", "checked", "doubted")
 
 
 class TableRangeError(InputError):
@@ -117,11 +117,14 @@ class Stresses:
         By material, or by material and the one it runs with.
     source : Source
         Where they come from.
+    doubts : mapping of str to str
+        What another document has instead, by ``"outer, inner"``.
     """
 
     name: str
     values: Mapping[str, Mapping[str, float]]
     source: Source
+    doubts: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     def __call__(self, outer: str, inner: str) -> float:
         """Return one of them; raises InputError with the near names."""
@@ -248,7 +251,7 @@ def _build(name: str, table: Any) -> Any:
         return Stresses(title, _numbers(table["worm"]), source)
     if name == "surface_stress_factor":
         _keys(table, "wheel")
-        return Stresses(title, _numbers(table["wheel"]), source)
+        return Stresses(title, _numbers(table["wheel"]), source, _doubts(table))
     if name == "bending_stress_factor":
         _keys(table, "wheel", "worm")
         return Stresses(
@@ -284,6 +287,13 @@ def _curve(name: str, x: Any, y: Any, source: Source, hold_above: bool = False) 
         raise InputError(f"{points[1].tolist()} must be positive throughout")
     points.setflags(write=False)
     return Curve(name, points[0], points[1], source, hold_above)
+
+
+def _doubts(table: Mapping[str, Any]) -> dict[str, str]:
+    doubted = table.get("doubted", {})
+    if not isinstance(doubted, dict) or not all(isinstance(v, str) for v in doubted.values()):
+        raise InputError("doubted must be a table of texts by the materials")
+    return dict(doubted)
 
 
 def _numbers(rows: Any) -> dict[str, dict[str, float]]:

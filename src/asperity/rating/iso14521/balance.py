@@ -16,7 +16,7 @@ from asperity.sources import Source
 AREA = Source("Chirkov and Stavishenko, Calculation of toothed and screw gears", "one source")
 STEADY = Source("Jindal, Machine Design, ch. 28", "verified")
 ONE_MASS = Source("definition", "verified", "of one mass that is heated and cooled")
-MEASURED = Source("own rule of asperity", "one source", "the exponent is that of P_V0")
+MEASURED = Source("own rule of asperity", "own choice", "the exponent is that of P_V0")
 
 A_h = Annotated[Real, Symbol("A_h", "m2", positive)]
 k_h = Annotated[Real, Symbol("k_h", "W/(m2 K)", positive)]

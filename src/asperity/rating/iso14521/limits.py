@@ -25,7 +25,7 @@ VALIDITY: Mapping[str, Range] = {
 """Where the standard's formulas are valid; the symbol in brackets is what rests on it."""
 
 
-_PRACTICE = Source("usual practice", "one source", "bounds of our own")
+_PRACTICE = Source("usual practice", "own choice", "bounds of our own")
 
 PLAUSIBLE: Mapping[str, Range] = {
     "theta_S_degC": Range(

@@ -12,6 +12,7 @@ from asperity.sources import Source
 _STANDARD = "ISO/TR 14521:2010, DIN 3996:2012"
 VERIFIED = Source(_STANDARD, "verified")
 ONE_SOURCE = Source(_STANDARD, "one source")
+SUMP = Source(_STANDARD, "one source", "with a fan, a + 32 as MITCalc 1.74 has it")
 BALANCE = Source(
     "definition", "verified", "balance of power; MITCalc divides it by eta_z2_1 besides"
 )

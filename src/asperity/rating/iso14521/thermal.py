@@ -23,7 +23,7 @@ _OIL_CONSTANT = {"mineral": 9.0, "polyalphaolefin": 5.0, "polyglycol": 0.0}
     symbol="theta_S",
     unit="degC",
     equation="theta_0 + (c_1 T_2/(a/63)^3 + c_0) c_2",
-    source=s.ONE_SOURCE,
+    source=s.SUMP,
     because="c_2 is not above zero at this ratio and speed; lower the ratio",
 )
 def sump_temperature(
@@ -40,9 +40,9 @@ def sump_temperature(
     """Temperature of the oil sump of a cast-iron housing with splash lubrication.
 
     With a fan on the worm's shaft the worm must turn faster than 13.8 rpm, and the centre distance
-    be above 48 mm. The sign in a + 32 and the range (a 63 to 400 mm, n_1 60 to 3000 rpm, u 10 to
-    40) are from memory. Without a fan the printed c_0 drops to zero in a sharp dip at nu_40 =
-    220.3 mm2/s.
+    be above 48 mm; the sign in a + 32 is MITCalc's. The range (a 63 to 400 mm, n_1 60 to 3000 rpm,
+    u 10 to 40) is from memory. Without a fan the printed c_0 drops to zero in a sharp dip at
+    nu_40 = 220.3 mm2/s.
     """
     if fan:
         worm_speed = check("worm_speed", worm_speed, _N_1_OF_A_FAN)

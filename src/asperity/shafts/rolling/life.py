@@ -15,7 +15,7 @@ EXPONENT: dict[Kind, float] = {"ball": 3.0, "roller": 10.0 / 3.0}
 """Exponent p of load in life."""
 
 RELIABILITY = {90: 1.0, 95: 0.64, 96: 0.55, 97: 0.47, 98: 0.37, 99: 0.25}
-"""Life factor a_1 by percent; above 95 from memory."""
+"""Life factor a_1 by percent; above 95 from memory, `symbols.ISO_281_MEMORY`."""
 
 CLEANLINESS = {
     "high": 0.6, "normal": 0.5, "slight": 0.3, "typical": 0.1, "severe": 0.0, "bronze": 0.3,

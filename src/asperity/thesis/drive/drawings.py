@@ -80,7 +80,7 @@ def _ratios(upper: "Axes", lower: "Axes", dataset: "xr.Dataset") -> None:
     lower.axhspan(-0.1, 0.1, color=_GREY, alpha=0.5, zorder=0, label="even scale within")
     lower.margins(y=0.1)
     limit(lower, 0.0)
-    legend(lower, loc="upper right")
+    legend(lower, loc="upper left")
     if "thesis" in dataset:
         _of_thesis(upper, float(dataset["thesis"]))
         legend_above(upper, 2)

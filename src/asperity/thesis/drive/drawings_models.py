@@ -42,10 +42,9 @@ def model(dataset: "xr.Dataset") -> "Figure":
     ends = _projected(_WHOLE, dataset["ends"].values)
     for name, end in zip("AB", ends, strict=True):
         axes.plot(*end, "o", color=BLACK, markersize=5)
-        axes.annotate(name, end, (4, 8), textcoords="offset points", weight="bold")
-    axes.annotate(
-        "4394 N m/rad", ends.mean(axis=0), (-6, 26), textcoords="offset points", ha="center"
-    )
+        beside = (-8, 10) if name == "A" else (4, 8)
+        axes.annotate(name, end, beside, textcoords="offset points", weight="bold")
+    axes.annotate("AB: 4394 N m/rad", ends[1], (10, -22), textcoords="offset points")
     tip = ends[1] + _projected(_WHOLE, 26.0 * dataset["axis"].values)
     axes.annotate("", tip, ends[1], arrowprops={"arrowstyle": "->", "color": BLACK})
     axes.annotate("X", tip, (4, -2), textcoords="offset points")

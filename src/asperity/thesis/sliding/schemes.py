@@ -1,4 +1,4 @@
-"""Figures 4.11, 4.14 and 4.15: an increment of the schemes for a shaken base, as vectors.
+"""Figures 4.9 to 4.11 and 4.13 to 4.15: the shaken base, its forces, an increment as vectors.
 
 In the thesis's symbols: the asperity reaches from its root M, on the base, to N', on the body; the
 y of a deflection is that of the root less that of the body (46), (47).
@@ -12,7 +12,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.sliding import drawings
+from asperity.thesis.sliding import drawings, drawings_setup
 
 _TRANSFER, _EXPONENT = 0.71, 1.0
 _HOW = "asperity.thesis.sliding.schemes.increment"
@@ -108,3 +108,25 @@ def _base() -> Computed:
         share=((), share, "1", "displacement over its amplitude"),
     )
     return dataset, ["x_b = u cos(theta), y_b = u sin(theta)"]
+
+
+@figure("4.9", drawings_setup.setup, 0.0)
+@figure("4.13", drawings_setup.setup, 1.0)
+def _setup(along: float) -> Computed:
+    dataset = described(base=(("axis",), np.array([along, 1.0]), "1", "whether the base moves"))
+    return dataset, ["a scheme: nothing in it is to scale"]
+
+
+@figure("4.10", drawings_setup.forces)
+def _forces() -> Computed:
+    root, body = np.array([0.0, 0.42]), np.array([0.5, 0.0])
+    found = increment(root, body, body + np.array([0.55, -0.12]), 0.5)
+    beta, size = float(found.angles[1]), float(found.deflection[2])
+    # On the body, towards the root; a body that is not speeded up is pulled by as much along x.
+    force = size * np.array([-math.cos(beta), math.sin(beta)])
+    dataset = described(
+        force=(("axis",), force, "1", "friction on the body over mu F_N"),
+        drive=((), -force[0], "1", "drive force over mu F_N"),
+        beta=((), beta, "rad", "angle of the deflection"),
+    )
+    return dataset, ["(36), (37) with the deflection at the end of figure 4.11"]

@@ -31,6 +31,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray, IntArray
+from asperity.tribometer.reduction.give import Give
 from asperity.tribometer.reduction.levels import (
     EXPECTED_GIVE,
     Levels,
@@ -39,6 +40,7 @@ from asperity.tribometer.reduction.levels import (
     likeliest,
     unexpected,
 )
+from asperity.tribometer.reduction.likelihoods import white_counts
 from asperity.tribometer.reduction.noise import share_of_state
 
 _FEWEST = 3  # blocks of a window, of which a level and parts of a pulse are told
@@ -59,19 +61,35 @@ class _Fit:
         step: float, behind: FloatArray,
     ) -> None:  # fmt: skip
         self.there, self.shaken, self.length = there, shaken, length
-        self.middle = signal.sum(axis=1) / there.sum(axis=1)
-        self.rest = np.where(there, signal - self.middle[:, None], 0.0)
-        self.swings = np.zeros(there.shape)
-        both = there[:, :, None] & there[:, None, :]
-        places = np.arange(there.shape[1])
-        self.apart = np.abs(places[:, None] - places)
-        self.both = both.astype(np.float64)
-        q = (behind * (1.0 - behind))[:, None, None]
-        parts = 2.0 * (1.0 - 3.0 * q) * (self.apart == 0) - (1.0 - 4.0 * q) * (self.apart == 1)
-        parts -= q * (self.apart == 2)
-        self.steps = self.both * parts * (step / length) ** 2 / 12.0
-        self.none = np.where(both, 0.0, np.eye(places.size))
+        self.give = 0.0, EXPECTED_GIVE
+        self.gives = 0.0
+        self.rates = -length * np.arange(there.shape[1])
+        self.many = there.sum(axis=1)
+        self.middle = signal.sum(axis=1) / self.many
+        rest = np.where(there, signal - self.middle[:, None], 0.0)
+        windows, most = there.shape
+        self.columns = np.stack((there.astype(np.float64), np.zeros(there.shape), rest))
+        q = behind * (1.0 - behind)
+        of_steps = np.stack((2.0 * (1.0 - 3.0 * q), -(1.0 - 4.0 * q), -q), axis=1)
+        self.of_steps = np.ascontiguousarray(of_steps * (step / length) ** 2 / 12.0)
         self.least = math.log(_FLOOR * (step / length) ** 2 / 6.0)
+        self.factors = np.zeros((windows, most, most))
+        self.whitened, self.sums = np.empty((3, windows, most)), np.empty((windows, 6))
+
+    @property
+    def rest(self) -> FloatArray:
+        """The signal about the middles of its windows."""
+        found: FloatArray = self.columns[2]
+        return found
+
+    @property
+    def steps(self) -> FloatArray:
+        """Covariance that parts of a pulse leave in the blocks of each window."""
+        places = np.arange(self.there.shape[1])
+        apart = np.abs(places[:, None] - places)
+        found = np.where(apart < 3, self.of_steps[:, np.minimum(apart, 2)], 0.0)
+        made: FloatArray = found * (self.there[:, :, None] & self.there[:, None, :])
+        return made
 
     def noise(self, given: FloatArray) -> tuple[float, float, float]:
         """Return noise's variance in a block, for how long it lasts, s, and how it is shaken."""
@@ -81,43 +99,42 @@ class _Fit:
 
     def with_swings(self, swings: FloatArray) -> "_Fit":
         """Take swings that the signal gives way to."""
-        self.swings = swings
+        self.columns[1] = swings
         return self
 
-    def root(self, given: FloatArray) -> FloatArray:
-        """Return the Cholesky factors of the covariances of all windows."""
+    def unlikely(self, given: FloatArray) -> float:
+        """Return twice the restricted likelihood's negative; fills what is white."""
         variance, memory, ratio = self.noise(given)
-        lasts = share_of_state(memory, self.length) * np.exp(-self.apart * self.length / memory)
-        np.fill_diagonal(lasts, 1.0)
-        sizes = variance * np.where(self.shaken, ratio**2, 1.0)
-        covariance = self.both * lasts * sizes[:, None, None]
-        made: FloatArray = np.linalg.cholesky(covariance + self.steps + self.none)
-        return made
-
-    def white(self, root: FloatArray) -> FloatArray:
-        """Return levels, swings and signal made white, shape (3, windows, blocks)."""
-        columns = np.stack((self.there.astype(np.float64), self.swings, self.rest), axis=2)
-        return np.moveaxis(np.linalg.solve(root, columns), 2, 0)
+        lasts = np.exp(self.rates / memory)
+        lasts[1:] *= share_of_state(memory, self.length)
+        sizes = np.where(self.shaken, variance * ratio**2, variance)
+        logarithm = float(white_counts(
+            self.many, lasts, sizes, self.of_steps, self.columns, self.factors, self.whitened,
+            self.sums,
+        ))  # fmt: skip
+        if math.isnan(logarithm):
+            raise np.linalg.LinAlgError("noise of counts has no covariance")
+        ones, across, of_levels = self.sums.T[:3]
+        expected, weight = self.give[0], self.give[1] ** -2.0
+        # Each level hangs together with the give alone, so that this is solved by hand.
+        bent, total = across / ones, self.sums.sum(axis=0)
+        bend = float(total[3]) + weight - float(across @ bent)
+        self.gives = (float(total[4]) + weight * expected - float(bent @ of_levels)) / bend
+        return float(
+            logarithm + float(total[5]) + weight * expected**2
+            - float(of_levels @ (of_levels / ones)) - bend * self.gives**2
+            + float(np.log(ones).sum()) + math.log(bend)
+            + unexpected(memory, math.log(ratio))
+            + max(self.least - given[0], 0.0)
+        )  # fmt: skip
 
     def solve(self, given: FloatArray) -> tuple[float, FloatArray, FloatArray]:
         """Return twice the restricted likelihood's negative, the estimates, their information."""
-        root = self.root(given)
-        ones, swings, rest = self.white(root)
-        count = len(ones)
-        information = np.zeros((count + 1, count + 1))
-        np.fill_diagonal(information[:-1, :-1], (ones * ones).sum(axis=1))
-        information[-1, -1] = float((swings * swings).sum()) + EXPECTED_GIVE**-2.0
-        information[:-1, -1] = information[-1, :-1] = (ones * swings).sum(axis=1)
-        right = np.append((ones * rest).sum(axis=1), (swings * rest).sum())
-        estimate = np.linalg.solve(information, right)
-        _, memory, ratio = self.noise(given)
-        likelihood = (
-            2.0 * float(np.log(np.diagonal(root, axis1=1, axis2=2)).sum())
-            + float((rest * rest).sum() - estimate @ right)
-            + float(np.linalg.slogdet(information)[1])
-            + unexpected(memory, math.log(ratio))
-            + max(self.least - given[0], 0.0)
-        )
+        likelihood = self.unlikely(given)
+        ones, across, of_levels, swings, _, _ = self.sums.T
+        estimate = np.append((of_levels - across * self.gives) / ones, self.gives)
+        information = np.diag(np.append(ones, float(swings.sum()) + self.give[1] ** -2.0))
+        information[:-1, -1] = information[-1, :-1] = across
         return likelihood, estimate, information
 
     def told(
@@ -138,13 +155,12 @@ class _Fit:
         """
         likelihood, estimate, information = self.solve(given)
         covariance: FloatArray = np.asarray(np.linalg.inv(information), dtype=np.float64)
-        root = self.root(given)
-        ones, swings, rest = self.white(root)
+        root, (ones, swings, rest) = self.factors, self.whitened.copy()
         weights = covariance[:-1, :-1, None] * ones + covariance[:-1, -1, None, None] * swings
         on_means = np.linalg.solve(np.swapaxes(root, 1, 2), weights[..., None])[..., 0]
         steps = np.einsum("kwm,wmn,lwn->kl", on_means, self.steps, on_means)
-        white = rest - estimate[:-1, None] * ones - estimate[-1] * swings
-        made: tuple[FloatArray, FloatArray, FloatArray] = (steps, weights, white)
+        left = rest - estimate[:-1, None] * ones - estimate[-1] * swings
+        made: tuple[FloatArray, FloatArray, FloatArray] = (steps, weights, left)
         return likelihood, estimate, covariance, *made
 
 
@@ -157,6 +173,7 @@ def estimate_counted(
     left_out: BoolArray,
     step: float,
     count_time: float,
+    give: Give | None = None,
 ) -> Levels | None:
     """Estimate the levels of a speed in all windows of a file; None where windows are too short.
 
@@ -177,6 +194,8 @@ def estimate_counted(
         Angle of a pulse, rad.
     count_time : float
         That pulses are counted over, s, or a longer time.
+    give : Give, optional
+        What is expected of how far the speed gives way.
 
     Returns
     -------
@@ -206,34 +225,55 @@ def estimate_counted(
     given = np.array([math.log(max(variance, math.exp(fit.least))), math.log(0.3 / length), 0.0])
     delays = range(0, int((begins - first).min()) + 1, _EVERY)
     shown = [_counted(swings, places, there, first, behind, late) for late in delays]
+    taken = -1
     for _ in range(_ROUNDS):
-        likelihoods = [fit.with_swings(one).solve(given)[0] for one in shown]
-        fit.with_swings(shown[int(np.argmin(likelihoods))])
-        given = likeliest(lambda trial: fit.solve(trial)[0], given, free)
+        likelihoods = [fit.with_swings(one).unlikely(given) for one in shown]
+        last, taken = taken, int(np.argmin(likelihoods))
+        if taken == last:
+            break
+        fit.with_swings(shown[taken])
+        given = likeliest(fit.unlikely, given, free)
     slopes, spread = doubt(fit.solve, given, levels, range(free))
-    found = [fit.with_swings(one).told(given) for one in shown]
-    # The likeliest delay alone would be that of the largest give, wherever little tells of it.
-    likelihoods = [one[0] for one in found]
-    likely = np.exp(0.5 * (min(likelihoods) - np.array(likelihoods)))
-    likely /= likely.sum()
-    estimate, covariance, steps, weights, white = (
-        np.tensordot(likely, np.array([one[part] for one in found]), 1) for part in range(1, 6)
+    estimate, covariance, steps, weights, left = _at_all_delays(fit, given, shown)
+    gives, unsure_of_it = beyond_doubt(float(estimate[-1]), float(covariance[-1, -1])), 0.0
+    chord = (give or Give()).agreed(
+        float(estimate[-1]), float(covariance[-1, -1]), EXPECTED_GIVE, size
     )
-    apart = np.array([one[1] for one in found]) - estimate
-    covariance += (likely * apart.T) @ apart
+    if chord:
+        fit.give = chord
+        estimate, covariance, steps, weights, left = _at_all_delays(fit, given, shown)
+        gives, unsure_of_it = float(estimate[-1]), float(covariance[-1, -1])
     variance, memory, _ = fit.noise(given)
     # White noise of a block is the sum of that of its shorter ones, over the root of their number.
     short = np.zeros((levels + 1, window.size))
     rows = np.concatenate(places)
-    short[:, rows] = np.vstack((weights[:, there], white[None, there]))[..., None] / math.sqrt(each)
+    short[:, rows] = np.vstack((weights[:, there], left[None, there]))[..., None] / math.sqrt(each)
     short = short[:, ~left_out]
     return Levels(
         size * (fit.middle + estimate[:levels]),
         size**2 * (covariance[:levels, :levels] - steps), (0.0, 0.0), 0.0,
         size * math.sqrt(variance), 1.0, memory, size**2 * slopes, spread, size * short[:-1],
-        short[-1], size * beyond_doubt(float(estimate[-1]), float(covariance[-1, -1])),
-        np.zeros(short.shape[1]), np.zeros(levels), size**2 * steps,
+        short[-1], size * gives, np.zeros(short.shape[1]), np.zeros(levels), size**2 * steps,
+        size**2 * unsure_of_it,
     )  # fmt: skip
+
+
+def _at_all_delays(
+    fit: _Fit, given: FloatArray, shown: Sequence[FloatArray]
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
+    """Return what the signal says and where from, as `_Fit.told` does, over all delays.
+
+    The likeliest delay alone would be that of the largest give, wherever little tells of it.
+    """
+    found = [fit.with_swings(one).told(given) for one in shown]
+    likelihoods = np.array([one[0] for one in found])
+    likely = np.exp(0.5 * (likelihoods.min() - likelihoods))
+    likely /= likely.sum()
+    estimate, covariance, *others = (
+        np.tensordot(likely, np.array([one[part] for one in found]), 1) for part in range(1, 6)
+    )
+    apart = np.array([one[1] for one in found]) - estimate
+    return estimate, covariance + (likely * apart.T) @ apart, others[0], others[1], others[2]
 
 
 def _behind(

@@ -20,6 +20,7 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.tribometer.reduction.counted import estimate_counted
+from asperity.tribometer.reduction.give import Give
 from asperity.tribometer.reduction.levels import Levels, estimate_levels
 from asperity.tribometer.uncertainty import Budget, Budgeted, Cause, Contribution
 
@@ -85,6 +86,10 @@ class Joint:
         for name, slope in _slopes(of, pairs).items():
             slopes[name][places] += slope
             leaning[places] += slope * self.levels[name].give / largest
+            if unsure := self.levels[name].give_variance / largest**2:
+                swung = self.levels[TORQUE].covariance[np.ix_(places, places)]
+                variance = unsure * float(slope @ swung @ slope)
+                others.append(_correlation(f"{name}: how far it gives way", variance))
             others += (
                 Contribution.of(cause, _inputs(name), slope)
                 for cause in (added or {}).get(name, ())
@@ -148,10 +153,25 @@ def _with_freedom(
     ]  # fmt: skip
 
 
+class _Asked(dict[str, FloatArray]):
+    """Levels that note which of them a number is made of."""
+
+    def __init__(self, pairs: Pairs) -> None:
+        super().__init__(pairs)
+        self.names: set[str] = set()
+
+    def __getitem__(self, name: str) -> FloatArray:
+        self.names.add(name)
+        return super().__getitem__(name)
+
+
 def _slopes(of: Callable[[Pairs], float], pairs: Pairs) -> dict[str, FloatArray]:
     """Return slopes by the levels of each signal that has any."""
-    found = {}
+    found, asked = {}, _Asked(pairs)
+    of(asked)
     for name, levels in pairs.items():
+        if name not in asked.names:
+            continue
         slope = np.zeros(2)
         step = _STEP * (float(np.abs(levels).max()) or 1.0)
         for place in range(2):
@@ -210,21 +230,31 @@ def estimate_jointly(
     """
     whole = np.ones(times.size, dtype=bool)
     torque = estimate_levels(times, signals[TORQUE], angles, window, shaken, drift=drift)
-    swings = torque.swings / np.abs(torque.values).max()
+    largest = float(np.abs(torque.values).max())
+    swings = torque.swings / largest
     levels, kept = {TORQUE: torque}, {TORQUE: whole}
     for name, signal in signals.items():
         if name == TORQUE:
             continue
         here = ~left_out[name] if left_out and name in left_out else whole
         kept[name] = here
+        give = Give.of(signal[here], signals[TORQUE][here] / largest, window[here], shaken)
         counted = None
         if count_time > 0.0 and pulses and name in pulses:
             counted = estimate_counted(
-                times, signal, window, shaken, swings, ~here, pulses[name], count_time
+                times,
+                signal,
+                window,
+                shaken,
+                swings,
+                ~here,
+                pulses[name],
+                count_time,
+                give,
             )
         levels[name] = counted or estimate_levels(
             times[here], signal[here], (angles[0][here], angles[1][here]), window[here], shaken,
-            drift=drift, swings=swings[here],
+            drift=drift, swings=swings[here], give=give,
         )  # fmt: skip
     return Joint(levels, dict(_correlations(levels, kept)), kept)
 

@@ -25,6 +25,8 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
+from asperity.tribometer.reduction.give import Give
+from asperity.tribometer.reduction.likelihoods import estimated
 from asperity.tribometer.reduction.noise import share_of_state, weighed, whitened
 
 _RUNOUT = 0.05  # what run-out and drift are expected to be at most, as a share: loosely held
@@ -79,6 +81,8 @@ class Levels:
     steps : ndarray, shape (windows, windows), optional
         What steps of an encoder leave in the levels, beside the covariance; None where it is not
         told apart.
+    give_variance : float
+        Of the give, where it is told by what vibration does.
     """
 
     values: FloatArray
@@ -96,6 +100,7 @@ class Levels:
     swings: FloatArray
     sensed: FloatArray
     steps: FloatArray | None = None
+    give_variance: float = 0.0
 
 
 class _Fit:
@@ -107,6 +112,7 @@ class _Fit:
     ) -> None:  # fmt: skip
         self.times, self.signal, self.window, self.shared = times, signal, window, shared
         self.shaken, self.prior, self.linear = shaken, prior, linear
+        self.expected = np.zeros(prior.size)
         self.member = np.zeros((window.size, shaken.size))
         self.member[np.arange(window.size), window] = 1.0
         self.levels = self.member.T @ signal / self.member.sum(axis=0)
@@ -147,25 +153,25 @@ class _Fit:
             self.rows = np.empty_like(columns)
         state = share * share_of_state(memory, self.block)
         logarithm = whitened(self.times, columns, sizes, state, memory, self.rows, products)
-        normal, right, square = products[:-1, :-1], products[:-1, -1], float(products[-1, -1])
         free = self.signal.size - width + 1
         scale = self.scale if math.isnan(given[3]) else math.exp(given[3])
         # What is expected of run-out and drift counts as data of its own, of a weight that hangs
         # on the noise.
-        for _ in range(_ROUNDS if math.isnan(given[3]) else 1):
-            information = normal.copy()
-            information.flat[::width] += scale * self.prior
-            estimate = np.linalg.solve(information, right)
-            rest = max(square - float(estimate @ right), free * _FLOOR)
-            if math.isnan(given[3]):
-                scale = rest / free
+        found = np.empty(width + 1)
+        of_known = estimated(
+            products, self.prior, self.expected, scale, _ROUNDS if math.isnan(given[3]) else 0,
+            free, free * _FLOOR, np.empty((width - 1, width - 1)), found,
+        )  # fmt: skip
+        if math.isnan(of_known):
+            raise np.linalg.LinAlgError("a signal tells nothing of a level")
+        scale, rest = found[-2:].tolist()
         likelihood = (
-            logarithm + free * math.log(scale) + rest / scale
-            + float(np.linalg.slogdet(information)[1])
+            logarithm + free * math.log(scale) + rest / scale + of_known
             + unexpected(memory, given[2])
         )  # fmt: skip
-        found: FloatArray = np.append(estimate, scale)
-        return float(likelihood), found, information / scale
+        information = products[:-1, :-1] / scale
+        information.flat[::width] += self.prior
+        return float(likelihood), found[:-1], information
 
 
 def unexpected(memory: float, size: float) -> float:
@@ -197,6 +203,7 @@ def estimate_levels(
     *,
     drift: bool = True,
     swings: FloatArray | None = None,
+    give: Give | None = None,
 ) -> Levels:
     """Estimate the levels of a signal in all windows of a file.
 
@@ -215,6 +222,8 @@ def estimate_levels(
     swings : ndarray, shape (n,), optional
         The torque about its levels, over the largest of these, to which the signal gives way; left
         out, it is the torque.
+    give : Give, optional
+        What is expected of how far.
 
     Raises
     ------
@@ -258,6 +267,15 @@ def estimate_levels(
         free = [place for place in free if place > 1]  # a memory of no noise means nothing
     gradients, unsure = doubt(functools.partial(fit.solve, columns), given, count, free)
     _, estimate, information = fit.solve(columns, given)
+    gives, unsure_of_it = 0.0, 0.0
+    if fit.linear:
+        told, variance = float(estimate[count]), float(np.linalg.inv(information)[count, count])
+        gives = beyond_doubt(told, variance)
+        if give and (chord := give.agreed(told, variance, EXPECTED_GIVE, size)):
+            fit.expected[-1], fit.prior[-1] = chord[0], chord[1] ** -2.0
+            _, estimate, information = fit.solve(columns, given)
+            fit.levels, fit.shape = estimate[:count], estimate[count:-1]
+            gives, unsure_of_it = fit.shape[0], float(np.linalg.inv(information)[count, count])
     spread, deviation = np.linalg.inv(information), math.sqrt(found[-1])
     rows, target = fit.rows[:, :-1], fit.rows[:, -1]
     share, memory, ratio = _noise(given, fit.block)
@@ -278,8 +296,8 @@ def estimate_levels(
         size * deviation, share, memory, size**2 * gradients, unsure,
         size * (spread[:count] @ rows.T) / deviation,
         (target - rows @ estimate[:-1]) / deviation,
-        size * beyond_doubt(fit.shape[0], spread[count, count]) if fit.linear else 0.0,
-        size * (swung + rest), white / fit.member.sum(axis=0),
+        size * gives, size * (swung + rest), white / fit.member.sum(axis=0),
+        give_variance=size**2 * unsure_of_it,
     )  # fmt: skip
 
 

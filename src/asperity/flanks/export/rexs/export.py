@@ -20,6 +20,7 @@ from asperity.rating.rate import run_of
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
+from asperity.shafts.parameters import WheelShaft, WormShaft
 
 _APPLICATION = "asperity"
 
@@ -72,7 +73,10 @@ def prepare(case: Case) -> Given:
     gearset = case.require(Gearset).require_consistent()
     operation = None if case.get(Operation) is None else run_of(case)
     options = case.get(RatingOptions)
-    given = Given(gearset, None, case.get(Hob), case.get(Disc), case.get(Mount))
+    given = Given(
+        gearset, None, case.get(Hob), case.get(Disc), case.get(Mount),
+        worm_shaft=case.get(WormShaft), wheel_shaft=case.get(WheelShaft),
+    )  # fmt: skip
     if operation is None:
         return given
     with naming_source(case):
@@ -94,6 +98,12 @@ def answer(given: Given, _: Run) -> Exchanged:
     """Return the model of a case."""
     made = document(given)
     notes = ["results of a rating are left out: the format has names for those of DIN 3996:2019"]
+    for part in ("worm", "wheel"):
+        if getattr(given, f"{part}_shaft") is None:
+            notes.append(
+                f"the {part}'s shaft is a plain one with bearings at either side: the case has no "
+                f"[{part}_shaft]"
+            )
     if given.operation is None:
         notes.append("the case has no [operation]: speed, torque and oil are left out")
     return Exchanged(

@@ -7,9 +7,10 @@ from asperity.flanks.export.rexs.document import Attributes, Component
 from asperity.flanks.parameters import DISC_PROFILE_RADIUS, Disc, Hob, Mount
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
-from asperity.gearset.tolerancing.backlash import EXPANSION
+from asperity.gearset.tolerancing.warmth import EXPANSION
 from asperity.rating import Operation
 from asperity.rating.forces import Forces
+from asperity.shafts.parameters import WheelShaft, WormShaft
 
 OWN = "custom_asperity_"
 """Begins the names of what the format has no attribute for."""
@@ -34,7 +35,12 @@ _NUMBERS = (
     "wheel_section", "worm_left", "worm_right", "wheel_left", "wheel_right", "worm_settings",
     "wheel_settings", "disc", "hob",
 )  # fmt: skip
-NUMBER = {name: number for number, name in enumerate(_NUMBERS, 1)}
+_MOST_SECTIONS = 1000
+NUMBER = {name: number for number, name in enumerate(_NUMBERS, 1)} | {
+    f"{part}_section_{n}": thousand * _MOST_SECTIONS + n
+    for thousand, part in enumerate(("worm", "wheel"), 1)
+    for n in range(2, _MOST_SECTIONS)
+}
 """Numbers of the components in a file, by what they are."""
 
 
@@ -55,6 +61,8 @@ class Given(NamedTuple):
         Temperature of the oil, K.
     steps : tuple of tuple of float
         Hours, torque of the wheel, N m, and speed of the worm, rpm, of each step of the load.
+    worm_shaft, wheel_shaft : WormShaft, WheelShaft or None
+        The shafts.
     """
 
     gearset: Gearset
@@ -65,6 +73,8 @@ class Given(NamedTuple):
     forces: Forces | None = None
     sump: float | None = None
     steps: tuple[tuple[float, float, float], ...] = ()
+    worm_shaft: WormShaft | None = None
+    wheel_shaft: WheelShaft | None = None
 
 
 def component(what: str, type_: str, name: str = "", /, **attributes: Any) -> Component:

@@ -22,15 +22,20 @@ from asperity.flanks.export.rexs.parts import (
     oil,
     tools,
 )
+from asperity.flanks.export.rexs.shafts import (
+    ALONG_X,
+    ALONG_Z,
+    section_names,
+    shaft_components,
+    wheel_shaft,
+    worm_shaft,
+)
 from asperity.flanks.parameters import Mount
 from asperity.flanks.worm.setting import Pair
 from asperity.rating import Operation
 
 _MILLIMETRES = 1e3
 _HOURS = 1.0 / 3600.0
-_SHAFT = 0.8
-_ALONG_X = {"u_axis_vector": ((1.0, 0.0, 0.0), "mm"), "w_axis_vector": ((0.0, 0.0, 1.0), "mm")}
-_ALONG_Z = {"u_axis_vector": ((0.0, 0.0, 1.0), "mm"), "w_axis_vector": ((0.0, 1.0, 0.0), "mm")}
 
 
 def document(given: Given) -> Document:
@@ -43,7 +48,7 @@ def document(given: Given) -> Document:
     if given.operation is not None:
         components.append(oil(given.operation))
     made = {one.number for one in components}
-    relations = tuple(one for one in _relations() if made >= set(one.roles.values()))
+    relations = tuple(one for one in _relations(given) if made >= set(one.roles.values()))
     ordered = tuple(sorted(components, key=lambda one: one.number))
     return Document(ordered, relations, tuple(_load_cases(given)))
 
@@ -82,7 +87,7 @@ def _machine(given: Given) -> list[Component]:
             "unit", "gear_unit", gearset.name, operating_time=(life, "h"),
             model_name=(gearset.name or None, "none"), number_of_gears=(1, "none"),
             gear_shift_index=(1, "none"), reference_component_for_position=(1, "none"),
-            support_vector=((0.0, 0.0, 0.0), "mm"), **_ALONG_X, **own,
+            support_vector=((0.0, 0.0, 0.0), "mm"), **ALONG_X, **own,
         ),
         component("casing", "gear_casing", temperature_lubricant=celsius(given.sump)),
         component("stage", "worm_stage", **stage),
@@ -106,7 +111,7 @@ def _gears(given: Given, pair: Pair) -> list[Component]:
     gearset = given.gearset
     g, sign = gearset.geometry, gearset.hand_sign
     speed = None if given.operation is None else _rpm(given.operation.worm_speed)
-    span = _span(given)
+    span, place = worm_shaft(given).mesh, wheel_shaft(given).mesh
     angle = sign * math.degrees(g.lead_angle)
     # The format's u, v, w of the worm's shaft are x, y and z, v turned round with w.
     own, others = {}, {}
@@ -130,7 +135,7 @@ def _gears(given: Given, pair: Pair) -> list[Component]:
         tip_diameter_worm_gear=(g.worm_tip_diameter, "mm"),
         root_diameter_worm_gear=(g.worm_root_diameter, "mm"),
         rotational_speed=(speed, "1 / min"), u_coordinate_on_shaft=(span, "mm"),
-        support_vector=((span, 0.0, 0.0), "mm"), **_ALONG_X, **own,
+        support_vector=((span, 0.0, 0.0), "mm"), **ALONG_X, **own,
         **{f"{OWN}roughness": (float(f"{1e6 * gearset.worm_roughness:.15g}"), "mum"),
            f"{OWN}tooth_proportions": (gearset.tooth_proportions, "none")},
     )  # fmt: skip
@@ -148,8 +153,8 @@ def _gears(given: Given, pair: Pair) -> list[Component]:
         rim_width_worm_wheel=(g.rim_width, "mm"),
         helix_angle_reference_diameter=(angle, "deg"),
         rotational_speed=(None if speed is None else speed / g.gear_ratio, "1 / min"),
-        u_coordinate_on_shaft=(g.centre_distance, "mm"),
-        support_vector=((span, g.centre_distance, 0.0), "mm"), **_ALONG_Z, **others,
+        u_coordinate_on_shaft=(place, "mm"),
+        support_vector=((span, g.centre_distance, 0.0), "mm"), **ALONG_Z, **others,
         **{f"{OWN}rim_thickness": (g.rim_thickness, "mm")},
     )  # fmt: skip
     sides = [
@@ -169,61 +174,17 @@ def _rpm(speed: float) -> float:
     return float(f"{speed * 30.0 / math.pi:.14g}")
 
 
-def _span(given: Given) -> float:
-    """Between the bearings of the worm, mm; its middle is as far from the end of the shaft."""
-    run = given.operation
-    if run is not None and run.bearing_span is not None:
-        return float(f"{run.bearing_span * _MILLIMETRES:.15g}")
-    return 1.5 * given.gearset.geometry.centre_distance
-
-
 def _shafts(given: Given) -> list[Component]:
-    g, run, span = given.gearset.geometry, given.operation, _span(given)
-    far = g.centre_distance
-    worm_size, wheel_size = _SHAFT * g.worm_root_diameter, 0.4 * far
-    speed = None if run is None else (_rpm(run.worm_speed), "1 / min")
+    g, run = given.gearset.geometry, given.operation
+    worm, wheel = worm_shaft(given), wheel_shaft(given)
     torque = None if run is None else run.output_torque
-
-    def shaft(what: str, place: tuple[float, float, float], along: Any, **more: Any) -> Component:
-        return component(
-            what, "shaft", what.replace("_", " "), support_vector=(place, "mm"),
-            reference_component_for_position=(1, "none"), **along, **more,
-        )  # fmt: skip
-
-    def section(what: str, size: float, length: float) -> Component:
-        return component(
-            what, "shaft_section", outer_diameter_begin=(size, "mm"),
-            outer_diameter_end=(size, "mm"), inner_diameter_begin=(0.0, "mm"),
-            inner_diameter_end=(0.0, "mm"), length=(length, "mm"),
-            u_coordinate_on_shaft=(0.0, "mm"),
-        )  # fmt: skip
-
-    def bearing(what: str, at: float, size: float, fixed: str, place: Any, along: Any) -> Component:
-        return component(
-            what, "concept_bearing", radial_force_absorption=(True, "none"),
-            axial_force_absorption=(fixed, "none"), inner_diameter=(size, "mm"),
-            outer_diameter=(2.0 * size, "mm"), width=(0.5 * size, "mm"),
-            u_coordinate_on_shaft_inner_side=(at, "mm"),
-            u_coordinate_on_shaft_outer_side=(at, "mm"),
-            reference_component_for_position=(1, "none"), support_vector=(place, "mm"), **along,
-        )  # fmt: skip
-
-    defined = {"defines_speed": (True, "none"), "rotational_speed": speed} if speed else {}
-    ends = 0.5 * span, 1.5 * span
-    sides = 0.5 * far, 1.5 * far
+    speed = {} if run is None else {
+        "defines_speed": (True, "none"), "rotational_speed": (_rpm(run.worm_speed), "1 / min"),
+    }  # fmt: skip
+    above = worm.mesh, g.centre_distance, -wheel.mesh
     return [
-        shaft("worm_shaft", (0.0, 0.0, 0.0), _ALONG_X, **defined),
-        shaft("wheel_shaft", (span, far, -far), _ALONG_Z),
-        section("worm_section", worm_size, 2.0 * span),
-        section("wheel_section", wheel_size, 2.0 * far),
-        bearing("worm_bearing_a", ends[0], worm_size, "both_directions",
-                (ends[0], 0.0, 0.0), _ALONG_X),
-        bearing("worm_bearing_b", ends[1], worm_size, "no_direction",
-                (ends[1], 0.0, 0.0), _ALONG_X),
-        bearing("wheel_bearing_a", sides[0], wheel_size, "both_directions",
-                (span, far, sides[0] - far), _ALONG_Z),
-        bearing("wheel_bearing_b", sides[1], wheel_size, "no_direction",
-                (span, far, sides[1] - far), _ALONG_Z),
+        *shaft_components("worm", worm, (0.0, 0.0, 0.0), ALONG_X, **speed),
+        *shaft_components("wheel", wheel, above, ALONG_Z),
         component("worm_load", "external_load", transmits_torque=(True, "none"),
                    u_coordinate_on_shaft=(0.0, "mm")),
         component("wheel_load", "external_load", transmits_torque=(True, "none"),
@@ -232,7 +193,7 @@ def _shafts(given: Given) -> list[Component]:
     ]  # fmt: skip
 
 
-def _relations() -> tuple[Relation, ...]:
+def _relations(given: Given) -> tuple[Relation, ...]:
     def one(type_: str, order: int | None = None, **roles: str) -> Relation:
         return Relation(type_, {role: NUMBER[what] for role, what in roles.items()}, order)
 
@@ -245,12 +206,13 @@ def _relations() -> tuple[Relation, ...]:
         one("reference", origin="casing", referenced="oil"),
         one("reference", origin="stage", referenced="oil"),
     ]  # fmt: skip
-    for part, tool in (("worm", "disc"), ("wheel", "hob")):
+    shafts = worm_shaft(given), wheel_shaft(given)
+    for part, tool, laid in zip(("worm", "wheel"), ("disc", "hob"), shafts, strict=True):
         shaft = f"{part}_shaft"
         made += [
             one("assembly", assembly=shaft, part=part),
             one("assembly", assembly=shaft, part=f"{part}_load"),
-            one("assembly", assembly=shaft, part=f"{part}_section"),
+            *(one("assembly", assembly=shaft, part=name) for name in section_names(part, laid)),
             one("reference", origin=part, referenced=f"{part}_material"),
             one("flank", gear=part, left=f"{part}_left", right=f"{part}_right"),
         ]

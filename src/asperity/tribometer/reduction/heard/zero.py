@@ -64,79 +64,87 @@ class Zero:
         """Return zeros at some times."""
         if self.times.size == 1:
             return np.full(times.size, self.values[0])
-        asked, found = self._asked(times), np.zeros(times.size)
-        for way in self._ways:
-            found += way.weight * way.mean(asked)
-        return found
+        return self._ways.mean(self._asked(times))
 
     def covariance_at(self, times: FloatArray) -> FloatArray:
         """Return the covariance of zeros at some times."""
         if self.times.size == 1:
             return np.full((times.size, times.size), self.covariance[0, 0])
-        asked, middle = self._asked(times), self.at(times)
-        found = np.zeros((times.size, times.size))
-        for way in self._ways:
-            apart = way.mean(asked) - middle
-            found += way.weight * (way.covariance(asked) + np.outer(apart, apart))
-        return found
+        return self._ways.covariance(self._asked(times))
 
     def _asked(self, times: FloatArray) -> FloatArray:
         found: FloatArray = (times - self.times[0]) / (float(np.ptp(self.times)) or 1.0)
         return found
 
     @functools.cached_property
-    def _ways(self) -> "list[_Way]":
+    def _ways(self) -> "_Ways":
         """Ways it may wander, by how likely they are."""
         count, seen = self.times.size, self._asked(self.times)
         unit = math.sqrt(float(np.trace(self.covariance)) / count) or 1e-12
-        straight, found = _straight(seen), []
-        for wander in _WANDERS if count > 2 else _WANDERS[:1]:
-            size = (wander * unit) ** 2
-            of_seen = self.covariance + size * _wiener(seen, seen) + 1e-9 * unit**2 * np.eye(count)
-            inverse = np.linalg.inv(of_seen)
-            information = np.asarray(
-                np.linalg.inv(straight.T @ inverse @ straight), dtype=np.float64
-            )
-            line = information @ straight.T @ inverse @ self.values
-            rest = self.values - straight @ line
-            likely = -0.5 * (
-                float(rest @ inverse @ rest) - np.linalg.slogdet(inverse)[1]
-                - np.linalg.slogdet(information)[1]
-            )  # fmt: skip
-            found.append(_Way(float(likely), size, seen, inverse, information, line, rest))
-        most = max(one.weight for one in found)
-        weights = np.exp([one.weight - most for one in found])
-        return [
-            dataclasses.replace(one, weight=float(weight))
-            for one, weight in zip(found, weights / weights.sum(), strict=True)
-        ]
+        straight, wanders = _straight(seen), _WANDERS if count > 2 else _WANDERS[:1]
+        sizes = (wanders * unit) ** 2
+        of_seen = sizes[:, None, None] * _wiener(seen, seen)
+        of_seen += self.covariance + 1e-9 * unit**2 * np.eye(count)
+        inverses: FloatArray = np.asarray(np.linalg.inv(of_seen), dtype=np.float64)
+        of_lines = np.linalg.inv(straight.T @ inverses @ straight)
+        informations: FloatArray = np.asarray(of_lines, dtype=np.float64)
+        lines = (informations @ (straight.T @ inverses) @ self.values[:, None])[..., 0]
+        rests = self.values - lines @ straight.T
+        likely = -0.5 * (
+            np.einsum("wm,wmn,wn->w", rests, inverses, rests) - np.linalg.slogdet(inverses)[1]
+            - np.linalg.slogdet(informations)[1]
+        )  # fmt: skip
+        weights = np.exp(likely - likely.max())
+        return _Ways(weights / weights.sum(), sizes, seen, inverses, informations, lines, rests)
 
 
 @dataclasses.dataclass(frozen=True)
-class _Way:
-    """A zero that wanders by a certain size: what follows from the stretches at rest."""
+class _Ways:
+    """A zero that wanders by certain sizes: what follows of each from the stretches at rest.
 
-    weight: float
-    size: float
+    Attributes
+    ----------
+    weights, sizes : ndarray, shape (ways,)
+        How likely each is.
+    seen : ndarray, shape (n,)
+        Times of the stretches.
+    inverses : ndarray, shape (ways, n, n)
+        Of what is seen, of its covariance.
+    informations : ndarray, shape (ways, 2, 2)
+        Covariances of the lines.
+    lines, rests : ndarray, shape (ways, 2) and (ways, n)
+        Lines, and what is seen beside them.
+    """
+
+    weights: FloatArray
+    sizes: FloatArray
     seen: FloatArray
-    inverse: FloatArray
-    information: FloatArray
-    line: FloatArray
-    rest: FloatArray
+    inverses: FloatArray
+    informations: FloatArray
+    lines: FloatArray
+    rests: FloatArray
 
     def _across(self, asked: FloatArray) -> FloatArray:
-        found: FloatArray = self.size * _wiener(asked, self.seen) @ self.inverse
+        found: FloatArray = self.sizes[:, None, None] * (_wiener(asked, self.seen) @ self.inverses)
+        return found
+
+    def _means(self, asked: FloatArray) -> FloatArray:
+        beside = self._across(asked) @ self.rests[:, :, None]
+        found: FloatArray = self.lines @ _straight(asked).T + beside[..., 0]
         return found
 
     def mean(self, asked: FloatArray) -> FloatArray:
-        found: FloatArray = _straight(asked) @ self.line + self._across(asked) @ self.rest
+        found: FloatArray = self.weights @ self._means(asked)
         return found
 
     def covariance(self, asked: FloatArray) -> FloatArray:
-        across = self._across(asked)
+        across, means = self._across(asked), self._means(asked)
         left = _straight(asked) - across @ _straight(self.seen)
         own = _wiener(asked, asked) - across @ _wiener(self.seen, asked)
-        found: FloatArray = self.size * own + left @ self.information @ left.T
+        each = self.sizes[:, None, None] * own + left @ self.informations @ left.swapaxes(1, 2)
+        apart = means - self.weights @ means
+        found: FloatArray = np.tensordot(self.weights, each, 1)
+        found += (self.weights * apart.T) @ apart
         return found
 
 
@@ -277,7 +285,10 @@ def _findings(
     course = Course(zero.times, zero.values, "time (s)", f"{signal} at rest ({unit})")
     spoils = signal in TARED
     if abs(value) > max(allowed, _SURE * deviation):
-        done = "it is taken off" if mended else "it is left, since no zero is off so far"
+        done = (
+            "it is taken off" if mended
+            else "it is left, since no zero is off so far, and counts in the intervals"
+        )  # fmt: skip
         yield Finding(
             f"zero of {signal}",
             f"{value:.3g} +- {deviation:.2g} {unit} at rest at {zero.times[place]:.0f} s, "

@@ -194,6 +194,16 @@ export function forgetCase(name) {
   opened.value = rest;
 }
 
+/** Answers that ship, of what screens ask as they open: until what computes has started, they are what it answers. */
+const shipped = signal([]);
+get("shown/live/index.json").then((found) => (shipped.value = found), () => {});
+
+/** Where the answer to what is asked ships; "" where none does. */
+const shippedAt = (verb, text) => {
+  const found = shipped.value.find((each) => each.verb === verb && JSON.stringify(each.body) === text);
+  return found ? `shown/live/${found.at}` : "";
+};
+
 /** How long what is shown may be of something set before, and a question go on that is of no use, ms. */
 const [LATE, LONGEST] = [500, 1500];
 
@@ -252,5 +262,11 @@ export function useLive(verb, body, delay = 0) {
     }, delay);
     return () => clearTimeout(mine.timer);
   }, [verb, text, delay]);
-  return { ...state, error: late ? null : state.error, late, now: !waits && Boolean(state.data) && !state.error };
+  const path = state.data || state.error ? "" : shippedAt(verb, text);
+  const ships = useAsked(path, (leave) => get(path, leave)).found;
+  // As an answer is, it is shown until the next is there.
+  const last = useRef(null);
+  last.current = ships ?? last.current;
+  return { ...state, data: state.data ?? last.current, error: late ? null : state.error, late: late && !ships,
+    now: !waits && Boolean(state.data) && !state.error };
 }

@@ -12,8 +12,11 @@ export function colourAt(share) {
   return RGB[low].map((from, k) => Math.round(from + (place - low) * (RGB[low + 1][k] - from)));
 }
 
+/** Of what has no value. */
+const NONE = "#9a9a9a";
+
 /** The same as a drawing takes it. */
-export const shade = (share) => `rgb(${colourAt(share).join()})`;
+export const shade = (share) => (Number.isFinite(share) ? `rgb(${colourAt(share).join()})` : NONE);
 
 /** The least and the greatest of numbers, without those that are none. @returns {[number, number]} */
 export function span(values) {
@@ -46,5 +49,5 @@ export function painted({ x, y, cells, values, range: [low, high] }) {
     const corners = cell.map((at) => `${x[at].toFixed(3)} ${(-y[at]).toFixed(3)}`);
     paths[place] += `M${corners.join("L")}Z`;
   }
-  return paths.map((d, level) => [d, level === LEVELS ? "#9a9a9a" : shade((level + 0.5) / LEVELS)]);
+  return paths.map((d, level) => [d, level === LEVELS ? NONE : shade((level + 0.5) / LEVELS)]);
 }

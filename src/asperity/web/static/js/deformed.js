@@ -14,7 +14,7 @@ export function Deformed({ packed, contact }) {
   const box = useRef(null);
   const made = useMemo(() => framesOf(packed), [packed]);
   const { rest, magnified, range, loads, times } = made;
-  const playing = usePlayed(box, deforming, { packed, contact }, [packed]);
+  usePlayed(box, deforming, { packed, contact }, [packed]);
   const view = (points, room) => {
     const [[left, right], [low, high]] = [0, 1].map((k) => span(points.map((each) => each[k])));
     const edge = room * Math.max(right - left, high - low);
@@ -33,7 +33,7 @@ export function Deformed({ packed, contact }) {
         `The block, deformed ${rounded.format(magnified)} times as much as it is`)}
       ${part("under", under, loads.map((each) => each / 1e3), "kPa", "pressure at a node",
         "The pressure under it at that moment")}</div>
-    <p class="row"><${Play} ...${playing} /> <span class="says" data-of="now" aria-hidden="true"></span></p>
+    <p class="row"><${Play} /> <span class="says" data-of="now" aria-hidden="true"></span></p>
     <p class="says">The last ${digits(1e3 * (times.at(-1) - times[0]), 3)} ms of the march, over and over, slowed
       ${" "}${rounded.format(SECONDS / (times.at(-1) - times[0]))} times; what the block moves
       as a whole is left out.</p>

@@ -160,7 +160,7 @@ export function AllKeys({ tables, brief }) {
 }
 
 /** What is set, folded away at first where there is room for one column only. */
-export const Folded = ({ children }) => html`<details open=${innerWidth > 700}>
+export const Folded = ({ children }) => html`<details open=${innerWidth > 900}>
   <summary>what is set</summary>${children}</details>`;
 
 /** Digits of what a slider says, few enough to read and enough to tell its steps apart. */

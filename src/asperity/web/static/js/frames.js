@@ -1,7 +1,9 @@
 /** What moves while it is seen, unless the reader wants nothing to move; and what of it a shared file takes along. */
-import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
+import { html, signal, useLayoutEffect, useRef } from "../vendor/preact.js";
 
 export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
+/** Whether what moves does: one switch for all of it. */
+export const plays = signal(!still());
 /** A picture that was long away does not jump, ms. */
 const MOST = 100;
 
@@ -18,7 +20,7 @@ export const moving = new WeakMap();
  * @param {any} of what it plays @param {unknown[]} when what makes that another
  */
 export function usePlayed(element, module, of, when) {
-  const [plays, setPlays] = useState(!still());
+  const runs = plays.value;
   const time = useRef(0);
   // By layout: an effect waits for the next picture, and what is stopped would still move in it.
   useLayoutEffect(() => {
@@ -26,7 +28,7 @@ export function usePlayed(element, module, of, when) {
     moving.set(element.current, { module: module.NAME, of });
     const draw = module.playing(element.current, of);
     draw(time.current);
-    if (!plays) return;
+    if (!runs) return;
     let [frame, before] = [0, 0];
     const next = (now) => {
       time.current += Math.min(now - (before || now), MOST) / 1000;
@@ -39,9 +41,8 @@ export function usePlayed(element, module, of, when) {
     const seen = new IntersectionObserver(([entry]) => (entry.isIntersecting ? start() : stop()));
     seen.observe(element.current);
     return () => (seen.disconnect(), stop());
-  }, [plays, ...when]);
-  return { plays, setPlays };
+  }, [runs, ...when]);
 }
 
-export const Play = ({ plays, setPlays }) => html`<button type="button" onClick=${() => setPlays(!plays)}>
-  ${plays ? "stop the motion" : "let it move"}</button>`;
+export const Play = () => html`<button type="button" onClick=${() => (plays.value = !plays.peek())}>
+  ${plays.value ? "stop the motion" : "let it move"}</button>`;

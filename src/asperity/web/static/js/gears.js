@@ -45,8 +45,8 @@ function useMesh({ geometry, mode, speed, pressed }) {
     return { section, line, range, threads: threadsOf(section), wheel: wheelOf(section), view: windowOf(section) };
   }, [JSON.stringify(geometry), speed, pressed]);
   const { range } = made;
-  const playing = usePlayed(picture, turning, { geometry, mode, speed, pressed, range }, [made, mode]);
-  return { picture, made, colour: (value) => shade((value - range[0]) / (range[1] - range[0])), playing };
+  usePlayed(picture, turning, { geometry, mode, speed, pressed, range }, [made, mode]);
+  return { picture, made, colour: (value) => shade((value - range[0]) / (range[1] - range[0])) };
 }
 
 function Drawn({ picture, made: { section, line, threads, wheel, view }, colour, mode, says }) {
@@ -75,14 +75,14 @@ const near = ({ x, y }) => `${x.toFixed(3)} ${y.toFixed(3)}`;
 export function Gears({ geometry, mode = "", speed, pressed = null }) {
   const [by, setBy] = useState("sliding");
   const shown = by === "pressure" ? pressed : null;
-  const { picture, made, colour, playing } = useMesh({ geometry, mode, speed, pressed: shown });
+  const { picture, made, colour } = useMesh({ geometry, mode, speed, pressed: shown });
   const { range } = made;
   const does = shown ? "Pressed with" : "The surfaces slide at";
   const says = `Worm and wheel in mesh, cut through the middle of the wheel. ${does}
     ${digits(range[0], 3)} to ${digits(range[1], 3)} ${shown ? "MPa" : "m/s"}.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
   return html`<section class="panel at-stage" aria-label="in mesh"><h2>In mesh</h2>
     <${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode} says=${says} />
-    <div class="row"><${Play} ...${playing} />
+    <div class="row"><${Play} />
       ${pressed ? html`<span class="choice"><label for="line-shows">line</label>${" "}
         <select id="line-shows" value=${by} onChange=${(event) => setBy(event.target.value)}>
           <option value="sliding">sliding velocity</option><option value="pressure">pressure</option></select></span>`

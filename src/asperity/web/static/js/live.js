@@ -61,7 +61,7 @@ function Run({ run, look, lost }) {
       <span role="status">${asked && !off ? asked : told}</span>
     </div>
     ${runs ? html`<progress aria-label="cells" max=${cells || 1} value=${done}></progress>
-      <p>${done} of ${cells} cells. Now: ${step}. Next: ${next || "the end"}.</p>` : null}
+      <p>${done} of ${cells} cells.${off ? "" : ` Now: ${step}. Next: ${next || "the end"}.`}</p>` : null}
     <${Verdict} off=${off} />
     <${Outputs} run=${run} />
     ${KINDS.map((kind) => html`<${Trace} key=${kind} kind=${kind} run=${run} />`)}
@@ -71,13 +71,13 @@ function Run({ run, look, lost }) {
 /** What the guardian read back when it switched off. */
 function Verdict({ off }) {
   if (!off) return null;
-  const still = off.still_on ?? [];
+  const [still, took] = [off.still_on ?? [], Math.ceil(100 * off.took_s) / 100];
   return still.length ? html`<p class="fault" role="alert">✗ Not read back to be off: ${still.join("; ")}.
       Switch it off by hand.</p>`
-    : html`<p class="good">✓ Read back to be off within ${off.took_s.toFixed(2)} s: ${off.why}.</p>`;
+    : html`<p class="good">✓ Read back to be off within ${took.toFixed(2)} s: ${off.why}.</p>`;
 }
 
-/** What each output was told, and what was read back of it. */
+/** What each output was told, by the guardian at last, and what was read back of it. */
 function Outputs({ run: { outputs, off } }) {
   if (!outputs.length) return null;
   const still = (output) => off?.still_on?.find((line) => line.startsWith(`${output}: `));
@@ -86,8 +86,10 @@ function Outputs({ run: { outputs, off } }) {
     if (still(output)) return html`<span class="bad">✗ ${still(output).slice(output.length + 2)}</span>`;
     return proven ? html`<span class="good">✓ ${proven}</span>` : "–";
   };
+  const last = ({ output, told }) => (still(output) || off?.read_back?.[output] ? "off" : told);
+  const shown = (row) => (last(row).startsWith("on") ? html`<b>${last(row)}</b>` : last(row));
   return html`<${Table} region="outputs" rows=${outputs} columns=${[["output", ({ output }) => output, "row"],
-    ["told to be", ({ told }) => (told.startsWith("on") ? html`<b>${told}</b>` : told)], ["read back", read]]} />`;
+    ["told to be", shown], ["read back", read]]} />`;
 }
 
 /** One kind of signal over the last minute. */

@@ -19,6 +19,9 @@ const SCREENS = [
   { name: "jobs", title: "Jobs", kind: "", group: "What runs" },
 ].map((screen) => ({ ...screen, load: () => import(`./screens/${screen.name}.js`) }));
 
+// The screen that stands in the address is on its way before anything is known.
+SCREENS.find(({ name }) => name === route.peek().screen)?.load().catch(() => {});
+
 /** Screens that were opened, by name. */
 const loaded = signal({});
 const trouble = signal(null);

@@ -11,7 +11,7 @@ export const [BEND, REACH, TILE] = [20, 92, 36];
 /** Below which width of the window only the middle is seen, px; from where, and how wide that is. */
 export const NARROW = 600;
 /** @type {[number, number]} */
-export const MIDDLE = [88, 524];
+export const MIDDLE = [92, 490];
 /** From above and from the side: the places of bristles, from the middle of the body. */
 const PLACES = [-54, -27, 0, 27, 54].flatMap((x) => [-28, 0, 28].map((y) => [x, y]));
 const FEET = [-60, -40, -20, 0, 20, 40, 60].map((x) => [x, 0]);

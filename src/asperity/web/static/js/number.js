@@ -7,7 +7,7 @@ import { readable } from "./units.js";
 
 const TRUST = {
   verified: "✓ verified", computed: "✓ computed",
-  "one source": "~ one source", "from memory": "? from memory",
+  "one source": "~ one source", "own choice": "~ own choice", "from memory": "? from memory",
 };
 
 /**

@@ -2,6 +2,7 @@
 import { html, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { Figure } from "./figure.js";
 import { between } from "./motion.js";
+import { printed } from "./symbols.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
 
@@ -134,10 +135,14 @@ export const Axes = ({ across, ups, right, bottom, along, upward, whole }) => ht
     <text x=${side ? right + 6 : LEFT - 6} y=${up.at(tick) + 4} text-anchor=${side ? "start" : "end"}>
       ${digits(tick, 6)}</text>`))}
   ${upward.slice(0, 2).map((said, side) => html`<text text-anchor="middle"
-    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>${said}</text>`)}
-  <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${along}</text>`;
+    transform=${`translate(${side ? right + LEFT - 10 : 14} ${(TOP + bottom) / 2}) rotate(-90)`}>
+      ${printed(said)}</text>`)}
+  <text x=${(LEFT + right) / 2} y=${bottom + BOTTOM - 8} text-anchor="middle">${printed(along)}</text>`;
 
-/** Marks that run along the lines with what moves beside them. @param {{part: any, places: number[], dots: any[], bottom: number}} props */
+/**
+ * Marks that run along the lines with what moves beside them.
+ * @param {{part: any, places: number[], dots: any[], bottom: number}} props
+ */
 function Running({ part, places, dots, bottom }) {
   const drawn = useRef(null);
   // At once with the lines: as many marks as there are.

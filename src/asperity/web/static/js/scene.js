@@ -4,10 +4,10 @@ import { colourAt } from "./colours.js";
 const STEEL = 0xaeb6bf;
 const BRONZE = [0.85, 0.66, 0.38];
 const SIDES = 6;
-/** From the body to the eye, for each part that is shown. */
+/** From the body to the eye, by part. */
 const VIEWS = { whole: [0.55, 0.45, 1], mesh: [0.75, 0.3, 1], tooth: [1.2, 0.5, 0.8] };
 
-/** Which of the angles that have contact lines is nearest. */
+/** The nearest angle that has contact lines. */
 export const nearest = ({ pitch, angles }, phi) => Math.round((phi / pitch) * angles) % angles;
 
 /** Points and triangles of several pieces as one. */
@@ -58,7 +58,7 @@ export async function stage(canvas, { header, arrays }) {
   if (!document.createElement("canvas").getContext("webgl2")) return null;
   const three = await import("../vendor/three.js");
   const renderer = new three.WebGLRenderer({ canvas, antialias: true, alpha: true });
-  /** @param {any[]} of points and index */
+  /** @param {any[]} of */
   const geometry = ([points, index]) => {
     const made = new three.BufferGeometry();
     made.setAttribute("position", new three.BufferAttribute(points, 3));
@@ -94,19 +94,19 @@ export async function stage(canvas, { header, arrays }) {
   lamp.position.set(0.4, 0.8, 1);
   scene.add(new three.HemisphereLight(0xffffff, 0x8890a0, 1.6), camera, wheel, worm, lines);
 
-  const turn = new three.Matrix4();
+  const spin = new three.Matrix4();
   for (let k = 0; k < teeth; k += 1) {
-    // The one in the middle first, then those beside it in turn.
+    // The middle one first, then its neighbours.
     const place = k % 2 ? (k + 1) / 2 : -k / 2;
-    turn.makeRotationZ(place * step);
-    if (k < count) fine.setMatrixAt(k, turn);
-    else coarse.setMatrixAt(k - count, turn);
+    spin.makeRotationZ(place * step);
+    if (k < count) fine.setMatrixAt(k, spin);
+    else coarse.setMatrixAt(k - count, spin);
   }
   const rows = header.worm.rotation.flatMap((row, k) => [...row, header.worm.place[k]]);
   const standing = new three.Matrix4().set(...rows, 0, 0, 0, 1);
   worm.matrixAutoUpdate = false;
 
-  /** @type {{part: string, side: string, worm: string, values: any, range: number[], phi: number}} */
+  /** @type {any} */
   const now = { part: "", side: "", worm: "clear", values: null, range: [0, 1], phi: 0 };
   const controls = new three.OrbitControls(camera, canvas);
   controls.listenToKeyEvents(canvas);
@@ -166,7 +166,7 @@ export async function stage(canvas, { header, arrays }) {
     const ahead = header.sides[side].ahead;
     const turned = (phi * starts) / teeth + ahead;
     wheel.rotation.z = part === "tooth" ? 0 : turned;
-    worm.matrix.copy(standing).multiply(turn.makeRotationZ(phi));
+    worm.matrix.copy(standing).multiply(spin.makeRotationZ(phi));
     const n = nearest(header, phi);
     const [from, to] = arrays[`lines.begin.${side}`].slice(n, n + 2);
     const [ends, tooth] = [arrays[`lines.points.${side}`], arrays[`lines.tooth.${side}`]];
@@ -191,6 +191,11 @@ export async function stage(canvas, { header, arrays }) {
     soon();
   }
 
+  function turn(phi) {
+    now.phi = phi;
+    pose();
+  }
+
   return {
     show(what) {
       const moved = what.part !== now.part || what.side !== now.side;
@@ -206,17 +211,11 @@ export async function stage(canvas, { header, arrays }) {
       if (moved) look();
       pose();
     },
-    turn(phi) {
-      now.phi = phi;
-      pose();
-    },
-    /** What is seen at an angle, as the address of a picture. */
+    turn,
+    /** As a data URL. */
     picture(phi) {
-      const before = now.phi;
-      now.phi = phi;
-      pose();
+      turn(phi);
       draw();
-      now.phi = before;
       return canvas.toDataURL("image/webp", 0.8);
     },
     close() {

@@ -6,7 +6,7 @@ import { download } from "./figure.js";
 const STYLES = ["style.css", "gear.css", "stage.css"];
 /** What of a screen is of use with a server only. */
 const OF_SERVER = ".controls, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav,"
-  + " .choice, .passing, .grip";
+  + " .choice, .passing, .grip, .drop, .of-server, .on-paper, label:has(input), label:has(select)";
 /** What a file has at most, bytes: so much is sent by every means. */
 const MOST = 1_950_000;
 const POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
@@ -91,8 +91,9 @@ function fitting(moves, room) {
 /**
  * Hand the screen over as a file.
  * @param {string} title @param {any} told the answer as the server gives it, with command and toml
+ * @param {string} of what the case is called
  */
-export async function share(title, told) {
+export async function share(title, told, of) {
   const shown = document.querySelector("main .body");
   if (!shown) return;
   const styles = (await Promise.all(STYLES.map(text))).join("\n");
@@ -107,18 +108,19 @@ export async function share(title, told) {
   const moves = fitting(all, MOST - body.length - answer.length - entries.length - styles.length - 60_000);
   const { script, told: played } = moves.length ? await scriptOf(moves) : { script: "", told: "[]" };
   const day = new Date().toISOString().slice(0, 10);
-  const name = /^\w+ (\S+)/.exec(told.command?.replace(/^asperity /, "") ?? "")?.[1] ?? "case";
+  const name = of || title;
+  const heading = of ? `${title}: ${of}` : title;
   const file = `${name.replace(/\.toml$/i, "").replace(/[^\w.-]/g, "-")}.toml`;
   const items = (told.notes ?? []).map((each) => `<li>${safe(each)}</li>`).join("");
   const notes = items ? `<h2>Notes</h2><ul>${items}</ul>` : "";
   const whole = `<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="${POLICY}"><meta name="color-scheme" content="light dark">
-<title>${safe(title)}: ${safe(name)}</title><style>${styles}
+<title>${safe(heading)}</title><style>${styles}
 body { display: block; max-width: 46rem; margin: 0 auto; padding: 1rem .75rem; }
-main { padding: 0; } .columns { display: block; } td { overflow-wrap: anywhere; } pre { overflow: auto; }
+main { padding: 0; } .columns { display: block; } td { overflow-wrap: break-word; } pre { overflow: auto; }
 .drawn { width: 100%; height: auto; } h1 + .says { margin: .3rem 0 .8rem; }</style></head>
-<body><main><h1>${safe(title)}: ${safe(name)}</h1>
+<body><main><h1>${safe(heading)}</h1>
 <p class="says">Made on ${day} by asperity ${safe(about.value?.version)}: <code>${safe(told.command)}</code></p>
 ${moves.length ? `<p><button type="button" id="play">let it move</button></p>` : ""}
 ${moves.length < all.length ? `<p class="says">Some of what moves on the page stands still here: it is too large for one

@@ -3,7 +3,6 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
-import { share } from "./share.js";
 import { inWords } from "./symbols.js";
 import { visited } from "./visited.js";
 
@@ -27,10 +26,12 @@ export function tell(text) {
 
 /** Make a file of the screen, and say so where that takes longer. */
 async function shared(title, answer) {
+  const { case: of = "" } = route.peek().params;
   sharing.value = true;
   tell("the file is being made");
   try {
-    await share(title, answer);
+    const { share } = await import("./share.js");
+    await share(title, answer, of);
     tell("the file is made: all of this, for anyone, without server and network");
   } catch (error) {
     tell(`no file: ${error.message}`);
@@ -116,7 +117,9 @@ function CasePicker({ kinds, first, start = {} }) {
       title=${word === "undo" ? "Ctrl-Z" : "Ctrl-Shift-Z"} disabled=${!undoable.value[word]} onClick=${act}>
       <span aria-hidden="true">${sign}</span> <span class="word">${word}</span></button>`)}
     <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
-      title=${count ? `${count} set` : ""}>as the case has it</button>
+      title=${count ? `${count} set` : ""}><span class="sign" aria-hidden="true">↺ </span><span class="word">as the case
+        has it</span></button>
+    <span class="on-paper"><b>${known?.alias || name}</b></span>
     <span class="says">${known?.title ?? ""}</span>
   </div>`;
 }
@@ -195,12 +198,14 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
       ${lead ? html`<p class="lead">${lead}</p>` : null}
       ${kinds ? html`<${CasePicker} kinds=${kinds} first=${first} start=${start} />` : null}
       <div class="actions">
-        ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
-        ${answer?.command ? html`<button type="button" title=${answer.command}
-          onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
         ${answer?.answer ? html`<button type="button" title="all of this as one file that anyone opens"
           disabled=${sharing.value} onClick=${unless(() => shared(title, answer))}>share</button>` : null}
         ${actions}
+        ${answer?.answer ? html`<button type="button" title="on paper, or as a PDF"
+          onClick=${unless(() => print())}>print</button>` : null}
+        ${kinds ? html`<${Save} toml=${answer?.toml} unless=${unless} />` : null}
+        ${answer?.command ? html`<button type="button" title=${answer.command}
+          onClick=${unless(() => copy(answer.command))}>copy command</button>` : null}
         <span class=${busy ? "busy on" : "busy"} aria-hidden="true"></span>
       </div>
     </header>

@@ -1,8 +1,8 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
-import { html, signal, useLayoutEffect, useMemo, useRef, useState } from "../vendor/preact.js";
+import { html, signal, useLayoutEffect, useMemo, useRef } from "../vendor/preact.js";
 import { Ball } from "./ball.js";
 import { useValue } from "./form.js";
-import { moving as moves } from "./frames.js";
+import { moving as moves, Play, plays } from "./frames.js";
 import {
   arrow, draw, HALF_X, HALF_Y, HEIGHT, MIDDLE, motionOf, NAME, NARROW, REACH, SHOWN, TILE, WIDTH, X, Y,
 } from "./motion.js";
@@ -22,7 +22,6 @@ const [LEAST, MOST] = [0.1, 100];
 const seen = () => (innerWidth < NARROW ? MIDDLE : [0, WIDTH]);
 
 const turn = (degrees) => (degrees * Math.PI) / 180;
-const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 /** Why there is less friction, in a sentence. */
 function why({ side, pulls, asides, load, mean }, ratio) {
@@ -112,7 +111,7 @@ const slower = (frequency) => (frequency > 0 ? `${digits(frequency * SHOWN, 2)} 
  */
 export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
   const picture = useRef(null);
-  const [runs, setRuns] = useState(!still());
+  const runs = plays.value;
   const shaken = series?.force && k > 0 && limit > 0;
   const moving = useMemo(() => (shaken ? motionOf(series, limit) : null), [series, limit]);
   const inSpace = Boolean(useValue("normal.stiffness").text);
@@ -158,8 +157,8 @@ export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
         ${side ? html`<text class="of" x=${-REACH - 12} y="5" text-anchor="end">friction now</text>`
           : html`<text class="of" x=${REACH + 8} y="-84">friction now</text>
             <path class="lead" d=${`M${REACH + 4} -86L${REACH - 26} -62`} />`}
-        <text class="strong" x=${-REACH - 12} y="92" text-anchor="end">its mean: ${digits(100 * ratio, 3)} %</text>
-        <path class="lead" d=${`M${-REACH - 8} 84L${-Math.max(12, REACH * ratio * 0.6)} ${side ? 36 : 6}`} />
+        <text class="strong" x="-90" y="124" text-anchor="middle">its mean: ${digits(100 * ratio, 3)} %</text>
+        <path class="lead" d=${`M-90 106L${-Math.max(12, REACH * ratio * 0.6)} ${side ? 36 : 6}`} />
         ${side ? null : html`<path class="shaken" d=${`M${-place[0]} ${-place[1]}L${place[0]} ${place[1]}`} />
           <circle class="grip" cx=${place[0]} cy=${place[1]} r="13"
             onPointerDown=${grasped} ...${anyWay}
@@ -170,12 +169,13 @@ export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
     </svg>
     <div class="told">${inSpace ? html`<${Ball} />` : null}<p class="why">${words}</p></div>
     <div class="row">
-      <button type="button" onClick=${() => setRuns(!runs)}>${runs ? "stop the motion" : "let it move"}</button>
+      <${Play} />
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
         value=${Math.round(STEPS * (moment.peek() % 1))}
         ...${touch} /></label>`}
       <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? "" : "Drag the round handle."}
-        <span class="key holds"></span> bristles hold <span class="key slips"></span> they slip</span>
+        <span class="sign-of"><span class="key holds"></span> bristles hold</span>
+        <span class="sign-of"><span class="key slips"></span> they slip</span></span>
     </div>
   </section>`;
 }

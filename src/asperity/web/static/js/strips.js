@@ -1,5 +1,7 @@
 /** Mean powers as strips, as wide as they are: what is put in, and where it goes. */
-import { html } from "../vendor/preact.js";
+import { html, useRef } from "../vendor/preact.js";
+import * as flowing from "./flowing.js";
+import { usePlayed } from "./frames.js";
 import { digits, readable } from "./units.js";
 
 const [WIDTH, HIGH, MIDDLE, BAR] = [460, 150, [185, 275], 8];
@@ -30,11 +32,20 @@ const band = (x0, y0, x1, y1, wide) => {
     + `${x0} ${y0 + wide}Z`;
 };
 
+/** The line in the middle of a strip, from its beginning on. */
+const middle = (x0, y0, x1, y1, wide) => {
+  const mid = (x0 + x1) / 2;
+  return `M${x0} ${y0 + wide / 2}C${mid} ${y0 + wide / 2} ${mid} ${y1 + wide / 2} ${x1} ${y1 + wide / 2}`;
+};
+
 /**
  * @param {{powers: {name: string, value: number}[], label: string}} props W, what is put in above nothing and what
  *   goes below it
  */
 export function Strips({ powers, label }) {
+  const picture = useRef(null);
+  const shown = powers.map(({ value }) => value).join();
+  usePlayed(picture, flowing, {}, [shown]);
   const of = (sign) => powers.filter(({ value }) => sign * value > 0)
     .map(({ name, value }) => ({ name, value: Math.abs(value) }));
   const [into, out] = [of(1), of(-1)];
@@ -49,13 +60,16 @@ export function Strips({ powers, label }) {
   const Name = ({ one, x, anchor }) => html`<text text-anchor=${anchor}>
     <tspan x=${x} y=${one.from + one.wide / 2 - 2}>${one.name}</tspan>
     <tspan x=${x} y=${one.from + one.wide / 2 + 15}>${said(one).slice(one.name.length + 1)}</tspan></text>`;
-  return html`<svg class="strips" viewBox=${`0 0 ${WIDTH} ${high}`} role="img" aria-label=${`${label}: ${words}`}>
+  return html`<svg class="strips" ref=${picture} viewBox=${`0 0 ${WIDTH} ${high}`} role="img"
+      aria-label=${`${label}: ${words}`}>
     <rect class="middle" x=${MIDDLE[0]} y="24" width=${MIDDLE[1] - MIDDLE[0]} height=${HIGH} />
     ${left.map((one, n) => html`<path class=${`strip in-${n}`}
         d=${band(ENDS[0], one.from, MIDDLE[0], one.to, one.wide)} />
+      <path class="runs-along" d=${middle(ENDS[0], one.from, MIDDLE[0], one.to, one.wide)} />
       ${Name({ one, x: ENDS[0] - BAR, anchor: "end" })}`)}
     ${right.map((one, n) => html`<path class=${`strip out-${n}`}
         d=${band(MIDDLE[1], one.to, ENDS[1], one.from, one.wide)} />
+      <path class="runs-along" d=${middle(MIDDLE[1], one.to, ENDS[1], one.from, one.wide)} />
       ${Name({ one, x: ENDS[1] + BAR, anchor: "start" })}`)}
     <text class="strong" x=${(MIDDLE[0] + MIDDLE[1]) / 2} y=${24 + HIGH / 2 + 5} text-anchor="middle">
       ${readable(sum, "W", 3).join(" ")}</text>

@@ -14,7 +14,8 @@ const IN_WORDS = new RegExp(
 
 /** Units as they are printed: 40 degC is 40 °C, mm^2/s is mm²/s. @param {string} text */
 export const printed = (text) => String(text ?? "").replace(/\bdeg([CF])\b/g, "°$1").replace(/(?:\^|\*\*)2\b/g, "²")
-  .replace(/(?:\^|\*\*)3\b/g, "³").replace(/(?<=\d )u(?=[mAVNs]\b)/g, "µ").replace(/(?<=\d) deg\b/g, "°");
+  .replace(/(?:\^|\*\*)3\b/g, "³").replace(/(?<=\d |\()u(?=[mAVNs]\b)/g, "µ").replace(/(?<=\d) deg\b/g, "°")
+  .replace(/\(deg\)/g, "(°)");
 
 /** @returns {{text: string, below: string}[]} pieces of a text, each with what stands below it */
 export function pieces(text, pattern = SYMBOL) {

@@ -224,10 +224,11 @@ export function Files({ job }) {
 }
 
 /**
- * A report of what is set, made by a job and handed over when it is there, with its other files beneath.
- * @param {{command: string, body: object | null}} props of a command that leaves `report.html`
+ * A report of what is set, made by a job and handed over when it is there.
+ * @param {{command: string, body: object | null, files?: boolean}} props of a command that leaves `report.html`;
+ *   `files`: whether its other files stand beneath
  */
-export function Report({ command, body }) {
+export function Report({ command, body, files = false }) {
   const work = useJob(command, body, "-report");
   const wanted = useRef(false);
   const { id, job, asking, can, stale, start } = work;
@@ -245,6 +246,6 @@ export function Report({ command, body }) {
   };
   return html`<button type="button" disabled=${running || !can} onClick=${ask}>
       ${running ? "report is being written" : "report"}</button>
-    ${there ? html`<${Files} job=${job} />` : null}
+    ${there && files ? html`<${Files} job=${job} />` : null}
     ${work.error ? html`<span class="bad" role="alert">✗ ${work.error.message}</span>` : null}`;
 }

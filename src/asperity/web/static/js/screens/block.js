@@ -113,7 +113,7 @@ function Headline({ work }) {
   const loose = numbers.settled?.value === false;
   return html`<div class="headline">
     <p class="large">${loose ? "(" : null}<${Num} entry=${numbers.ratio} count=${4} />${loose ? ")" : null}</p>
-    <div><p>of the force without vibration is left${besides(numbers)}<br />
+    <div><p>of the force without vibration is left${loose ? "." : besides(numbers)}<br />
       <span class="of">of the rigid body</span> <${Num} entry=${numbers.slider_ratio} count=${4} /></p>
       <${Loose} numbers=${numbers} /></div></div>`;
 }

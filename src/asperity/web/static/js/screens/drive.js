@@ -12,8 +12,9 @@ import { Screen } from "../shell.js";
 import { Strips } from "../strips.js";
 import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
+import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { firstError, Report, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -46,11 +47,12 @@ const less = (ratio) => (typeof ratio !== "number" ? "."
 const Ratio = ({ found, answer }) => html`
   <p class="large">${answer.settled ? null : "("}<${Num} entry=${found.torque_ratio} count=${4} />${
     answer.settled ? null : ")"}</p>
-  <div class="ratio"><p>of the worm's torque without vibration is left${less(answer.torque_ratio)}<br />
+  <div class="ratio"><p>of the worm's torque without vibration is left${
+    answer.settled ? less(answer.torque_ratio) : "."}<br />
   <${Verdict} ok=${answer.settled} yes="settled" no="not settled" />${" "}
     <span class="of">balance of the wheel</span>${" "}<${Num} entry=${found.torque_balance} count=${3} /></p>
-  ${answer.settled ? null : html`<p class="warn">▲ The wheel coasts or speeds up: this ratio is not what the
-    gearset settles to.</p>`}</div>`;
+  ${answer.settled ? null : html`<p class="warn" role="status">▲ Not settled, no prediction: ${
+    inWords(answer.settled_by)}.</p>`}</div>`;
 
 function Ledger({ answer, found }) {
   const most = Math.max(...POWERS.map(([key]) => Math.abs(answer[key])), 1e-12);
@@ -78,7 +80,7 @@ function Worth({ answer, found }) {
     <p>${answer.settled
       ? html`<${Verdict} ok=${after > before} yes="it saves power" no="it saves no power" />`
       : "no verdict, since the state has not settled:"} ${says}</p>
-    ${answer.motor_shaken ? html`<p>
+    ${answer.settled && answer.motor_shaken ? html`<p>
       <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
       ${` motor ${answer.motor_shaken} for ${answer.motor_plain}; with the actuator `}
       ${digits(answer.saved_mass_kg, 3)} kg saved</p>` : null}
@@ -107,20 +109,24 @@ function Pattern({ data, found }) {
     <${Facts} found=${found} keys=${LOADED} />`;
 }
 
+/** What is no prediction stands in brackets. */
+const bracketed = (text, settled) => (settled ? text : `(${text})`);
+
 /** The ways side by side, each taken by a click. */
 function Ways({ answer, geometry, speed }) {
   const { set } = useCase();
   return html`<div class="ways">${answer.directions.map((way) => html`<${Way} key=${way.mode} mode=${way.mode}
       geometry=${geometry} speed=${speed}>
-    <p><b>${digits(way.torque_ratio, 3)}</b> of the torque, ${digits(way.saved_W, 3)} W saved${
-      way.settled ? "" : ", not settled"}</p>
+    <p>${way.settled ? html`<b>${digits(way.torque_ratio, 3)}</b> of the torque, ${digits(way.saved_W, 3)} W saved`
+      : html`<${Verdict} ok=${false} no="not settled" />: no saving is told`}</p>
     <button type="button" onClick=${() => set("vibration.mode", way.mode)}>take ${way.mode}</button><//>`)}</div>`;
 }
 
 function Directions({ answer }) {
   const number = (said, key, count = 4) => [said, (way) => digits(way[key] ?? NaN, count), "right"];
   return html`<${Table} region="directions" rows=${answer.directions} columns=${[
-      ["way", ({ mode }) => mode, "row"], number("torque ratio", "torque_ratio"),
+      ["way", ({ mode }) => mode, "row"],
+      ["torque ratio", (way) => bracketed(digits(way.torque_ratio, 4), way.settled), "right"],
       number("balance", "torque_balance", 2),
       ["state", (way) => html`<${Verdict} ok=${way.settled} yes="settled" no="not settled" />`],
       number("saved (W)", "saved_W"), number("per µm (W)", "saved_per_micrometre_W"),
@@ -132,12 +138,17 @@ function Directions({ answer }) {
 
 function Locking({ answer, found, data }) {
   const x = data && { label: "amplitude", unit: "µm", values: data.amplitude.values.map((u) => 1e6 * u) };
+  const loose = data?.settled_over?.values.map((stays) => stays === 0) ?? [];
   return html`<p class="big"><${Verdict} ok=${answer.locked}
       yes="holds its load without vibration" no="runs back without vibration" /></p>
+    ${answer.settled ? null
+      : html`<p role="status">The creep has not settled, no prediction: ${inWords(answer.settled_by)}.</p>`}
     <${Facts} found=${found} keys=${HELD} />
     ${data ? html`<${Plot} title="Creep of the wheel, the motor off" y="creep (rad/s)" x=${x} xlog=${true} series=${[
       { label: "marched", unit: "rad/s", values: data.creep_over.values, points: "round" },
       { label: "far beyond the threshold, closed form", unit: "rad/s", values: data.creep_limit.values, dash: [6, 4] },
+      ...(loose.some(Boolean) ? [{ label: "not settled", unit: "rad/s", points: "square", bare: true, colour: 6,
+        values: data.creep_over.values.map((value, at) => (loose[at] ? value : null)) }] : []),
     ]} />` : null}`;
 }
 
@@ -157,10 +168,11 @@ export function view() {
     radius: under.node_radius.values.map((r) => 1e3 * r), face: under.node_face.values.map((z) => 1e3 * z),
     pressure: rows(under.pattern).at(-1).map((pressure) => pressure / 1e6),
   } : null), [under, loaded.stale]);
-  const creep = useData(held, ["amplitude", "creep_over", "creep_limit"]);
+  const creep = useData(held, ["amplitude", "creep_over", "creep_limit", "settled_over"]);
   const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
       answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}
+      actions=${html`<${Report} command="drive" body=${body} />`}
       lead="A gearset under load, shaken: what the motor is spared, what that costs, and what it does to the teeth.">
     <div class="columns headed moving"><section class="controls" aria-label="what is set">
       <${Slider} path="vibration.frequency" low=${100} high=${100000} unit="Hz" log />
@@ -180,7 +192,7 @@ export function view() {
         ${under ? html`<${Pattern} data=${under} found=${still} />` : null}<//>
       <${WorkPanel} title="Which way to shake it" name="which way" label="try each way" work=${ways}
           says="As long as shaking it once for each of the ways.">
-        ${ways.data && geometry
+        ${ways.data && geometry && speed
           ? html`<${Ways} answer=${ways.data.answer} geometry=${geometry} speed=${speed} />` : null}
         ${ways.data ? html`<${Directions} answer=${ways.data.answer} />` : null}<//>
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}

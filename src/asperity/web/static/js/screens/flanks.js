@@ -15,13 +15,13 @@ import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
-import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
+import { Files, placeOf, Report, useJob, useTaken, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
 const SECONDS = 12;
-/** Pictures of a pitch in a shared file, of what is drawn in space. */
-const PICTURES = 24;
+/** Pictures of a pitch in space for a shared file: at most, at least, and how long they may take, ms. */
+const [MOST, LEAST, PATIENCE] = [24, 6, 6000];
 /** Between two readings of the angle while it plays, ms. */
 const SELDOM = 120;
 /** Places of a count over a pitch. */
@@ -131,10 +131,13 @@ const lasts = (pitch) => (SECONDS * pitch) / (2 * Math.PI);
 
 /** Pictures of what is drawn in space, over a pitch. */
 async function taken(drawn, pitch) {
-  const found = [];
-  for (let n = 0; n < PICTURES; n += 1) {
-    found.push(drawn.picture((n * pitch) / PICTURES));
+  const began = performance.now();
+  const found = [drawn.picture(0)];
+  // Without a graphics card each takes a second.
+  const count = Math.min(MOST, Math.max(LEAST, Math.floor(PATIENCE / (performance.now() - began))));
+  for (let n = 1; n < count; n += 1) {
     await new Promise((done) => setTimeout(done));
+    found.push(drawn.picture((n * pitch) / count));
   }
   return { pictures: found, seconds: lasts(pitch) };
 }
@@ -228,6 +231,7 @@ export function view() {
   const shown = { part, layer: told?.key, side, worm, ...values };
   return html`<${Screen} title="Flanks" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${taken} error=${work.error ?? packed.error}
+      actions=${html`<${Report} command="flank" body=${body} />`}
       lead="The wheel cut exactly as its hob cuts it: where it touches the worm, and what that does.">
     <div class="columns headed moving">
       <section class="controls" aria-label="what is set"><${Work} work=${work} label="cut the wheel" />

@@ -227,7 +227,7 @@ export function view() {
   }));
   return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${data} error=${error} busy=${busy} late=${late} now=${now}
-      actions=${html`<${Report} command="rate" body=${body} />`}
+      actions=${html`<${Report} command="rate" body=${body} files />`}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
     <${Travel} error=${error} setAll=${setAll} />
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />

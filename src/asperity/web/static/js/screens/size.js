@@ -190,9 +190,9 @@ export function view() {
       </div>
       <${Kept} rest=${rest} />
       ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil,
-          materials, roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is not,
-          since it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is taken, as where
-          none is given` : null}.</p>
+          materials, roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is
+          not, since it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is
+          taken, as where none is given` : null}.</p>
         <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
         : html`<p class="wait">One moment.</p>`}
     </section>

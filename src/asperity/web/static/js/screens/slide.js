@@ -16,10 +16,10 @@ const REST = 120;
 const MOST_PINS = 4;
 const CLOSED = "rigid friction on a rigid drive, closed form";
 const OVER = {
-  direction: { label: "direction", unit: "°", words: "direction" },
+  direction: { label: "direction", unit: "deg", words: "direction" },
   k: { label: "velocity ratio k", unit: "", words: "strength" },
-  elevation: { label: "elevation", unit: "°", words: "elevation", normal: true },
-  phase: { label: "phase of the normal part", unit: "°", words: "phase", normal: true },
+  elevation: { label: "elevation", unit: "deg", words: "elevation", normal: true },
+  phase: { label: "phase of the normal part", unit: "deg", words: "phase", normal: true },
 };
 /** Angles that a curve goes over: their keys, and the angle of what is set. */
 const ANGLES = {

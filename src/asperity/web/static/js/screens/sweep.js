@@ -7,7 +7,7 @@ import { Heat } from "../heat.js";
 import { Plot } from "../plot.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
-import { inWords, plain } from "../symbols.js";
+import { inWords, plain, printed } from "../symbols.js";
 import { digits, split } from "../units.js";
 import { dataOf, Files, lasting, useJob, Work } from "../work.js";
 
@@ -59,10 +59,8 @@ export function view() {
         <${AllKeys} tables=${[...kind.tables, ...kind.rest]} brief />
       </section>
       <section class="shown" aria-label="what is found">
-        ${found.names.length ? html`<p class="row"><label for="variable">shown</label>
-          <select id="variable" value=${found.name} onChange=${(event) => setParam("shown", event.target.value)}>
-            ${found.names.map(([key, meaning]) => html`<option value=${key}>${plain(meaning)}</option>`)}</select></p>`
-          : html`<p class="says">${running || work.asking ? "The first points are being solved."
+        ${found.names.length ? null : html`<p class="says">${running || work.asking
+            ? "The first points are being solved."
             : "Nothing is solved yet: choose the axes and begin."}</p>`}
         ${found.data ? html`<${Found} ...${found} />` : null}
         <${Files} job=${work.job} />
@@ -150,10 +148,16 @@ function Least({ title, unit, values, loose, axes }) {
   const [value, at] = known.reduce((best, one) => (one[0] < best[0] ? one : best));
   const count = axes.at(-1).values.length;
   const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
-  const where = axes.map(({ label, unit: of, values: all }, k) => `${label} ${digits(all[places[k]], 4)} ${of}`.trim());
+  const where = axes.map(({ label, unit: of, values: all }, k) =>
+    printed(`${label} ${digits(all[places[k]], 4)} ${of}`.trim()));
   return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}${" "}
     <span class="says">${inWords(title)}</span></p>`;
 }
+
+/** What is shown of all that was solved. */
+const Choice = ({ name, names }) => html`<p class="row"><label for="variable">shown</label>
+  <select id="variable" value=${name} onChange=${(event) => setParam("shown", event.target.value)}>
+    ${names.map(([key, meaning]) => html`<option value=${key}>${plain(meaning)}</option>`)}</select></p>`;
 
 function Found({ name, names, data }) {
   const { dims, values, units } = data[name];
@@ -162,12 +166,12 @@ function Found({ name, names, data }) {
     ({ label: words(dim), unit: plainUnit(data[dim]?.units), values: data[dim]?.values ?? [] }));
   const loose = values.map((value, at) => value !== null && data[SETTLED]?.values[at] === 0);
   const count = loose.filter(Boolean).length;
-  const says = count ? html`<p role="status">${count} of ${values.length} points
+  const says = count ? html`<p role="status">${count} of ${values.length} points${" "}
     ${count === 1 ? "has" : "have"} not settled: no prediction.</p>` : null;
   const marks = count ? [{ label: "not settled", unit: plainUnit(units), points: "square",
     bare: true, values: values.map((value, at) => (loose[at] ? value : null)), colour: 6 }] : [];
   const least = html`<${Least} title=${title} unit=${plainUnit(units)} values=${values} loose=${loose}
-    axes=${[down, across].filter(Boolean)} />`;
+    axes=${[down, across].filter(Boolean)} /><${Choice} name=${name} names=${names} />`;
   return across ? html`${least}${says}<${Heat} title=${title} unit=${plainUnit(units)} down=${down} across=${across}
       values=${values} />`
     : html`${least}${says}<${Plot} title=${title} x=${down} height=${340}

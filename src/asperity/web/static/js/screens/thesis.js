@@ -56,7 +56,8 @@ export function view() {
         </div>
         <p class="says">${ledger.read}</p>
         <p class="says" role="status">${claims.length} of ${ledger.claims.length} claims,
-          ${" "}${figures.length} of ${ledger.figures.length} figures. ${unmade(ledger)}</p>
+          ${" "}${figures.length} of ${ledger.figures.length} figures.
+          <span class="of-server">${unmade(ledger)}</span></p>
       </section>
       ${chapters.map((chapter) => html`<${Chapter} key=${chapter.number} ...${chapter} />`)}`
       : html`<p class="wait">One moment.</p>`}

@@ -1,0 +1,239 @@
+"""Which relief takes the load off the edges of a loaded gearset."""
+
+import dataclasses
+from collections.abc import Mapping, Sequence
+from typing import Any, ClassVar, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.drive.problem import DriveProblem
+from asperity.drive.result import inputs
+from asperity.drive.static.notes import few_phases
+from asperity.gearset import Geometry
+from asperity.gearset.drawn import Drawn
+from asperity.results import quantity
+from asperity.results.table import Table
+from asperity.results.words import Number, text_of
+from asperity.sweep.axis import Axis
+
+_DESIGN = ("design",)
+_MEGA, _MICRO, _PERCENT = 1e-6, 1e6, 100.0
+
+
+@dataclasses.dataclass(frozen=True)
+class Design:
+    """A design at the worst of its loads and mountings, in SI."""
+
+    name: str
+    values: tuple[float, ...]  #: Of the axes, in their units
+    edge_force: float = np.nan  #: Of all edges together
+    edge_share: float = np.nan  #: Of the normal force
+    worm_tip: float = np.nan
+    wheel_tip: float = np.nan
+    face_end: float = np.nan
+    flank: float = np.nan
+    peak: float = np.nan
+    error: float = np.nan
+    k_h_beta: float = np.nan
+    worst: str = ""  #: Where the edges bear most
+    failed: str = ""  #: Why there is no answer
+    merit: tuple[float, float] = (np.inf, np.inf)  #: The less, the better
+
+
+class Relieved(Drawn):
+    """Designs that were tried, the case as it is first, each at the worst it stands."""
+
+    title: ClassVar[str] = "Relief of a loaded worm gearset"
+    stem: ClassVar[str] = "relief"
+    drawings: ClassVar[Mapping[str, str]] = {
+        "relief": "asperity.drive.studies.relief_plots:designs"
+    }
+    captions: ClassVar[Mapping[str, str]] = {
+        "relief": "Forces on the edges, pressure and error of the designs that were tried."
+    }
+    reported: ClassVar[bool] = True
+
+    problem: DriveProblem
+    axes: tuple[Axis, ...]
+    stands: tuple[str, ...]
+    failed: tuple[str, ...]
+
+    best: str = quantity("", "", "best design")
+    tried: int = quantity("", "", "designs that were tried")
+    edge_force_before: float = quantity("N", "N", "force on all edges, as the case is")
+    edge_force_after: float = quantity("N", "N", "force on all edges, best design")
+    peak_before: float = quantity(
+        "p", "MPa", "largest pressure, as the case is", key="peak_before_MPa"
+    )
+    peak_after: float = quantity("p", "MPa", "largest pressure, best design", key="peak_after_MPa")
+    error_before: float = quantity("", "rad", "transmission error, as the case is")
+    error_after: float = quantity("", "rad", "transmission error, best design")
+
+    name: npt.NDArray[np.str_] = quantity(
+        "", "", "design", dims=_DESIGN, coordinate=True, variable="design"
+    )
+    axis: npt.NDArray[np.str_] = quantity("", "", "what is varied", dims=("axis",), coordinate=True)
+    value: FloatArray = quantity(
+        "", "", "value of each axis, in its own unit", dims=("design", "axis")
+    )
+    is_best: npt.NDArray[np.int8] = quantity("", "", "1: the best", dims=_DESIGN)
+    edge_force: FloatArray = quantity("N", "N", "force on all edges", dims=_DESIGN)
+    edge_share: FloatArray = quantity("", "", "the same over the normal force", dims=_DESIGN)
+    worm_tip: FloatArray = quantity("N", "N", "force on the worm's tip edge", dims=_DESIGN)
+    wheel_tip: FloatArray = quantity("N", "N", "force on the wheel's tip edge", dims=_DESIGN)
+    face_end: FloatArray = quantity("N", "N", "force on the ends of the face", dims=_DESIGN)
+    flank: FloatArray = quantity("p", "Pa", "largest pressure on the flank", dims=_DESIGN)
+    peak: FloatArray = quantity("p", "Pa", "largest pressure, edges included", dims=_DESIGN)
+    error: FloatArray = quantity("", "rad", "transmission error, peak to peak", dims=_DESIGN)
+    k_h_beta: FloatArray = quantity(
+        "K_Hbeta", "", "force by width of the face, largest over mean", dims=_DESIGN
+    )
+
+    @classmethod
+    def of(
+        cls,
+        problem: DriveProblem,
+        axes: tuple[Axis, ...],
+        stands: tuple[str, ...],
+        designs: Sequence[Design],
+        best: int,
+    ) -> Self:
+        """Return it of the designs, of which the first is the case as it is."""
+        first, last = designs[0], designs[best]
+        return cls(
+            problem=problem,
+            axes=axes,
+            stands=stands,
+            failed=tuple(f"{each.name}: {each.failed}" for each in designs if each.failed),
+            best=last.name,
+            tried=len(designs),
+            is_best=np.array([n == best for n in range(len(designs))], np.int8),
+            edge_force_before=first.edge_force,
+            edge_force_after=last.edge_force,
+            peak_before=_MEGA * first.peak,
+            peak_after=_MEGA * last.peak,
+            error_before=first.error,
+            error_after=last.error,
+            name=np.array([each.name for each in designs]),
+            axis=np.array([axis.path for axis in axes]),
+            value=np.array([each.values for each in designs]),
+            notes=(
+                "each design at the worst of: " + "; ".join(stands),
+                *(f"{each.name}: {each.failed}" for each in designs if each.failed),
+                *few_phases(problem),
+            ),
+            **{
+                key: np.array([getattr(each, key) for each in designs])
+                for key in (
+                    "edge_force", "edge_share", "worm_tip", "wheel_tip", "face_end", "flank",
+                    "peak", "error", "k_h_beta",
+                )
+            },
+        )  # fmt: skip
+
+    @property
+    def best_number(self) -> int:
+        """Number of the best design, the case as it is being 0."""
+        return int(np.argmax(self.is_best))
+
+    @property
+    def geometry(self) -> Geometry:
+        """What follows from the gearset's numbers."""
+        return self.problem.geometry
+
+    @property
+    def inputs(self) -> Mapping[str, Any]:
+        """The values of the problem's tables in SI, by ``table.key``."""
+        return inputs(self.problem)
+
+    def heading(self) -> str:
+        """Return what was solved."""
+        drive = self.problem.drive
+        return (
+            f"{self.tried} designs at {len(self.stands)} loads and mountings, {drive.phases} "
+            "phases each"
+        )
+
+    def headline(self) -> tuple[str, ...]:
+        """Return what relief does, in one sentence."""
+        n = self.best_number
+        if not n:
+            return ("no design that was tried is better than the case as it is",)
+        gone = [
+            edge
+            for edge, forces in (
+                ("the worm's tip edge", self.worm_tip), ("the wheel's tip edge", self.wheel_tip),
+                ("the ends of the face", self.face_end),
+            )
+            if forces[0] > 1.0 >= forces[n]
+        ]  # fmt: skip
+        does = f"takes {' and '.join(gone)} away" if gone else "takes load off the edges"
+        return (
+            f"{self.best} {does}: the force on edges goes from {self.edge_force_before:.4g} to "
+            f"{self.edge_force_after:.4g} N, the largest pressure from {self.peak_before:.4g} to "
+            f"{self.peak_after:.4g} MPa, the transmission error from "
+            f"{_MICRO * self.error_before:.3g} to {_MICRO * self.error_after:.3g} urad",
+        )
+
+    @property
+    def rows(self) -> list[dict[str, Any]]:
+        """One mapping a design."""
+        columns = {
+            "edge_force_N": self.edge_force,
+            "edge_share": self.edge_share,
+            "force_worm_tip_N": self.worm_tip,
+            "force_wheel_tip_N": self.wheel_tip,
+            "force_face_end_N": self.face_end,
+            "pressure_flank_MPa": _MEGA * self.flank,
+            "pressure_peak_MPa": _MEGA * self.peak,
+            "transmission_error_rad": self.error,
+            "k_h_beta": self.k_h_beta,
+        }
+        return [
+            {
+                "name": str(name),
+                "values": {
+                    f"{axis.path} [{axis.unit or '1'}]": float(value) if value == value else None
+                    for axis, value in zip(self.axes, values, strict=True)
+                },
+                **{
+                    key: float(column[n]) if np.isfinite(column[n]) else None
+                    for key, column in columns.items()
+                },
+            }
+            for n, (name, values) in enumerate(zip(self.name, self.value, strict=True))
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return every design with its numbers."""
+        return super().to_json() | {"stands": list(self.stands), "designs": self.rows}
+
+    def tables(self) -> tuple[Table, ...]:
+        """Return a row a design, the best marked."""
+        heads = (
+            *(f"{a.key.replace('_', ' ')} ({a.unit})" if a.unit else a.key for a in self.axes),
+            "edges (N)", "worm tip", "wheel tip", "face ends", "flank (MPa)", "peak (MPa)",
+            "error (urad)", "",
+        )  # fmt: skip
+        shown = (
+            ("edge_force_N", ".0f", 1.0), ("force_worm_tip_N", ".0f", 1.0),
+            ("force_wheel_tip_N", ".0f", 1.0), ("force_face_end_N", ".0f", 1.0),
+            ("pressure_flank_MPa", ".0f", 1.0), ("pressure_peak_MPa", ".0f", 1.0),
+            ("transmission_error_rad", ".1f", _MICRO),
+        )  # fmt: skip
+        rows = [
+            (
+                *(text_of(float(value)) for value in self.value[n]),
+                *(
+                    "none" if row[key] is None
+                    else Number.of(row[key] + 0.0, form, f"designs.{n}.{key}", times)
+                    for key, form, times in shown
+                ),
+                "best" if n == self.best_number else "",
+            )
+            for n, row in enumerate(self.rows)
+        ]  # fmt: skip
+        remarks = ("the first row is the case as it is", *self.notes)
+        return (Table.of(heads, rows, left=0, remarks=remarks),)

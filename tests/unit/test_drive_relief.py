@@ -1,0 +1,125 @@
+"""The search for a relief that takes the load off the edges of a loaded gearset."""
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.drive.static.loaded import Loaded
+from asperity.drive.studies import relief
+from asperity.errors import ConvergenceError, InputError
+from asperity.runs import Run
+
+OVER = ["modification.tip_relief=0,10,20,30,40 um", "hob.oversize=1.05,1.12,1.2"]
+
+
+def search(*settings, over=OVER, at=()):
+    case = read_case("drive-screw", case_tables(), ("drive.teeth=1", "drive.phases=2", *settings))
+    return relief.prepare(case, over=over, at=at)
+
+
+def loaded(worm_tip, flank, wheel_tip=0.0, error=70e-6):
+    numbers = dict.fromkeys(Loaded.__dataclass_fields__, 0.0)
+    numbers |= {
+        "force_worm_tip": worm_tip, "force_wheel_tip": wheel_tip, "normal_force": 7000.0,
+        "pressure_flank": flank, "pressure_worm_tip": 7e9 * (worm_tip > 0.0),
+        "transmission_error": error,
+    }  # fmt: skip
+    return Loaded(**numbers | {"pattern": np.zeros(1)})
+
+
+@pytest.fixture
+def solved(monkeypatch):
+    """Edges bear less with relief and at small loads, flanks more with relief; what was asked."""
+    asked = []
+
+    def solve(problems, _run):
+        found = []
+        for problem in problems:
+            asked.append(problem)
+            off = 1e6 * (problem.modification.tip_relief if problem.modification else 0.0)
+            over = problem.hob.oversize
+            edge = max(0.0, 900.0 * problem.load / 366.0 - 45.0 * off)
+            found.append(loaded(edge, 1e9 * (1.0 + 0.01 * off + 2.0 * abs(over - 1.1))))
+        return found
+
+    monkeypatch.setattr(relief, "solve_points", solve)
+    return asked
+
+
+def test_the_least_relief_that_takes_the_edge_away_at_the_worst_load_is_the_best(solved):
+    found = relief.answer(search(), Run())
+    # 20 um are just enough at the load, and the hob nearest to the flank's best.
+    assert found.best == "modification.tip_relief=20 um, hob.oversize=1.12"
+    assert found.edge_force_before == pytest.approx(900.0)
+    assert found.edge_force_after == 0.0
+    (said,) = found.headline()
+    assert "20 um" in said
+    assert "takes the worm's tip edge away: the force on edges goes from 900 to 0 N" in said
+    assert "from 7000 to 1240 MPa" in said
+    best = found.to_json()["designs"][found.best_number]
+    assert best["values"] == {"modification.tip_relief [um]": 20.0, "hob.oversize [1]": 1.12}
+    # Each design once, at the load and a third of it.
+    assert len(solved) == 2 * found.tried
+    assert len(set(found.name)) == found.tried
+
+
+def test_of_designs_whose_edges_bear_little_the_flank_decides(solved):
+    # Ten newtons of 7000 count for nothing.
+    merits = [
+        relief._design(search(), (n, -1), [loaded(edge, flank)]).merit
+        for n, (edge, flank) in enumerate([(80.0, 1e9), (10.0, 1.3e9), (0.0, 1.4e9)])
+    ]
+    assert sorted(merits) == [merits[1], merits[2], merits[0]]
+
+
+def test_a_design_counts_by_where_it_stands_worst(solved):
+    found = relief.answer(search(at=["operation.output_torque=100,366,500 N m"]), Run())
+    assert found.stands == tuple(f"operation.output_torque={t} N m" for t in (100, 366, 500))
+    assert found.edge_force_before == pytest.approx(900.0 * 500.0 / 366.0)
+    assert "modification.tip_relief=30 um" in found.best
+
+
+def test_the_corners_of_the_tolerances_are_borne_with_where_nothing_else_is_said():
+    made = search("tolerances.centre_distance=js7", "tolerances.shaft_angle=0.02 deg")
+    assert len(made.stands) == 2 + 4
+    assert made.stands[0][0] == "operation.output_torque=366 N m"
+    assert made.stands[2][1]["operation.output_torque"] == 366.0
+    assert made.stands[2][1]["mount.shaft_angle_error"] < 0.0
+
+
+def test_a_case_that_is_best_as_it_is_is_left_as_it_is(solved):
+    found = relief.answer(search("modification.tip_relief=20 um", over=OVER[:1]), Run())
+    assert found.best_number == 0
+    assert found.headline() == ("no design that was tried is better than the case as it is",)
+
+
+def test_a_design_without_an_answer_is_none_and_told(monkeypatch, solved):
+    whole = relief.solve_points
+
+    def solve(problems, run):
+        return [
+            "no balance" if p.modification and p.modification.tip_relief > 15e-6 else each
+            for p, each in zip(problems, whole(problems, run), strict=True)
+        ]
+
+    monkeypatch.setattr(relief, "solve_points", solve)
+    found = relief.answer(search(over=OVER[:1]), Run())
+    assert found.best == "modification.tip_relief=10 um"
+    assert "modification.tip_relief=20 um: no balance" in found.notes
+    assert found.to_json()["designs"][2]["edge_force_N"] is None
+    with pytest.raises(ConvergenceError, match="as the case has it: no balance"):
+        relief.answer(search("modification.tip_relief=20 um", over=OVER[:1]), Run())
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"over": ["mount.axial_offset=0,10 um"]}, "--over mount.axial_offset: take keys"),
+        ({"at": ["modification.tip_relief=0,10 um"]}, "--at modification.tip_relief: take keys"),
+        ({"at": ["mount.axial_offset=-50:50:1 um"]}, "more than 200 points"),
+    ],
+)
+def test_what_is_no_search_is_refused_in_a_line(options, said):
+    with pytest.raises(InputError, match=said):
+        search(**options)

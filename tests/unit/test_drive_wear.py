@@ -1,0 +1,160 @@
+"""A loaded wheel that wears: what is taken off, where, and what becomes of the contact.
+
+Archard's law, V = k N s: the volume is k/mu times the work of friction.
+"""
+
+import functools
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.drive.problem import DriveProblem
+from asperity.drive.resolved.flank import ExactFlank
+from asperity.drive.static.loaded import loaded_of
+from asperity.drive.static.solve import StaticModel, wheel_of
+from asperity.drive.static.sweep import LoadCase
+from asperity.drive.wear import solve
+from asperity.drive.wear.model import Taken, _about, axes_of, node_area, worn_model
+from asperity.errors import InputError
+from asperity.runs import Interrupted, Run
+
+SMALL = ("drive.teeth=1", "drive.phases=2", "modification.tip_relief=30 um")
+
+
+def case(*settings):
+    return read_case("drive-screw", case_tables(), (*SMALL, *settings))
+
+
+@functools.cache
+def flank():
+    wheel = wheel_of(DriveProblem.from_case(case(), shaken=False))
+    return ExactFlank(SimpleNamespace(wheel=wheel), np.zeros((1, 1, 1)))
+
+
+def test_points_of_the_flank_have_all_of_its_area():
+    made = flank()
+    area = node_area(made)
+    assert area.min() > 0.0
+    # Of a flank's middle a node has its share of rows and columns.
+    points = made.grid[0].reshape(41, 61, 3)
+    along = np.linalg.norm(points[20, 31] - points[20, 29]) / 2.0
+    across = np.linalg.norm(points[21, 30] - points[19, 30]) / 2.0
+    assert area.reshape(41, 61)[20, 30] == pytest.approx(along * across, rel=0.02)
+
+
+def test_a_place_gives_all_it_loses_to_the_points_about_it():
+    rng = np.random.default_rng(3)
+    made = flank()
+    _, columns = axes_of(made)
+    share, z = rng.uniform(0.0, 1.0, 200), rng.uniform(columns[0], columns[-1], 200)
+    found = _about(made, share, z)
+    np.testing.assert_allclose(sum(weights for _, weights in found), 1.0, rtol=1e-12)
+    _, _, own_share, own_z = made.grid
+    for own, at in ((own_share, share), (own_z, z)):
+        np.testing.assert_allclose(sum(w * own[nodes] for nodes, w in found), at, atol=1e-12)
+
+
+def test_a_depth_is_read_where_it_was_worn_and_smooth_between():
+    made = flank()
+    _, _, share, z = made.grid
+    depth = 1e-6 * (1.0 + share**2 + 0.1 * (1e3 * z) ** 2)
+    worn = ExactFlank(made.sector, made.smooth, depth)
+    rng = np.random.default_rng(4)
+    at, place = rng.uniform(0.1, 0.9, 50), rng.uniform(0.9 * z.min(), 0.9 * z.max(), 50)
+    expected = 1e-6 * (1.0 + at**2 + 0.1 * (1e3 * place) ** 2)
+    np.testing.assert_allclose(worn.depth_at(at, place), expected, rtol=1e-9)
+    np.testing.assert_allclose(made.depth_at(at, place), 0.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"depth": "20"}, "--depth is 20; it must be a length such as '20 um'"),
+        ({"depth": "0 um"}, "--depth is 0 um"),
+        ({"depth": "2 mm"}, "at most 0.5 mm"),
+        ({"revolutions": "-1"}, "--revolutions is -1; it must be a number of turns"),
+    ],
+)
+def test_a_limit_that_is_none_is_refused_in_a_line(options, said):
+    with pytest.raises(InputError, match=said):
+        solve.prepare(case(), **options)
+
+
+def test_the_coefficient_is_that_of_the_case_or_the_standard_s_intensity_by_its_pressure():
+    own = solve.prepare(case("wear.coefficient=1e-6", "wear.hardness=2 GPa"))
+    assert own.coefficient == pytest.approx(5e-16)
+    standard = solve.prepare(case())
+    # ISO/TR 14521: J_W 4e-7 at 315.3 MPa; 120.6 mm over 144 million turns of the wheel.
+    assert standard.coefficient == pytest.approx(4e-7 / 315.3113e6, rel=1e-5)
+    assert standard.standard == pytest.approx(120.59666e-3 / 144e6, rel=1e-5)
+
+
+@functools.cache
+def model():
+    return StaticModel(DriveProblem.from_case(case(), shaken=False), Run())
+
+
+@pytest.mark.slow
+def test_a_flank_worn_evenly_bears_as_it_did_the_wheel_turned_after():
+    new = model()
+    depth = 20e-6
+    worn = worn_model(new, np.full(new.resolved.flank.nodes, depth), new.phases)
+    one, other = loaded_of(new), loaded_of(worn)
+    assert other.pressure_flank == pytest.approx(one.pressure_flank, rel=5e-3)
+    assert other.line_load == pytest.approx(one.line_load, rel=5e-3)
+    assert other.input_torque == pytest.approx(one.input_torque, rel=1e-3)
+    g = new.problem.geometry
+    arm = 0.5e-3 * g.wheel_mean_diameter * np.cos(g.lead_angle) * np.cos(np.radians(20.0))
+    further = (worn.touching - new.touching).mean()
+    # It falls behind.
+    assert further == pytest.approx(-depth / arm, rel=5e-3)
+
+
+@pytest.mark.slow
+def test_what_is_taken_off_is_the_work_of_the_forces():
+    new = model()
+    taken = Taken(new.resolved, float(new.phases[1]))
+    (course,) = new.courses([LoadCase(new.problem.load, evaluate=taken.evaluate)])
+    assert taken.moved.sum() == pytest.approx(taken.work, rel=1e-12)
+    lost = (course.worm_torque.mean() - new.problem.load / 15.0) * 2.0 * new.phases[1]
+    # The balance of the condensed teeth has another share of teeth, and their mesh.
+    assert new.friction * taken.work == pytest.approx(lost, rel=0.02)
+
+
+@pytest.mark.slow
+def test_a_wheel_beds_in_and_goes_on_to_the_bit_from_where_it_was_left(tmp_path):
+    asked = solve.prepare(case(), depth="6 um")
+    whole = solve.answer(asked, Run())
+    # In mm3 and J.
+    volume = 1e9 * whole.coefficient / model().friction * whole.friction_work
+    assert whole.volume == pytest.approx(volume, rel=1e-6)
+    assert whole.depth_max == pytest.approx(6.0, rel=1e-6)
+    assert whole.pressure_course[-1] < 0.97 * whole.pressure_course[0]
+    assert (np.diff(whole.turns) > 0.0).all()
+
+    class Stopped(Run):
+        def checkpoint(self, done, total, state=None, what="steps"):
+            super().checkpoint(done, total, state, what)
+            if done == 3:
+                self._file.save(state())
+                raise Interrupted("")
+
+    with pytest.raises(Interrupted):
+        solve.answer(asked, Stopped(folder=tmp_path))
+    told = []
+    after = solve.answer(
+        asked, Run(folder=tmp_path, progress=lambda done, _total: told.append(done))
+    )
+    assert told[0] == 4
+    np.testing.assert_array_equal(after.depth, whole.depth)
+    np.testing.assert_array_equal(after.turns, whole.turns)
+
+
+@pytest.mark.slow
+def test_it_ends_after_so_many_turns():
+    found = solve.answer(solve.prepare(case(), revolutions="10"), Run())
+    assert found.revolutions == pytest.approx(10.0, rel=1e-12)
+    assert found.depth_max < 1.0
