@@ -177,6 +177,8 @@ def test_a_block_is_marched_and_its_pressure_shown(seen, server):
     box = page.get_by_label("Marched in time")
     expect(box.get_by_role("button", name="block.nc", exact=True)).to_be_visible()
     skin = page.get_by_label("in motion").locator("[data-of=skin]")
+    # What is out of the window stands still.
+    page.get_by_label("in motion").evaluate("each => each.scrollIntoView()")
     before = skin.inner_html()
     page.wait_for_timeout(500)
     assert skin.inner_html() != before
