@@ -167,7 +167,7 @@ def test_a_block_is_marched_and_its_pressure_shown(seen, server):
     page.get_by_role("button", name="march", exact=True).click()
     expect(page.get_by_text("Pressure under the block")).to_be_visible(timeout=MINUTES)
     job = page.locator(".work [role=status]").nth(1)
-    expect(job).to_have_text(DONE)
+    expect(job).to_have_text(DONE, timeout=MINUTES)
     words = [word.replace("settled", "march") for word in copied(page)]
     answer = answered([*words, "--json"], server.folder)
     marched = page.get_by_label("Marched in time").locator("[data-key=ratio]").first
@@ -177,6 +177,8 @@ def test_a_block_is_marched_and_its_pressure_shown(seen, server):
     box = page.get_by_label("Marched in time")
     expect(box.get_by_role("button", name="block.nc", exact=True)).to_be_visible()
     skin = page.get_by_label("in motion").locator("[data-of=skin]")
+    # What is out of the window stands still.
+    page.get_by_label("in motion").evaluate("each => each.scrollIntoView()")
     before = skin.inner_html()
     page.wait_for_timeout(500)
     assert skin.inner_html() != before

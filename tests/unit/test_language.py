@@ -10,7 +10,7 @@ from asperity.commands.shown import shown_as
 from asperity.errors import InputError, StorageError
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
-from asperity.results.system import shown_table
+from asperity.results.system import shown_in, shown_table
 from asperity.results.table import Table
 from asperity.results.terminal import rendered
 from asperity.results.words import Number, Sentence
@@ -103,7 +103,20 @@ def test_a_german_report_has_the_numbers_of_the_english_one(given):
     with spoken(catalogue_of("de")):
         german = result.to_html()
     marked = re.compile(r"<data [^>]*>[^<]*</data>")
+    # A comma between thousands is of English.
+    german = german.replace("\N{NARROW NO-BREAK SPACE}", ",")
     assert sorted(marked.findall(german)) == sorted(marked.findall(english))
+
+
+def test_inches_are_the_same_in_both_languages():
+    _, result = answer_of("actuator-duty")
+    number = re.compile(r"\d+(?:[.,]\d+)?(?: (?:hp|lbf in|degF))?")
+    with shown_in("us"):
+        english = number.findall(result.brief())
+        with spoken(catalogue_of("de")):
+            german = number.findall(result.brief().replace("\N{NARROW NO-BREAK SPACE}", ","))
+    assert sorted(german) == sorted(english)
+    assert sum("hp" in each for each in english) >= 2
 
 
 def test_a_table_is_shown_in_the_language_that_is_spoken_and_else_as_it_is(words):

@@ -59,7 +59,8 @@ class _Terminal:
                 show.print_json(result.to_json())
                 return None
             brief = "" if self._full else result.brief()
-            lines = (f"{source}: {result.heading()}\n", *map(show.wrapped, result.headline()))
+            first = show.said(f"{source}: {result.heading()}")
+            lines = (f"{first}\n", *map(show.wrapped, result.headline()))
             show.print_text("\n".join((*lines, "")) if len(lines) > 1 else lines[0])
             if brief:
                 show.print_text(brief)

@@ -23,6 +23,13 @@ def note(line: str) -> None:
     tell(line)
 
 
+def said(text: str) -> str:
+    """Return a text in the language that is asked for."""
+    from asperity.results.language import said as in_language
+
+    return in_language(text)
+
+
 def wrapped(sentence: str) -> str:
     """Return a sentence in lines of the terminal's least width."""
     from asperity.results.system import shown_text

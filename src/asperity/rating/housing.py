@@ -4,7 +4,10 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Annotated, ClassVar
 
+from pydantic import model_validator
+
 from asperity.casefile import Table
+from asperity.errors import InputError
 from asperity.rating.load_steps import Speed
 from asperity.sources import Source
 from asperity.units import Quantity
@@ -65,6 +68,16 @@ class Housing(Table):
     aluminium: Mass | None = None
     bronze: Mass | None = None
     oil: Mass | None = None
+
+    @model_validator(mode="after")
+    def _one_capacity(self) -> "Housing":
+        given = [name for name in HEAT if getattr(self, name) is not None]
+        if self.heat_capacity is not None and given:
+            raise InputError(
+                f"housing.heat_capacity and housing.{given[0]} are both given: give heat_capacity, "
+                "or the masses that it follows from"
+            )
+        return self
 
     @property
     def capacity(self) -> float | None:

@@ -26,6 +26,7 @@ _WORD = re.compile(r"(?<![\w.])(?:[a-z][a-z-]{2,}|[A-Z][a-z]{3,})(?![\w(=]|\.\w)
 # Numbers of a sentence keep their digits and keys: signs of no language stand for them meanwhile.
 _FIRST = 0xE000
 _MARK = re.compile("[\ue000-\uf8ff]")
+_THOUSANDS = re.compile(r"(?<=\d),(?=\d{3}(?!\d))")
 # What a row of texts is joined by, where the row itself has no line.
 _SHORT = len("_n")
 _MOST_PIECES = 16
@@ -72,7 +73,7 @@ class Catalogue:
         if found is None:
             self.missing.add(text)
             return text
-        return found
+        return _apart(found)
 
     def _found(self, text: str) -> str | None:
         if text not in self._known:
@@ -147,6 +148,11 @@ class Catalogue:
             if (last := self._found(between.join(rest))) is not None:
                 return [first, last]
         return []
+
+
+def _apart(text: str) -> str:
+    """Return a text whose thousands stand apart: a comma between them is of English."""
+    return _THOUSANDS.sub("\N{NARROW NO-BREAK SPACE}", text)
 
 
 def _is_whole(text: str) -> bool:
@@ -262,7 +268,11 @@ def said(text: str) -> str:
         return text
     if not isinstance(text, Sentence):
         return own.said(text)
-    numbers = [part for part in text.parts if isinstance(part, Number)]
+    numbers = [
+        Number(_apart(part), part.value, part.key, part.times)
+        for part in text.parts
+        if isinstance(part, Number)
+    ]
     signs = map(chr, itertools.count(_FIRST))
     marked = "".join(next(signs) if isinstance(part, Number) else part for part in text.parts)
     found = own.said(marked)

@@ -8,6 +8,7 @@ its numbers, and other text where a number stands before a unit.
 import contextlib
 import contextvars
 import dataclasses
+import functools
 import itertools
 import re
 from collections.abc import Iterator, Sequence
@@ -59,6 +60,7 @@ US: dict[str, Shown] = {
 """Units of the US by those of an answer; kinematic viscosity stays in mm2/s, which is cSt."""
 
 _LARGE = 1e7
+_MODULE = "modul"  # in English and in languages near it
 _PITCH, _PER_INCH = "diametral pitch pi/p", "1/in"
 _KEPT = ("equation", "source", "as written", "key", "keys", "unit")
 _EQUATIONS = "equations are written for the units of their standards: mm, N, N m, MPa, degC"
@@ -73,10 +75,19 @@ _NUMBER = r"[+-]{0,2}\d+(?:\.\d+)?(?:[eE][+-]?\d+)?"
 _UNIT = "|".join(map(re.escape, _TEXT))
 # "3 to 4 mm", "1.2 of 3 W", "10, 20 and 30 N m": what a unit at the end is of; but not what is to
 # be given as it stands, "key=3 mm".
-_RUN = re.compile(
-    rf"(?<![\w.+/*^=-])(?P<numbers>{_NUMBER}(?:(?:, | to | of | and |/){_NUMBER})*)"
-    rf"(?P<space> )(?P<unit>{_UNIT})(?![\w/^*(]|\s*/)"
-)
+_BETWEEN = "to", "of", "and"
+
+
+@functools.cache
+def _run(between: tuple[str, ...]) -> "re.Pattern[str]":
+    """Return what finds numbers before a unit, with words between them."""
+    words = "|".join(f" {re.escape(word)} " for word in between)
+    return re.compile(
+        rf"(?<![\w.+/*^=-])(?P<numbers>{_NUMBER}(?:(?:, |{words}|/){_NUMBER})*)"
+        rf"(?P<space> )(?P<unit>{_UNIT})(?![\w/^*(]|\s*/)"
+    )
+
+
 _HEAD = re.compile(rf"\((?P<unit>{_UNIT})\)$")
 _TITLE = re.compile(rf", (?P<unit>{_UNIT})$")
 _LEADING = re.compile(rf"^(?P<space>\s?)(?P<unit>{_UNIT})(?![\w/^*(])")
@@ -114,12 +125,14 @@ def converted(value: float, unit: str) -> tuple[float, str]:
 
 def shown_text(text: str) -> str:
     """Return a sentence as people are shown it, in their units and language."""
-    return said(_in_units(text))
+    return _in_units(said(text))
 
 
 def shown_table(table: Table) -> Table:
     """Return a table as people are shown it, in their units and language."""
-    return _translated(_table_in_units(table))
+    # What a column is for is told by what it is called in English.
+    headings = [column.heading for column in table.columns]
+    return _table_in_units(_translated(table), headings)
 
 
 def _translated(table: Table) -> Table:
@@ -141,7 +154,7 @@ def _in_units(text: str) -> str:
     if system() == "si":
         return text
     if not isinstance(text, Sentence):
-        return _RUN.sub(_replaced, text)
+        return _runs_in_units(text)
     parts: list[str] = []
     pending = ""
     for part, after in itertools.zip_longest(text.parts, text.parts[1:], fillvalue=""):
@@ -155,10 +168,9 @@ def _in_units(text: str) -> str:
     return Sentence(*parts)
 
 
-def _table_in_units(table: Table) -> Table:
+def _table_in_units(table: Table, headings: Sequence[str]) -> Table:
     if system() == "si":
         return table
-    headings = [column.heading for column in table.columns]
     place = headings.index("unit") if "unit" in headings else None
     # A title may end with the unit of all.
     ends = _TITLE.search(table.title)
@@ -168,19 +180,25 @@ def _table_in_units(table: Table) -> Table:
         dataclasses.replace(column, heading=_HEAD.sub(_of_heading, column.heading))
         for column in table.columns
     )
-    rows = tuple(_row(row, table.columns, place, own) for row in table.rows)
+    stays = [column.typeset or head in _KEPT
+             for column, head in zip(table.columns, headings, strict=True)]  # fmt: skip
+    rows = tuple(_row(row, table.columns, place, own, stays) for row in table.rows)
     remarks = tuple(map(_in_units, table.remarks))
     if "equation" in headings:
-        remarks = (_EQUATIONS, *remarks)
+        remarks = (said(_EQUATIONS), *remarks)
     title = _TITLE.sub(_of_title, table.title) if of_all else _in_units(table.title)
     return Table(columns, rows, title, remarks)
 
 
 def _row(
-    row: Sequence[str], columns: Sequence[Column], place: int | None, own: Sequence[str]
+    row: Sequence[str],
+    columns: Sequence[Column],
+    place: int | None,
+    own: Sequence[str],
+    stays: Sequence[bool],
 ) -> tuple[str, ...]:
     unit = "" if place is None else row[place]
-    pitch = unit == "mm" and any("module" in text for text in row)
+    pitch = unit == "mm" and any(_MODULE in text.lower() for text in row)
     cells, changed = [], False
     for n, (text, column) in enumerate(zip(row, columns, strict=True)):
         to = unit or own[n]
@@ -188,9 +206,9 @@ def _row(
         if numbers is not None:
             cells.append(_pitch(numbers) if pitch else _all(numbers, to))
             changed = True
-        elif pitch and "module" in text:
-            cells.append(f"{text}, as {_PITCH}")
-        elif n == place or column.typeset or column.heading in _KEPT:
+        elif pitch and _MODULE in text.lower():
+            cells.append(f"{text}, {said('as')} {_PITCH}")
+        elif n == place or stays[n]:
             cells.append(text)
         else:
             cells.append(_in_units(text))
@@ -246,9 +264,14 @@ def _after(text: str, pending: str) -> str:
     """Return the text behind a number that was converted, which begins with its unit."""
     found = _LEADING.match(text) if pending else None
     if found is not None and found["unit"] == pending:
-        text = f"{found['space']}{US[pending].unit}{_RUN.sub(_replaced, text[found.end() :])}"
+        text = f"{found['space']}{US[pending].unit}{_runs_in_units(text[found.end() :])}"
         return text
-    return _RUN.sub(_replaced, text)
+    return _runs_in_units(text)
+
+
+def _runs_in_units(text: str) -> str:
+    # Numbers stand between words of the language that they are shown in.
+    return _run(tuple(map(said, _BETWEEN))).sub(_replaced, text)
 
 
 def _unit_of(key: str) -> str:

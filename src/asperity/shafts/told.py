@@ -144,7 +144,7 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
     yield Table.of(
         ("", "F_r,A (N)", "F_a,A (N)", "F_r,B (N)", "F_a,B (N)", "v at the mesh (um)"),
         reactions,
-        title=f"Loads of the {name}'s bearings, A at {a:.4g} and B at {b:.4g} mm, at "
+        title=f"Loads of the {name}'s bearings, A at {a:.4g} mm and B at {b:.4g} mm, at "
         f"{max(each.load.torque for each in found.hardest):.4g} N m",
     )
     lives = [

@@ -1,5 +1,6 @@
 """A gearset's case from ratio, torque and speed alone."""
 
+import dataclasses
 import functools
 import math
 from collections.abc import Collection, Mapping
@@ -95,7 +96,7 @@ def proposals(
     gearset = _table(Gearset, kept | _STAND_IN)
     operation = _operation(values)
     options = _table(RatingOptions, values.get("rating", {}))
-    return propose(
+    found = propose(
         _ratio(ratio, asked),
         gearset,
         operation,
@@ -108,6 +109,15 @@ def proposals(
         locks=locks,
         requirements=asked,
     )
+    shafts = [f"[{name}]" for name in ("worm_shaft", "wheel_shaft") if name in values]
+    if not shafts:
+        return found
+    # What shafts and bearings bear follows from where they stand, which a proposal moves.
+    said = (
+        f"{' and '.join(shafts)} of the case are not among what holds here: asperity rate judges "
+        "them with each proposal that --out writes"
+    )
+    return dataclasses.replace(found, notes=(said, *found.notes))
 
 
 def _ratio(given: float | None, asked: Requirements) -> float:

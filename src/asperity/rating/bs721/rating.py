@@ -6,7 +6,7 @@ application factor, for the whole running time; of a valve strength for a tenth 
 one, both at the speed of the part with the greatest torque (the fastest of such).
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -28,6 +28,7 @@ from asperity.rating.iso14521.strength import safety
 from asperity.rating.result import Rating
 from asperity.sources import Source, weakest
 
+_FEW = 16  # speeds that are looked up one by one
 _OF_DUTY = (
     "the duty cycle: hours are referred to n_m, the worm's speed in the part with the greatest "
     "torque, at which the speed factors are looked up too"
@@ -109,7 +110,7 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
     Of one gearset that raises TableRangeError, as it does of a load that is all the same.
     """
     own_speeds = [part.speed for part in given.duty]
-    for speed in given.speeds if given.together else own_speeds:
+    for speed in _unreached(given, tables, given.speeds if given.together else own_speeds):
         at = sliding_velocity(given.worm_pitch_diameter, speed, given.lead_angle)
         wheel = speed / given.gear_ratio
         own = {
@@ -120,11 +121,31 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
             v |= {key: np.where(np.isnan(one), one, v[key]) for key, one in own.items()}
 
 
+def _unreached(given: Inputs, tables: Tables, speeds: Sequence[Real]) -> Sequence[Real]:
+    """Return the speeds that a table may not reach, of many looked up at once; of few all."""
+    if len(speeds) <= _FEW or any(np.ndim(speed) for speed in speeds):
+        return speeds
+    worm = np.asarray(speeds, dtype=np.float64)
+    with masking(worm.shape) as mask:
+        at = sliding_velocity(given.worm_pitch_diameter, worm, given.lead_angle)
+        members: tuple[tuple[Literal["wheel", "worm"], Real], ...] = (
+            ("wheel", worm / given.gear_ratio),
+            ("worm", worm),
+        )
+        for member, turning in members:
+            torque.wear_speed_factor(at, turning, member=member, tables=tables)
+            torque.strength_speed_factor(turning, member=member, tables=tables)
+    return [speed for speed, reason in zip(speeds, mask.reason, strict=True) if reason]
+
+
 def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
     """Say which parts of a duty cycle run at speeds that no table reaches."""
     first = {part.speed: place for place, part in reversed([*enumerate(given.duty, 1)])}
     parts = first.items() if given.together else [(p.speed, n) for n, p in enumerate(given.duty, 1)]
+    unreached = set(_unreached(given, tables, [speed for speed, _ in parts]))
     for worm_speed, place in parts:
+        if worm_speed not in unreached:
+            continue
         members: tuple[tuple[Literal["wheel", "worm"], Real], ...] = (
             ("wheel", worm_speed / given.gear_ratio),
             ("worm", worm_speed),
