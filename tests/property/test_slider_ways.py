@@ -320,7 +320,7 @@ def check_finer_steps(seed, count, folder, method, **options):
 
 
 def test_a_finer_step_changes_no_second_digit_of_a_few_bodies(tmp_path):
-    assert check_finer_steps(8, 4, tmp_path, "periodic", pressed=False) >= 2
+    assert check_finer_steps(8, 3, tmp_path, "periodic", pressed=False) >= 2
 
 
 @pytest.mark.slow
