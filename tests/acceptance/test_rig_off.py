@@ -311,7 +311,7 @@ def set_fault(rig, key, fault):
     ("key", "fault"),
     [
         *(slow("scope", one) for one in (*FAULTS[:5], "stuck at a value")),
-        *(slow("vibration", one) for one in FAULTS[:-1]),
+        *(slow("vibration", one) for one in FAULTS),
         *(slow("steel", one) for one in (*FAULTS, "stuck at a value")),
     ],
 )

@@ -100,7 +100,7 @@ class _Server(RigServer):
             self._mended.wait(seconds or None)
         if kind in ("stuck on", "welded") and verb in ("off", "safe"):
             return None
-        if kind == "welded" and verb == "output":
+        if kind == "welded" and verb in ("output", "vibrates"):
             return False
         if kind == "stuck at a value" and verb == "reading":
             return Reading(1.0, 2.4)
@@ -118,7 +118,7 @@ class StandingRig:
     """A rig of a case in a process of its own.
 
     ``fault(key, kind)`` is one of absent, silent, garbling, late (by seconds), stuck on, welded
-    (off by its state, on by its current) and stuck at a value, until ``sound()``; while it is held
+    (off by its state, on by its current or its signal) and stuck at a value, until ``sound()``; while it is held
     its time stands still as long as it vibrates. ``left(True)`` has it stand as in the beginning.
     ``lost()`` tells how long others had its processor so far, s.
     """

@@ -11,6 +11,7 @@ import time
 import pytest
 
 from asperity.errors import InputError, StorageError
+from asperity.tribometer.guardian import guardian as guardians
 from asperity.tribometer.guardian import switching
 from asperity.tribometer.guardian.guardian import Guardian
 from asperity.tribometer.guardian.journal import Journal
@@ -240,6 +241,47 @@ def test_one_that_is_late_is_a_fault_and_proven_when_it_answers(made):
     assert one.leave() == 0
 
 
+@pytest.mark.parametrize("lives", [True, False])
+def test_a_drive_that_is_heard_is_named_until_it_is_heard_to_be_still(made, monkeypatch, lives):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.1)
+    monkeypatch.setattr(guardians, "_ATTEMPTS", 1)
+    monkeypatch.setattr(guardians, "_ATTEMPT", 0.1)
+    one = made(limit=0.2)
+    one.begin()
+    one.on()
+    # It says that it is off, and goes on.
+    one.fakes["vibration"].fault, one.fakes[LISTENER].fault = "welded", "heard"
+    if lives:
+        one.guardian.signal(15)
+        one.hears("tripped")
+        (named,) = one.ask("guardian", "off", "asked", True)["gave"]["still_on"]
+        assert named == "vibration: its state is off, its signal moves"
+        # By then it has been tried again, and nobody has listened.
+        time.sleep(0.5)
+        assert one.guardian._last.still_on
+    assert one.leave() == 4
+    assert not any("read back to be off" in line for line in one.said)
+    assert "its signal moves" in one.guardian._last.still_on[0]
+
+
+def test_a_drive_that_is_heard_to_be_still_at_last_is_off(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.1)
+    one = made(limit=0.2)
+    one.begin()
+    one.on()
+    one.fakes["vibration"].fault, one.fakes[LISTENER].fault = "welded", "heard"
+    listened = one.fakes[LISTENER].told.count
+    threading.Thread(
+        target=lambda: (
+            [time.sleep(0.01) for _ in iter(lambda: listened((LISTENER, "moves")) > 2, True)],
+            setattr(one.fakes[LISTENER], "fault", ""),
+        ),
+        daemon=True,
+    ).start()
+    assert one.leave() == 0
+    assert "its signal is still" in one.guardian._last.line()["read_back"]["vibration"]
+
+
 def test_a_drive_is_proven_still_by_what_is_known_of_it():
     silent = InstrumentError("no answer")
     unpowered = off.Off("amplifier", True, "0 A")
@@ -251,6 +293,9 @@ def test_a_drive_is_proven_still_by_what_is_known_of_it():
         (None, True, unpowered, False),
     ):  # fmt: skip
         assert off.drive_off("drive", state, moves, amplifier).proven == proven
+        # One that was heard is taken back by listening alone.
+        found = off.drive_off("drive", state, moves, amplifier, moved=True)
+        assert found.proven == (proven and moves is False)
 
 
 def test_a_supply_is_proven_off_by_its_state_and_what_it_measures():

@@ -288,12 +288,12 @@ class Guardian:
                     self._say(f"{self._relay.name} could not be told to cut the power: {error}")
             self._say(f"NOT READ BACK TO BE OFF: {'; '.join(named)}. SWITCH IT OFF BY HAND.")
 
-    def _again(self) -> None:
-        """Try once more what was not read back to be off."""
+    def _again(self, *, listen: bool = False) -> None:
+        """Try once more what was not read back to be off; with nobody there it may listen."""
         assert self._last is not None
         before = self._last.still_on
         # Shortly: who asks meanwhile is not to wait long.
-        found = self._switching.off(self._last.why, self._now(), limit=_ATTEMPT, listen=False)
+        found = self._switching.off(self._last.why, self._now(), limit=_ATTEMPT, listen=listen)
         self._tried = self._now()
         if found.still_on == before:
             return
@@ -319,7 +319,7 @@ class Guardian:
             if self._last is None or not self._last.still_on:
                 break
             time.sleep(_AGAIN)
-            self._again()
+            self._again(listen=True)
         still = self._last.still_on if self._last is not None else []
         if not still:
             names = ", ".join(one.name for one in found.found)

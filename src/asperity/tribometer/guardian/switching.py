@@ -55,6 +55,7 @@ class Switching:
         self._by_hand = by_hand
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
+        self._moved = False  # as it was heard last
 
     def off(
         self,
@@ -100,6 +101,8 @@ class Switching:
             answered = [key for key, future in asked.items() if future.done()]
             # Of what was asked again, what it answered last.
             known |= {key: _told(asked[key]) for key in answered}
+            if isinstance(known.get(LISTENER), bool):
+                self._moved = known[LISTENER]
             found = self._found(asked, known)
             proven = all(one.proven for one in found)
             if proven and (not listens or LISTENER in known):
@@ -172,8 +175,9 @@ class Switching:
         elif "vibration" in asked:
             moves = found.get(LISTENER)
             made["vibration"] = off.drive_off(
-                self._of_vibration(), found["vibration"], moves, made.get("amplifier")
-            )
+                self._of_vibration(), found["vibration"], moves, made.get("amplifier"),
+                moved=self._moved,
+            )  # fmt: skip
         return [made[key] for stage in STAGES for key in stage if key in made]
 
     def _hopeless(self, found: Iterable[Off]) -> bool:

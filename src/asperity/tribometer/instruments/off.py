@@ -90,6 +90,8 @@ def drive_off(
     state: bool | Exception | None,
     moves: bool | Exception | None,
     amplifier: Off | None = None,
+    *,
+    moved: bool = False,
 ) -> Off:
     """Judge what was read back of a drive.
 
@@ -103,6 +105,8 @@ def drive_off(
         Whether the drive signal is heard; None: nobody listens.
     amplifier : Off, optional
         What was found of its amplifier's supply.
+    moved : bool
+        Whether it moved when it was heard last, which nothing but listening takes back.
     """
     told = []
     if isinstance(state, Exception):
@@ -113,6 +117,9 @@ def drive_off(
         told.append(f"its signal is not heard: {said(moves)}")
     elif moves is not None:
         told.append(f"its signal {'moves' if moves else 'is still'}")
+    if moved and not isinstance(moves, bool):
+        told.append("its signal moved when it was heard last")
+        return Off(name, False, ", ".join(told))
     if state is True or moves is True:
         return Off(name, False, ", ".join(told))
     if state is False or moves is False:
