@@ -118,8 +118,9 @@ class StandingRig:
     """A rig of a case in a process of its own.
 
     ``fault(key, kind)`` is one of absent, silent, garbling, late (by seconds), stuck on, welded
-    (off by its state, on by its current or its signal) and stuck at a value, until ``sound()``; while it is held
-    its time stands still as long as it vibrates. ``left(True)`` has it stand as in the beginning.
+    (off by its state, on by its current or its signal) and stuck at a value, until ``sound()``;
+    while it is held its time stands still as long as it vibrates. ``left(True)`` has it stand as in
+    the beginning.
     ``lost()`` tells how long others had its processor so far, s.
     """
 

@@ -222,13 +222,73 @@ def test_what_is_not_proven_off_is_named_and_the_others_are_off(made, fault, sai
     one.on()
     one.fakes["steel"].fault = fault
     one.guardian.signal(15)
-    (named,) = one.hears("tripped")["still_on"]
+    named, lamp = one.hears("tripped")["still_on"]
     assert named.startswith("steel: ")
+    assert lamp == "lamp: nobody was asked yet to switch it off"
     assert said in named
     assert not any(one.fakes[key].on_ for key in KEYS if key != "steel")
     assert "SWITCH IT OFF BY HAND" in one.said[-1]
     assert one.leave() == 4
     assert "lamp: nobody was asked to switch it off" in one.said[-1]
+
+
+@pytest.mark.parametrize("way", ["hangs", "stop", "signal"])
+def test_what_a_person_switches_is_named_whenever_nobody_was_asked(made, way):
+    dog = Watchdog()
+    one = made(patience=0.2 if way == "hangs" else 60.0, by_hand=("lamp",), relay=dog)
+    began = one.begin()["gave"]
+    # There the procedure asks; nothing is known of it.
+    assert "still_on" not in began
+    assert began["by_hand"] == ["lamp"]
+    one.on()
+    if way == "stop":
+        one.guardian.stop()
+    if way == "signal":
+        one.guardian.signal(15)
+    (named,) = one.hears("tripped")["still_on"]
+    assert named.startswith("lamp: nobody was asked")
+    assert ("yet" in named) == (way != "hangs")
+    assert "lamp: nobody" in one.said[-1]
+    # Cut off, the others would not answer when a person has been asked.
+    assert dog.opened == (way == "hangs")
+    if way == "signal":
+        asked = one.ask("guardian", "off", "the procedure asks", True)["gave"]
+        assert (asked.get("still_on"), asked["by_hand"]) == (None, ["lamp"])
+        one.ask("guardian", "goodbye")
+    # Of those no other attempt makes anything else, and the end says so.
+    assert one.leave() == (0 if way == "signal" else 4)
+    assert not any("at last" in line for line in one.said)
+
+
+def test_where_nothing_is_owned_nothing_is_said_to_be_off():
+    found = switching.Switching([], ("lamp", "fan")).off(
+        "signal SIGTERM", time.monotonic(), listen=False, unasked="nobody was asked"
+    )
+    assert found.still_on == ["lamp: nobody was asked", "fan: nobody was asked"]
+    assert found.line()["read_back"] == {}
+
+
+def test_the_time_that_is_said_is_from_the_first_event_to_the_last_answer(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.1)
+    monkeypatch.setattr(guardians, "_ATTEMPT", 0.1)
+    one = made(limit=0.2)
+    one.begin()
+    one.on()
+    steel = one.fakes["steel"]
+    steel.fault = "stuck on"
+    begun = time.monotonic()
+    one.guardian.signal(15)
+    one.hears("tripped")
+    time.sleep(0.5)
+    steel.fault, mended = "", time.monotonic()
+    while one.guardian._last.still_on:
+        time.sleep(0.01)
+    line = one.guardian._last.line()
+    assert mended - begun <= line["off_s"]["steel"] <= line["took_s"] <= time.monotonic() - begun
+    assert line["off_s"]["amplifier"] < 0.3 < line["off_s"]["steel"]
+    assert one.leave() == 0
+    seconds = float(one.said[-1].partition("within ")[2].partition(" s")[0])
+    assert seconds == pytest.approx(line["took_s"], rel=0.06)
 
 
 def test_one_that_is_late_is_a_fault_and_proven_when_it_answers(made):

@@ -32,6 +32,8 @@ _ATTEMPTS = 10  # of these, when the procedure has ended
 _WRITTEN = 60.0  # s that the end waits for the journal and for recordings
 _CLOSED = 0.5  # s that it waits for a device to be let go of
 _STOPPED = "somebody asks for a stop"
+_NOT_YET = "nobody was asked yet to switch it off"
+_NOBODY = "nobody was asked to switch it off"
 
 
 @dataclasses.dataclass
@@ -80,6 +82,7 @@ class Guardian:
         now: Callable[[], float] = time.monotonic,
     ) -> None:
         self._devices = devices
+        self._by_hand = frozenset(by_hand)
         self._wire = wire
         self._patience, self._deadline = patience, deadline
         self._say = say
@@ -92,8 +95,10 @@ class Guardian:
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._awaited: dict[cf.Future[Any], _Asked] = {}
         self._on: set[str] = set()
-        self._tripped = ""
+        self._tripped, self._unasked = "", ""
         self._kind = SWITCHED_OFF
+        self._event = now()  # that it was tripped by
+        self._proven: float | None = None  # when all was read back, since then
         self._heard = self._looked = self._tried = now()
         self._stop_button = StopButton(self.stop)
         self._writing = Writing(self._stop_button.watch)
@@ -149,11 +154,12 @@ class Guardian:
         """See that nothing is late."""
         now = self._now()
         if self._tripped:
-            if self._last is not None and self._last.still_on and now - self._tried > _AGAIN:
+            if now - self._tried > _AGAIN:
                 self._again()
             return
         if self._on and now - self._heard > self._patience:
-            self._trip(f"the procedure has said nothing for {now - self._heard:.2g} s", self._heard)
+            silent = f"the procedure has said nothing for {now - self._heard:.2g} s"
+            self._trip(silent, self._heard, unasked=_NOBODY)
             return
         for future, asked in list(self._awaited.items()):
             if now - asked.since > self._deadline and not future.done():
@@ -250,16 +256,19 @@ class Guardian:
             self._send(wires.failed(asked.number, error))
         self._trip(str(error), event)
 
-    def _trip(self, why: str, event: float, kind: str = SWITCHED_OFF) -> None:
+    def _trip(
+        self, why: str, event: float, kind: str = SWITCHED_OFF, unasked: str = _NOT_YET
+    ) -> None:
         """Switch everything off, for good."""
         if self._tripped:
             return
         self._tripped, self._kind = why, kind
-        found = self._off(why, event, listen=False)
+        self._event, self._proven = event, None
+        found = self._off(why, event, listen=False, unasked=unasked)
         self._send({"tripped": why, "kind": kind, "still_on": found.still_on})
 
     def _off(
-        self, why: str, event: float, *, listen: bool, alone: bool = False, last: bool = True
+        self, why: str, event: float, *, listen: bool, unasked: str = "", last: bool = True
     ) -> Verdict:
         """Switch everything off; ``last``: nobody will listen afterwards."""
         for future, asked in self._awaited.items():
@@ -270,61 +279,81 @@ class Guardian:
             elif asked.number:
                 self._send(wires.failed(asked.number, self._off_already()))
         self._awaited.clear()
-        found = self._switching.off(why, event, listen=listen, alone=alone)
+        self._unasked = unasked
+        found = self._switching.off(why, event, listen=listen, unasked=unasked)
         self._told(found, last=last)
         self._on.clear()
         return found
 
     def _told(self, found: Verdict, *, last: bool) -> None:
         """Write down what was found, and tell a person what has to be switched off by hand."""
-        self._last, self._tried = found, self._now()
-        self._writing.verdict(found)
-        named = [str(one) for one in found.found if not one.proven and (last or not one.unheard)]
+        self._note(found)
+        named = [one for one in found.found if not one.proven and (last or not one.unheard)]
         if named:
-            if self._relay is not None:
+            # Without power nothing answers; a procedure that lives has yet to ask, and to read.
+            waits = self._unasked == _NOT_YET and all(one.name in self._by_hand for one in named)
+            if self._relay is not None and not waits:
                 try:
                     self._relay.open()
                 except Exception as error:
                     self._say(f"{self._relay.name} could not be told to cut the power: {error}")
-            self._say(f"NOT READ BACK TO BE OFF: {'; '.join(named)}. SWITCH IT OFF BY HAND.")
+            self._say(
+                f"NOT READ BACK TO BE OFF: {'; '.join(map(str, named))}. SWITCH IT OFF BY HAND."
+            )
 
-    def _again(self, *, listen: bool = False) -> None:
-        """Try once more what was not read back to be off; with nobody there it may listen."""
-        assert self._last is not None
-        before = self._last.still_on
-        # Shortly: who asks meanwhile is not to wait long.
-        found = self._switching.off(self._last.why, self._now(), limit=_ATTEMPT, listen=listen)
-        self._tried = self._now()
-        if found.still_on == before:
-            return
-        self._last = found
+    def _note(self, found: Verdict) -> None:
+        """Write a verdict down, and when there was nothing more that was not read back."""
+        self._last, self._tried = found, self._now()
         self._writing.verdict(found)
-        if not found.still_on:
-            self._say(f"read back to be off at last: {', '.join(one.name for one in found.found)}")
+        if found.still_on:
+            self._proven = None
+        elif self._proven is None:
+            self._proven = found.event + found.seconds
+
+    def _again(self, *, listen: bool = False) -> bool:
+        """Try once more what was not read back to be off; with nobody there it may listen.
+
+        Returns whether there was any: of what a person switches nothing can be read back.
+        """
+        last, self._tried = self._last, self._now()
+        if last is None or all(one.proven or one.name in self._by_hand for one in last.found):
+            return False
+        # Shortly: who asks meanwhile is not to wait long.
+        found = self._switching.off(
+            last.why, self._now(), limit=_ATTEMPT, listen=listen, unasked=self._unasked
+        ).since(self._event, last)
+        self._tried = self._now()
+        if found.still_on != last.still_on:
+            self._note(found)
+            if not found.still_on:
+                self._say(f"read back to be off at last: {found.names}")
+        return True
 
     def _end(self, came: float) -> None:
         """Leave, everything off: the procedure is there no more."""
         if self._orderly and self._last is not None and not self._on:
             self._left = 4 if self._last.still_on else 0
             return
-        why = self._tripped or "the procedure has ended without a word"
-        self._tripped = why
-        found = self._off(why, came, listen=False, alone=True, last=LISTENER not in self._of)
-        seconds = found.seconds
+        if not self._tripped:
+            self._event, self._proven = came, None
+        why = self._tripped = self._tripped or "the procedure has ended without a word"
+        found = self._off(why, came, listen=False, unasked=_NOBODY, last=LISTENER not in self._of)
         if LISTENER in self._of:
             heard = f"{why}, and the drive signal is heard"
-            found = self._off(heard, self._now(), listen=True, alone=True)
+            found = self._off(heard, self._now(), listen=True, unasked=_NOBODY)
         self._writing.end(why, found)
         for _ in range(_ATTEMPTS if any(self._of) else 0):
             if self._last is None or not self._last.still_on:
                 break
             time.sleep(_AGAIN)
-            self._again(listen=True)
-        still = self._last.still_on if self._last is not None else []
-        if not still:
-            names = ", ".join(one.name for one in found.found)
-            self._say(f"{why}; read back to be off within {seconds:.2g} s: {names}")
-        self._left = 4 if still else 0
+            if not self._again(listen=True):
+                break
+        if self._last is None or self._last.still_on or self._proven is None:
+            self._left = 4
+            return
+        seconds = self._proven - self._event
+        self._say(f"{why}; read back to be off within {seconds:.2g} s: {self._last.names}")
+        self._left = 0
 
     def _close(self) -> None:
         """Let go of everything; what does not let go is left."""

@@ -86,6 +86,8 @@ class Verdict:
         Of each output.
     answered : mapping of str to float
         When what proves each to be off had come, s after the event.
+    asked : tuple of str
+        Outputs that a person is asked to switch off, by the procedure; nothing is known of them.
     """
 
     why: str
@@ -93,11 +95,26 @@ class Verdict:
     seconds: float
     found: tuple[Off, ...]
     answered: Mapping[str, float] = dataclasses.field(default_factory=dict)
+    asked: tuple[str, ...] = ()
 
     @property
     def still_on(self) -> list[str]:
         """What was not read back to be off, and why."""
         return [str(one) for one in self.found if not one.proven]
+
+    @property
+    def names(self) -> str:
+        """What was read back to be off, or named."""
+        return ", ".join(one.name for one in self.found) or "nothing, for none of it is owned"
+
+    def since(self, event: float, before: "Verdict") -> "Verdict":
+        """Return it with times since an earlier event; what was off before was off by then."""
+        answered = {name: at + self.event - event for name, at in self.answered.items()}
+        for one in before.found:
+            if one.proven and one.name in before.answered:
+                answered[one.name] = before.answered[one.name] + before.event - event
+        seconds = self.seconds + self.event - event
+        return dataclasses.replace(self, event=event, seconds=seconds, answered=answered)
 
     def line(self) -> dict[str, Any]:
         """Return it for a journal."""
@@ -111,4 +128,5 @@ class Verdict:
                 for one in self.found if one.proven and one.name in self.answered
             },
         }  # fmt: skip
+        told |= {"by_hand": list(self.asked)} if self.asked else {}
         return told | ({"still_on": self.still_on} if self.still_on else {})

@@ -64,7 +64,7 @@ class Switching:
         *,
         limit: float | None = None,
         listen: bool,
-        alone: bool = False,
+        unasked: str = "",
     ) -> Verdict:
         """Switch everything off, and read back that it is.
 
@@ -78,8 +78,9 @@ class Switching:
             Another time than usual, s.
         listen : bool
             Whether the drive signal may be listened to: nobody else uses the oscilloscope.
-        alone : bool
-            Whether nobody is there who would ask a person.
+        unasked : str
+            Why no person has been asked to switch off what only a person can; none, where the
+            procedure asks.
         """
         end = self._now() + (self._limit if limit is None else limit)
         safes: dict[str, cf.Future[Any]] = {}
@@ -116,15 +117,16 @@ class Switching:
                 [one for one in asked.values() if not one.done()],
                 timeout=max(0.0, min(_AGAIN, end - self._now())),
             )
-        if alone:
-            found += [
-                Off(name, False, "nobody was asked to switch it off") for name in self._by_hand
-            ]
+        if unasked:
+            found += [Off(name, False, unasked) for name in self._by_hand]
         named: dict[str, float] = {}
         # More may come meanwhile.
         for key, at in dict(came).items():
             named[self._named(key)] = max(at - event, named.get(self._named(key), 0.0))
-        return Verdict(why, event, self._now() - event, tuple(found), named)
+        return Verdict(
+            why, event, self._now() - event, tuple(found), named,
+            () if unasked else tuple(self._by_hand),
+        )  # fmt: skip
 
     def _safe(self, key: str) -> "cf.Future[Any]":
         return self._of[key].begin(key, lambda one: one.safe())

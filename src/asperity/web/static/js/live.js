@@ -50,6 +50,7 @@ function Run({ run, look, lost }) {
   };
   const told = !runs ? `${ended?.kind ?? state}${ended?.reason ? `: ${ended.reason}` : ""}`
     : off?.still_on ? "not all of it was read back to be off"
+    : off?.by_hand ? "a person is asked to switch off what only a person can"
     : off ? "read back to be off; the procedure has yet to end"
     : age > HANGS && asks ? "it waits for a person at the rig"
     : age > HANGS ? `nothing new for ${age.toFixed(0)} s: it may hang; stop works all the same` : "it goes on";
@@ -71,10 +72,13 @@ function Run({ run, look, lost }) {
 /** What the guardian read back when it switched off. */
 function Verdict({ off }) {
   if (!off) return null;
-  const [still, took] = [off.still_on ?? [], Math.ceil(100 * off.took_s) / 100];
+  const [still, hand, took] = [off.still_on ?? [], off.by_hand ?? [], Math.ceil(100 * off.took_s) / 100];
+  const read = Object.keys(off.read_back ?? {}).length > 0;
   return still.length ? html`<p class="fault" role="alert">✗ Not read back to be off: ${still.join("; ")}.
       Switch it off by hand.</p>`
-    : html`<p class="good">✓ Read back to be off within ${took.toFixed(2)} s: ${off.why}.</p>`;
+    : html`${read ? html`<p class="good">✓ Read back to be off within ${took.toFixed(2)} s: ${off.why}.</p>` : null}
+      ${hand.length ? html`<p class="fault">Nothing reads back, and a person is asked to switch off: ${hand.join("; ")}.</p>`
+        : read ? null : html`<p class="fault">✗ Nothing was read back: ${off.why}.</p>`}`;
 }
 
 /** What each output was told, by the guardian at last, and what was read back of it. */
