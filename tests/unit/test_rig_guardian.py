@@ -217,7 +217,7 @@ def test_whatever_ends_it_everything_is_off(made, way):
 )  # fmt: skip
 def test_what_is_not_proven_off_is_named_and_the_others_are_off(made, fault, said, monkeypatch):
     monkeypatch.setattr("asperity.tribometer.guardian.guardian._ATTEMPTS", 0)
-    one = made(limit=1.0, by_hand=("lamp",))
+    one = made(limit=0.5, by_hand=("lamp",))
     one.begin()
     one.on()
     one.fakes["steel"].fault = fault
@@ -289,6 +289,74 @@ def test_the_time_that_is_said_is_from_the_first_event_to_the_last_answer(made, 
     assert one.leave() == 0
     seconds = float(one.said[-1].partition("within ")[2].partition(" s")[0])
     assert seconds == pytest.approx(line["took_s"], rel=0.06)
+
+
+def fails(monkeypatch, one, times, error=RuntimeError):
+    """Let switching off fail by a fault of its own."""
+    real, left = one.guardian._switching.off, [times]
+
+    def off_(*given, **options):
+        if left[0]:
+            left[0] -= 1
+            raise error("a fault in switching off")
+        return real(*given, **options)
+
+    monkeypatch.setattr(one.guardian._switching, "off", off_)
+
+
+@pytest.mark.parametrize("error", [RuntimeError, InstrumentError])
+@pytest.mark.parametrize("way", ["signal", "end", "asked"])
+@pytest.mark.parametrize("times", [1, 5])
+def test_a_fault_of_ours_in_switching_off_leaves_nothing_on(made, monkeypatch, error, way, times):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.05)
+    dog = Watchdog()
+    one = made(relay=dog)
+    one.begin()
+    one.on()
+    fails(monkeypatch, one, times, error)
+    if way == "signal":
+        one.guardian.signal(15)
+    if way == "asked":
+        one.wire.send({"to": "guardian", "do": "off", "with": ("asked", False), "n": 77})
+    if way != "end":
+        assert one.hears("tripped")["still_on"] == []
+        assert dog.opened == (times > 3)
+    assert one.leave() == 0
+    assert not any(one.fakes[key].on_ for key in KEYS)
+    # Three times at once; then all are named, and it is tried again.
+    named = [line for line in one.said if "NOT READ BACK" in line]
+    assert len(named) == (times > 3)
+    assert all(f"{key}: switching off has failed" in named[0] for key in KEYS if named)
+
+
+def test_where_switching_off_always_fails_all_are_named_and_the_power_is_cut(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.01)
+    dog = Watchdog()
+    one = made(relay=dog, by_hand=("lamp",))
+    one.begin()
+    fails(monkeypatch, one, 1000)
+    assert one.leave() == 4
+    assert all(f"{key}: switching off has failed" in one.said[-1] for key in (*KEYS, "lamp"))
+
+
+def test_a_guardian_whose_first_act_fails_switches_off_all_the_same(made, monkeypatch):
+    one = made()
+    fails(monkeypatch, one, 2)
+    assert set(one.begin()["gave"]["read_back"]) == set(KEYS)
+    assert (
+        one.guardian._tripped == "a fault of the guardian: RuntimeError: a fault in switching off"
+    )
+    assert one.leave() == 0
+
+
+def test_what_is_absent_keeps_nobody_from_listening(made):
+    one = made(absent=("steel",))
+    one.fakes["vibration"].fault, one.fakes[LISTENER].fault = "welded", "heard"
+    # Its answer comes after the others have told that no more is to be had of them.
+    never, moves = threading.Event(), one.fakes[LISTENER].moves
+    one.fakes[LISTENER].moves = lambda: (never.wait(0.2), moves())[1]
+    found = one.guardian._switching.off("tried", time.monotonic(), limit=0.5, listen=True)
+    assert "vibration: its state is off, its signal moves" in found.still_on
 
 
 def test_one_that_is_late_is_a_fault_and_proven_when_it_answers(made):

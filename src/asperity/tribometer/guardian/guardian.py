@@ -7,16 +7,16 @@ next heartbeat is due.
 
 import concurrent.futures as cf
 import contextlib
-import dataclasses
 import queue
 import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from asperity.tribometer.guardian import wire as wires
-from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
+from asperity.tribometer.guardian.alarm import Alarm
+from asperity.tribometer.guardian.owned import LISTENER, Asked, Device, Verdict, unproven
 from asperity.tribometer.guardian.relay import Relay
-from asperity.tribometer.guardian.stop import StopButton
+from asperity.tribometer.guardian.stop import StopButton, named
 from asperity.tribometer.guardian.switching import Switching, longest
 from asperity.tribometer.guardian.wire import Head, Wire
 from asperity.tribometer.guardian.writing import Writing
@@ -28,21 +28,13 @@ _OPENING = 20.0  # s that a device may take at the start
 _POLLED = 0.5  # s between two looks at a supply that is on
 _AGAIN = 1.0  # s between two attempts at what was not read back
 _ATTEMPT = 0.5  # s that one of these takes
+_TRIES = 3  # at switching off where it fails itself
 _ATTEMPTS = 10  # of these, when the procedure has ended
 _WRITTEN = 60.0  # s that the end waits for the journal and for recordings
 _CLOSED = 0.5  # s that it waits for a device to be let go of
 _STOPPED = "somebody asks for a stop"
 _NOT_YET = "nobody was asked yet to switch it off"
 _NOBODY = "nobody was asked to switch it off"
-
-
-@dataclasses.dataclass
-class _Asked:
-    """A request whose answer is awaited; ``number`` is 0 where nobody waits for it."""
-
-    number: int
-    what: str
-    since: float
 
 
 class Guardian:
@@ -86,19 +78,22 @@ class Guardian:
         self._wire = wire
         self._patience, self._deadline = patience, deadline
         self._say = say
-        self._relay, self._trouble = relay, trouble
+        self._alarm, self._trouble = Alarm(say, relay), trouble
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
         self._switching = Switching(
             devices, by_hand, limit=longest(deadline), now=now, tick=self._tick
         )
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
-        self._awaited: dict[cf.Future[Any], _Asked] = {}
+        self._awaited: dict[cf.Future[Any], Asked] = {}
         self._on: set[str] = set()
         self._tripped, self._unasked = "", ""
         self._kind = SWITCHED_OFF
         self._event = now()  # that it was tripped by
         self._proven: float | None = None  # when all was read back, since then
+        self._switched = True  # whether that has had everything told to be off
+        self._deserted: float | None = None
+        self._failures = 0
         self._heard = self._looked = self._tried = now()
         self._stop_button = StopButton(self.stop)
         self._writing = Writing(self._stop_button.watch)
@@ -109,7 +104,7 @@ class Guardian:
     def signal(self, number: int) -> None:
         """Take a signal, as often as it comes; may be called from its handler."""
         came = self._now()
-        self._events.put(lambda: self._trip(f"signal {_named(number)}", came))
+        self._events.put(lambda: self._trip(f"signal {named(number)}", came))
 
     def stop(self) -> None:
         """Take that somebody asks for an end; may be called from any thread."""
@@ -128,19 +123,47 @@ class Guardian:
 
     def work(self) -> int:
         """Make everything safe, then guard until the procedure has ended; returns an exit code."""
-        self._last = self._switching.off("start", self._now(), limit=_OPENING, listen=True)
-        self._writing.verdict(self._last)
+        try:
+            self._last = self._switching.off("start", self._now(), limit=_OPENING, listen=True)
+            self._writing.verdict(self._last)
+        except Exception as error:
+            self._failed(error)
         while self._left is None:
             try:
                 self._next()
                 self._look()
-            except InstrumentError as error:
-                self._trip(str(error), self._now())
             except Exception as error:
-                # Of ours: whatever it is, nothing is to stay on.
-                self._trip(f"a fault of the guardian: {said(error)}", self._now())
+                self._failed(error)
         self._close()
         return self._left
+
+    def _failed(self, error: Exception) -> None:
+        """Switch off after an error; where that fails itself, cut the power and name all."""
+        # Of ours: whatever it is, nothing is to stay on.
+        ours = "" if isinstance(error, InstrumentError) else "a fault of the guardian: "
+        for _ in range(_TRIES):
+            try:
+                self._trip(f"{ours}{said(error)}", self._now())
+            except Exception as again:
+                error = again
+            if self._switched:
+                break
+        else:
+            self._name_all(error)
+        if self._deserted is not None:
+            # Nothing else would end it.
+            self._failures += 1
+            time.sleep(_AGAIN)
+            self.deserted()
+            if self._failures >= _ATTEMPTS:
+                self._name_all(error)
+                self._left = 4
+
+    def _name_all(self, error: Exception) -> None:
+        names = *(self._called(key) for key in self._of if key != LISTENER), *self._by_hand
+        after = self._now() - self._event
+        with contextlib.suppress(Exception):
+            self._told(unproven(self._tripped, self._event, after, names, said(error)), last=True)
 
     def _next(self) -> None:
         """Take what has come."""
@@ -155,7 +178,7 @@ class Guardian:
         now = self._now()
         if self._tripped:
             if now - self._tried > _AGAIN:
-                self._again()
+                self._again() if self._switched else self._trip(self._tripped, self._event)
             return
         if self._on and now - self._heard > self._patience:
             silent = f"the procedure has said nothing for {now - self._heard:.2g} s"
@@ -182,8 +205,8 @@ class Guardian:
 
     def _pulse(self) -> None:
         """Show a watchdog that somebody is there, as long as nothing has been found wrong."""
-        if self._relay is not None and not self._tripped:
-            self._relay.pulse()
+        if not self._tripped:
+            self._alarm.pulse()
 
     def _tick(self) -> None:
         # Switching off goes on without a relay; whoever looks next finds that it is lost.
@@ -230,7 +253,7 @@ class Guardian:
             self._send({"n": number, "gave": None})
 
     def _begin(self, number: int, key: str, act: Callable[[Any], Any]) -> None:
-        asked = _Asked(number, self._called(key), self._now())
+        asked = Asked(number, self._called(key), self._now())
         future = self._of[key].begin(key, act)
         self._awaited[future] = asked
 
@@ -250,7 +273,7 @@ class Guardian:
         elif asked.number:
             self._send(wires.answered(asked.number, future.result)[0])
 
-    def _fault(self, asked: _Asked, error: BaseException, event: float) -> None:
+    def _fault(self, asked: Asked, error: BaseException, event: float) -> None:
         """Tell of an instrument that is late or lost, and switch off."""
         if asked.number:
             self._send(wires.failed(asked.number, error))
@@ -260,11 +283,15 @@ class Guardian:
         self, why: str, event: float, kind: str = SWITCHED_OFF, unasked: str = _NOT_YET
     ) -> None:
         """Switch everything off, for good."""
-        if self._tripped:
+        if self._tripped and self._switched:
             return
-        self._tripped, self._kind = why, kind
-        self._event, self._proven = event, None
+        if not self._tripped:
+            self._tripped, self._kind = why, kind
+            self._event, self._proven = event, None
+        why, event = self._tripped, self._event
+        self._tried, self._switched = self._now(), False
         found = self._off(why, event, listen=False, unasked=unasked)
+        self._switched = True
         self._send({"tripped": why, "kind": kind, "still_on": found.still_on})
 
     def _off(
@@ -288,18 +315,10 @@ class Guardian:
     def _told(self, found: Verdict, *, last: bool) -> None:
         """Write down what was found, and tell a person what has to be switched off by hand."""
         self._note(found)
-        named = [one for one in found.found if not one.proven and (last or not one.unheard)]
-        if named:
-            # Without power nothing answers; a procedure that lives has yet to ask, and to read.
-            waits = self._unasked == _NOT_YET and all(one.name in self._by_hand for one in named)
-            if self._relay is not None and not waits:
-                try:
-                    self._relay.open()
-                except Exception as error:
-                    self._say(f"{self._relay.name} could not be told to cut the power: {error}")
-            self._say(
-                f"NOT READ BACK TO BE OFF: {'; '.join(map(str, named))}. SWITCH IT OFF BY HAND."
-            )
+        unread = [one for one in found.found if not one.proven and (last or not one.unheard)]
+        # Without power nothing answers; a procedure that lives has yet to ask, and to read.
+        waits = self._unasked == _NOT_YET and all(one.name in self._by_hand for one in unread)
+        self._alarm.name(unread, cut=not waits)
 
     def _note(self, found: Verdict) -> None:
         """Write a verdict down, and when there was nothing more that was not read back."""
@@ -330,14 +349,17 @@ class Guardian:
         return True
 
     def _end(self, came: float) -> None:
-        """Leave, everything off: the procedure is there no more."""
+        """Leave, everything off."""
+        self._deserted = came
         if self._orderly and self._last is not None and not self._on:
             self._left = 4 if self._last.still_on else 0
             return
         if not self._tripped:
             self._event, self._proven = came, None
         why = self._tripped = self._tripped or "the procedure has ended without a word"
+        self._switched = False
         found = self._off(why, came, listen=False, unasked=_NOBODY, last=LISTENER not in self._of)
+        self._switched = True
         if LISTENER in self._of:
             heard = f"{why}, and the drive signal is heard"
             found = self._off(heard, self._now(), listen=True, unasked=_NOBODY)
@@ -361,8 +383,7 @@ class Guardian:
         written = self._writing.all_written()
         cf.wait([device.close() for device in self._devices], timeout=_CLOSED)
         cf.wait([written], timeout=_WRITTEN)
-        if self._relay is not None:
-            self._relay.close()
+        self._alarm.close()
 
     def _off_already(self) -> InstrumentError:
         return InstrumentError(
@@ -376,12 +397,3 @@ class Guardian:
         # Its end is read, and told, elsewhere.
         with contextlib.suppress(OSError, ValueError):
             self._wire.send(head)
-
-
-def _named(number: int) -> str:
-    import signal
-
-    try:
-        return signal.Signals(number).name
-    except ValueError:
-        return str(number)

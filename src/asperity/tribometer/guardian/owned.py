@@ -2,7 +2,7 @@
 
 import concurrent.futures as cf
 import dataclasses
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from asperity.tribometer.guardian.hand import Hand
@@ -71,6 +71,15 @@ class Device:
         return self._hand.begin(do)
 
 
+@dataclasses.dataclass
+class Asked:
+    """A request whose answer is awaited; ``number`` is 0 where nobody waits for it."""
+
+    number: int
+    what: str
+    since: float
+
+
 @dataclasses.dataclass(frozen=True)
 class Verdict:
     """What was read back when everything was switched off.
@@ -130,3 +139,9 @@ class Verdict:
         }  # fmt: skip
         told |= {"by_hand": list(self.asked)} if self.asked else {}
         return told | ({"still_on": self.still_on} if self.still_on else {})
+
+
+def unproven(why: str, event: float, seconds: float, names: Iterable[str], error: str) -> Verdict:
+    """Return what is known where switching off itself has failed: of nothing that it is off."""
+    found = tuple(Off(name, False, f"switching off has failed: {error}") for name in names)
+    return Verdict(why, event, seconds, found)

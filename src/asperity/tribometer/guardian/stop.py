@@ -1,7 +1,7 @@
-"""A stop button that is a file: who can write to a run's folder can have it switched off.
+"""Requests to stop: signals by name, and a button that is a file.
 
-The guardian looks for it, so that it works where the procedure hangs; in a thread of its own, since
-a disk may hang as well.
+Who can write to a run's folder can have it switched off. The guardian looks for the file, so that it works where
+the procedure hangs; in a thread of its own, since a disk may hang as well.
 """
 
 import contextlib
@@ -30,6 +30,16 @@ def press(folder: Path) -> None:
     # A link would lead to a file of somebody else.
     flags = os.O_WRONLY | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
     os.close(os.open(folder / NAME, flags, 0o644))
+
+
+def named(number: int) -> str:
+    """Return what a signal is called."""
+    import signal
+
+    try:
+        return signal.Signals(number).name
+    except ValueError:
+        return str(number)
 
 
 class StopButton:

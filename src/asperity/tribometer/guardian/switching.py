@@ -109,7 +109,10 @@ class Switching:
             if proven and (not listens or LISTENER in known):
                 break
             listening = LISTENER in asked and LISTENER not in known
-            if self._now() >= (patient if listening else end) or self._hopeless(found):
+            if self._now() >= (patient if listening else end):
+                break
+            # What it may hear is to be known whatever else is absent.
+            if self._hopeless(found) and (not listens or LISTENER in known):
                 break
             if not proven:
                 self._ask_again(asked, answered, found, came)
