@@ -12,6 +12,7 @@ from apparatus.grid import slow
 from apparatus.standing_rig import Procedure, StandingRig, lines_of, waited_for
 
 from asperity.tribometer.guardian import guard, stop, switching
+from asperity.tribometer.guardian.asked import AskedPerson
 from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure.interlock import Interlock
 
@@ -418,6 +419,46 @@ def test_a_procedure_that_hangs_is_switched_off_by_the_missing_heartbeat(
     assert procedure.ended() == 3
     assert "everything was told to be off: the procedure has said nothing" in procedure.said
     gone_on_with(begun, rig, tmp_path / "run", acknowledge="the disk was slow")
+
+
+@pytest.mark.slow
+def test_a_person_may_take_longer_than_the_patience_of_hardware(dials, tmp_path):
+    case = rigs.small_case(
+        'plan.modes=["transverse","longitudinal"]', 'plan.frequencies=["250 Hz"]',
+        f'guardian.patience="{LONG} s"', f'guardian.deadline="{LONG} s"',
+    )  # fmt: skip
+    asked = tmp_path / "asked"
+
+    def takes_long():
+        def long(act):
+            def done(self, *given):
+                with asked.open("a") as file:
+                    file.write(f"{given[0]}\n")
+                time.sleep(2 * PATIENCE)
+                return act(self, *given)
+
+            return done
+
+        for verb in ("do", "arrange", "read"):
+            setattr(AskedPerson, verb, long(getattr(AskedPerson, verb)))
+
+    rig = StandingRig(case)
+    dials.turn(patience=PATIENCE)
+    procedure = Procedure(case, tmp_path / "run", rig, dials=dials, before=takes_long)
+    try:
+        assert procedure.ended() == 0, procedure.said
+        procedure.gone()
+        assert len(rigs.cells(tmp_path / "run")) == 2
+        # Also between the two, when everything had been on.
+        lines = rigs.journal(tmp_path / "run")
+        cells = [line["line"] for line in lines if line["kind"] == "done" and "cell" in line]
+        between = [line for line in lines if cells[0] < line["line"] < cells[1]]
+        assert any("mode" in line for line in between if line["kind"] == "done")
+        assert len(asked.read_text().splitlines()) > 4
+        assert not OUTPUTS & set(rig.on())
+    finally:
+        procedure.end()
+        rig.close()
 
 
 @pytest.mark.slow

@@ -103,6 +103,10 @@ class GuardedBench(Bench):
         trouble = [found["trouble"]] if "trouble" in found else []
         return (*found.get("still_on", ()), *trouble, *self._by_hand())
 
+    def waiting(self) -> contextlib.AbstractContextManager[None]:
+        """Return what tells the guardian meanwhile that the procedure goes on."""
+        return self.guard.beating()
+
     def _scope_let_go(self) -> bool:
         try:
             self.scope.safe()

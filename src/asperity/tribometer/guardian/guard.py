@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -148,6 +148,24 @@ class Guard:
         self._look(self._limit)
         if error := self.switched_off():
             raise error
+
+    @contextlib.contextmanager
+    def beating(self) -> Iterator[None]:
+        """Tell that the procedure goes on while it waits for a person, everything off."""
+        left = threading.Event()
+        wire = self._wire
+
+        def beat() -> None:
+            # Whether the guardian is there is for whoever asks it next to find.
+            with contextlib.suppress(OSError, ValueError):
+                while not left.wait(BEAT):
+                    wire.send(_HERE)
+
+        threading.Thread(target=beat, name="beat", daemon=True).start()
+        try:
+            yield
+        finally:
+            left.set()
 
     def switched_off(self) -> InstrumentError | None:
         """Return why the guardian has switched everything off unasked, as far as it has told."""

@@ -1,7 +1,7 @@
 """Requests to stop: signals by name, and a button that is a file.
 
-Who can write to a run's folder can have it switched off. The guardian looks for the file, so that it works where
-the procedure hangs; in a thread of its own, since a disk may hang as well.
+Who can write to a run's folder can have it switched off. The guardian looks for the file, so that
+it works where the procedure hangs; in a thread of its own, since a disk may hang as well.
 """
 
 import contextlib

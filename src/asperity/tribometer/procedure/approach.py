@@ -1,6 +1,7 @@
 """Before a person is sent to the rig everything is switched off, and read back to be."""
 
-from collections.abc import Callable, Mapping
+import contextlib
+from collections.abc import Callable, Iterator, Mapping
 
 from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.protocols import InstrumentError
@@ -35,6 +36,19 @@ class Approach:
     def ran(self) -> None:
         """Take that something is switched on."""
         self._ran = True
+
+    @contextlib.contextmanager
+    def safe(self) -> Iterator[None]:
+        """Have a person sent to the rig, where everything is off, for as long as that takes.
+
+        Raises
+        ------
+        InstrumentError
+            As of :meth:`off`.
+        """
+        self.off()
+        with self._bench.waiting():
+            yield
 
     def off(self) -> None:
         """See that everything is off, the amplifier's supply too.

@@ -5,6 +5,7 @@ is what is left, so that a run goes on where it was killed. Whatever ends it, vi
 are switched off before anything else is tried.
 """
 
+import contextlib
 import functools
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -210,9 +211,8 @@ class Machine:
             "cell": self._cell,
             "save": self._save,
         }
-        if action.asks:
-            self._approach.off()
-        return acts[action.act](action)
+        with self._approach.safe() if action.asks else contextlib.nullcontext():
+            return acts[action.act](action)
 
     def _ask(self, action: Action) -> dict[str, Any]:
         with self._signals.raising():
@@ -285,8 +285,7 @@ class Machine:
                 self._still(logger)
                 self._journal.write("check", action=action.key, reason=str(error))
                 logger.close()
-                self._approach.off()
-                with self._signals.raising():
+                with self._approach.safe(), self._signals.raising():
                     self._bench.person.do(f"{error}. Put it right.")
                 continue
             logger.close()
