@@ -8,12 +8,13 @@ import pytest
 from apparatus import fake_nidaqmx, rigs
 
 from asperity.errors import InputError, MissingExtraError
-from asperity.tribometer.guardian import folder_scope
+from asperity.tribometer.guardian import devices, folder_scope
 from asperity.tribometer.guardian.devices import devices_of
 from asperity.tribometer.guardian.folder_scope import FolderScope
 from asperity.tribometer.guardian.owned import LISTENER
 from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
+from asperity.tribometer.instruments.inputs import volts_a_count
 from asperity.tribometer.instruments.listening import ScopeListener
 from asperity.tribometer.instruments.nidaq import NiDaq
 from asperity.tribometer.instruments.protocols import Input, InstrumentError, Poll, Scope
@@ -372,6 +373,49 @@ class Heard:
 
     def close(self):
         pass
+
+
+class Sampled:
+    """An oscilloscope at a drive signal of a frequency, of which a device takes its own samples."""
+
+    def __init__(self, inputs, frequency, fastest):
+        (self._input,) = inputs
+        self._frequency, self._fastest, self._taken = frequency, fastest, 0
+
+    def start(self, interval):
+        self._interval = max(interval, self._fastest)
+        return self._interval
+
+    def poll(self):
+        there = self._taken + np.arange(10000)
+        self._taken += 10000
+        volts = 5.0 + np.sin(2.0 * np.pi * self._frequency * self._interval * there + 1.5)
+        counts = np.round(volts / volts_a_count(self._input)).astype(np.int16)
+        return Poll((counts,), 0.0, (False,))
+
+    def close(self):
+        pass
+
+
+@pytest.mark.parametrize("frequency", [3.0, 750.0, 5000.0, 9999.5, 10e3, 10000.3, 14e3, 20e3])
+def test_a_drive_is_heard_at_every_frequency_that_a_plan_may_ask_for(frequency, monkeypatch):
+    monkeypatch.setattr("time.sleep", lambda seconds: None)
+    case = rigs.small_case('plan.sample_rate="60 kHz"', f'plan.frequencies=["{frequency} Hz"]')
+
+    def ear(fastest):
+        monkeypatch.setattr(
+            "asperity.tribometer.guardian.devices.opened_scope",
+            lambda case, inputs: Sampled(inputs, frequency, fastest),
+        )
+        return devices._ear(case)[LISTENER]
+
+    assert ear(0.0).moves() is True
+    # A device that is slower than asked proves nothing of what it cannot tell.
+    if frequency % 10e3 == 0:
+        with pytest.raises(
+            InstrumentError, match=r"nothing is known of .* raise plan\.sample_rate"
+        ):
+            ear(1e-4).moves()
 
 
 @pytest.mark.parametrize(

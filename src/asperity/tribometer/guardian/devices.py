@@ -12,6 +12,7 @@ from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
 from asperity.tribometer.instruments.listening import ScopeListener
 from asperity.tribometer.instruments.parameters import Controller, Guard, Output, Supplies
+from asperity.tribometer.options import Plan
 from asperity.tribometer.parameters import Sonotrode
 
 DRIVE = "vibration controller"
@@ -122,4 +123,8 @@ def _described(there: Mapping[str, Output]) -> dict[str, Any]:
 def _ear(case: Case) -> dict[str, Any]:
     sonotrode = case.require(Sonotrode)
     opened = functools.partial(opened_scope, case)
-    return {LISTENER: ScopeListener(inputs_for(case), sonotrode, opened)}
+    plan = case.get(Plan, Plan())
+    ear = ScopeListener(
+        inputs_for(case), sonotrode, opened, plan.sample_rate, tuple(plan.frequencies)
+    )
+    return {LISTENER: ear}

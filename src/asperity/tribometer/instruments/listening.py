@@ -8,8 +8,9 @@ from asperity.tribometer.instruments.inputs import volts_a_count
 from asperity.tribometer.instruments.protocols import Input, InstrumentError, Scope
 from asperity.tribometer.parameters import Sonotrode
 
-_INTERVAL = 1e-4  # s, a quarter of the shortest cycle of a sonotrode
-_LASTING = 0.1  # s
+_INTERVAL = 1e-4  # s, or less where a plan is sampled faster
+_TOLD = 0.45  # of the samples' frequency, above which what moves may look still
+_LASTING, _LONGEST = 0.1, 1.0  # s, for a cycle of the lowest frequency up to the longer
 _HEARD, _LOOKS = 0.5, 3  # of that, at least, and looks until so much has come
 _STILL = 0.05  # Of the drive signal's swing, which is no vibration.
 
@@ -25,6 +26,10 @@ class ScopeListener:
         Opens the oscilloscope, for some of the inputs.
     sonotrode : Sonotrode
         Whose drive signal it is.
+    sample_rate : float
+        At which a plan is sampled, Hz.
+    frequencies : tuple of float
+        That the drive is told, Hz.
     """
 
     by_hand = False
@@ -34,7 +39,13 @@ class ScopeListener:
         inputs: tuple[Input, ...],
         sonotrode: Sonotrode,
         opened: Callable[[tuple[Input, ...]], Scope],
+        sample_rate: float = 0.0,
+        frequencies: tuple[float, ...] = (),
     ) -> None:
+        self._interval = 1.0 / max(1.0 / _INTERVAL, sample_rate)
+        self._highest = max(frequencies, default=0.0)
+        slowest = 1.0 / min(frequencies, default=1.0 / _LASTING)
+        self._lasting = min(_LONGEST, max(_LASTING, slowest))
         self.name = "ear at the drive signal"
         self._input = next(one for one in inputs if one.signal == "drive_voltage")
         self._opened = opened
@@ -52,22 +63,28 @@ class ScopeListener:
         scope = self._opened((self._input,))
         counts, over = np.empty(0, int), False
         try:
-            interval = scope.start(_INTERVAL)
+            interval = scope.start(self._interval)
             for _ in range(_LOOKS):
-                time.sleep(_LASTING)
+                time.sleep(self._lasting)
                 poll = scope.poll()
                 counts = np.append(counts, poll.counts[0].astype(int))
                 over = over or any(poll.overrange)
-                if counts.size * interval >= _HEARD * _LASTING:
+                if counts.size * interval >= _HEARD * self._lasting:
                     break
         finally:
             scope.close()
         if counts.size and float(np.ptp(counts)) * volts_a_count(self._input) > self._still:
             return True
         # Nothing moves in a part of a cycle, nor at the end of a range.
-        if counts.size * interval < _HEARD * _LASTING:
+        if counts.size * interval < _HEARD * self._lasting:
             raise InstrumentError(
                 f"{self.name}: {counts.size} samples have come, too few to tell",
+                kind="samples lost or late",
+            )
+        if self._highest * interval > _TOLD:
+            raise InstrumentError(
+                f"{self.name}: by {1.0 / interval:g} samples a second nothing is known of "
+                f"{self._highest:g} Hz; raise plan.sample_rate",
                 kind="samples lost or late",
             )
         if over:
