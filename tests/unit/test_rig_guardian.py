@@ -625,6 +625,36 @@ def test_a_watchdog_is_pulsed_while_an_instrument_blocks_and_no_more_once_someth
     assert dog.opened
 
 
+def test_the_power_is_cut_at_once_where_something_stays_on(made):
+    dog = Watchdog()
+    one = made(limit=0.2, relay=dog)
+    one.begin()
+    one.on()
+    one.fakes["steel"].fault = "stuck on"
+    one.guardian.signal(15)
+    assert one.hears("tripped")["still_on"]
+    # The procedure has yet to end.
+    assert dog.opened
+    one.fakes["steel"].fault = ""
+
+
+def test_a_run_that_is_left_with_something_on_latches_and_with_nothing_is_interrupted(tmp_path):
+    stuck = off.Off("steel", False, "its output's state is on")
+    ends = ("latched", (stuck,)), ("interrupted", ())
+    for kind, found in ends:
+        folder = tmp_path / kind
+        folder.mkdir()
+        writing = Writing(lambda _: None)
+        writing.asked({"to": "journal", "do": "open", "with": [str(folder)]}).result(60.0)
+        begun = {"to": "journal", "do": "write", "with": ["started", {}]}
+        writing.asked(begun).result(60.0)
+        writing.end("the procedure has ended", Verdict("killed", 0.0, 0.1, found))
+        writing.all_written().result(60.0)
+        last = json.loads((folder / NAME).read_text().splitlines()[-1])
+        assert last["kind"] == kind
+        assert last.get("still_on", []) == [str(one) for one in found]
+
+
 def test_a_watchdog_that_is_lost_keeps_nothing_on(made, monkeypatch):
     dog = Watchdog()
 
