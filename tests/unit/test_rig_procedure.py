@@ -8,6 +8,7 @@ import resource
 import shutil
 import signal
 
+import h5py
 import numpy as np
 import pytest
 from apparatus import rigs
@@ -45,6 +46,21 @@ def lasting(undisturbed, tmp_path_factory):
     )
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+@pytest.mark.parametrize("what", ["a count", "its end"])
+def test_a_recording_that_is_not_what_was_recorded_is_not_gone_on_with(undisturbed, tmp_path, what):
+    folder = tmp_path / "run"
+    shutil.copytree(undisturbed[0], folder)
+    line = next(one for one in rigs.journal(folder) if one["kind"] == "done" and "cell" in one)
+    path = folder / line["recording"]
+    if what == "a count":
+        with h5py.File(path, "r+") as file:
+            file["raw"][line["shaken"][0] + 5, 0] += 1
+    else:
+        os.truncate(path, path.stat().st_size // 2)
+    with pytest.raises(InputError, match=line["recording"].partition(".")[0]):
+        rigs.run(rigs.small_case(), folder, resume=True)
 
 
 def test_a_run_does_every_step_and_records_every_cell(undisturbed):
