@@ -11,7 +11,7 @@ from apparatus.forked_guardian import Dials
 from apparatus.grid import slow
 from apparatus.standing_rig import Procedure, StandingRig, lines_of, waited_for
 
-from asperity.tribometer.guardian import guard, stop, switching
+from asperity.tribometer.guardian import guard, guardian, stop, switching
 from asperity.tribometer.guardian.asked import AskedPerson
 from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure.interlock import Interlock
@@ -140,6 +140,30 @@ def test_a_procedure_that_is_killed_leaves_everything_off(begun, rig, tmp_path):
     assert "still_on" not in found
     waited_for(lambda: "read back to be off within" in procedure.said)
     gone_on_with(begun, rig, tmp_path / "run", dials=None)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("key", "fault"), [("vibration", "welded"), ("steel", "stuck on")])
+def test_what_stays_on_after_a_kill_is_named_to_the_end(
+    begun, rig, tmp_path, monkeypatch, key, fault
+):
+    # One attempt more is enough to take back what was found.
+    monkeypatch.setattr(guardian, "_ATTEMPTS", 2)
+    procedure = begun()
+    vibrating(rig)
+    rig.fault(key, fault)
+    procedure.kill(signal.SIGKILL)
+    procedure.ended()
+    procedure.gone()
+    assert OUTPUTS & set(rig.on()) == {key}
+    last = lines_of(tmp_path / "run", "off")[-1]
+    assert last["still_on"][0].startswith(NAMES[key])
+    (latched,) = lines_of(tmp_path / "run", "latched")
+    assert latched["still_on"][0].startswith(NAMES[key])
+    assert "read back to be off within" not in procedure.said
+    assert "at last" not in procedure.said
+    rig.quiet()
+    gone_on_with(begun, rig, tmp_path / "run", acknowledge="switched off by hand")
 
 
 @pytest.mark.slow
