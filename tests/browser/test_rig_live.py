@@ -13,6 +13,7 @@ from apparatus.standing_rig import Procedure, StandingRig, waited_for
 from playwright.sync_api import expect
 
 from asperity.tribometer.guardian import switching
+from asperity.tribometer.guardian.journal import Journal
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning"),
@@ -99,6 +100,13 @@ def test_the_stop_works_where_the_procedure_hangs_and_what_stays_on_is_named(see
     expect(panel).to_contain_text("Read back to be off within")
     vibrates.kill(signal.SIGCONT)
     vibrates.ended()
+    vibrates.gone()
+    # Where a person switches, nobody has read anything.
+    book = Journal(vibrates.folder)
+    book.write("off", why="signal SIGTERM", took_s=0.0, read_back={}, by_hand=["lamp"])
+    book.close()
+    expect(panel).to_contain_text("Nothing reads back, and a person is asked to switch off: lamp.")
+    expect(panel).not_to_contain_text("Read back to be off within")
 
 
 @pytest.mark.campaign

@@ -78,6 +78,8 @@ def test_what_is_off_and_how_it_ended_is_the_journals_word(shown):
     assert [one["told"] for one in found["outputs"]] == ["on, sine 750 Hz", "on, 1 V"]
     book.write("off", why="hangs", took_s=0.4, read_back={"steel": "off"}, still_on=["vibration"])
     assert look(folder)["off"]["still_on"] == ["vibration"]
+    book.write("off", why="asked", took_s=0.1, read_back={"steel": "off"}, by_hand=["vibration"])
+    assert look(folder)["off"]["by_hand"] == ["vibration"]
     assert look(folder)["ended"] is None
     book.write("latched", reason="hangs")
     book.close()
