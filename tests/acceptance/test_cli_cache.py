@@ -22,7 +22,7 @@ from asperity.runs.rows import Rows
 from asperity.web.token import token_of
 
 KEY = "0f" * 16
-ANSWERS = ("condensed", "reduced", "modes", "thesis")
+ANSWERS = ("condensed", "reduced", "loaded", "modes", "thesis")
 
 
 @pytest.fixture
