@@ -20,11 +20,12 @@ export PYTHONDONTWRITEBYTECODE :=
 run: .venv/.runtime  ## reproduce the thesis: claims, figures and tables into out/thesis/index.html
 	$(BIN)/asperity thesis
 
+# One worker more than cores, since many of these wait for processes, servers and browsers.
+test slow: export PYTEST_XDIST_AUTO_NUM_WORKERS = $(shell $(PYTHON) -c 'import os; print(os.cpu_count() + 1)')
+
 test: .venv/.dev  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
 
-# One worker more than cores, since many of these wait for processes, servers and browsers.
-slow: export PYTEST_XDIST_AUTO_NUM_WORKERS = $(shell $(PYTHON) -c 'import os; print(os.cpu_count() + 1)')
 slow: .venv/.dev  ## prove the rest of it
 	$(BIN)/python -m pytest -m slow --share $(SHARE) $(PYTEST_OPTIONS)
 

@@ -513,6 +513,20 @@ def test_a_report_is_one_page_that_stands_by_itself(asperity, series, reduced):
     assert (folder / "report.html").is_file()
 
 
+def test_columns_and_units_of_a_file_without_headings_are_given_by_hand(asperity, tmp_path):
+    rows = (f"{n * 1e-3:.4f},{n % 5},{n % 7}" for n in range(2000))
+    (tmp_path / "bare.csv").write_text("\n".join(rows))
+    code, output, errors = asperity(
+        "rig", "look", tmp_path / "bare.csv", "--columns", "time,torque_steel,speed_steel",
+        "--units", "s,mV,V", "--json",
+    )  # fmt: skip
+    assert code == 0, errors
+    found = json.loads(output)
+    assert (found["columns"], found["units"]) == (["torque_steel", "speed_steel"], ["mV", "V"])
+    (tmp_path / "loop").symlink_to("loop")
+    refused(asperity("rig", "import", tmp_path / "loop", "rig-final"), "cannot be read")
+
+
 def test_an_export_of_an_oscilloscope_becomes_a_recording(asperity, tmp_path):
     time = np.arange(2000) * 1e-3
     columns = [time] + [np.sin(time * n) for n in range(1, 9)]

@@ -382,6 +382,12 @@ def _saturates(name, share):
     return fault
 
 
+def _torque_clipped(run):
+    """Let the most that the torque is read as be what only a few of its samples are below."""
+    before = run.volts["torque_steel"][run.within(*run.spans[0][:2])]
+    run.volts["torque_steel"] = np.minimum(run.volts["torque_steel"], np.quantile(before, 0.03))
+
+
 def _about_middle(run, shape):
     """Change the drive signal about its middle, where there is vibration."""
     for place, (_, begin, end) in enumerate(run.spans):
@@ -503,6 +509,7 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "torque dead": (_held_at("torque_steel", 0.0), {}),
     "current dead": (_held_at("current_steel", 0.1), {}),
     "torque saturates below its range": (_saturates("torque_steel", 0.8), {}),
+    "torque saturates within its noise": (_torque_clipped, {}),
     "current saturates below its range": (_saturates("current_steel", 0.9), {}),
     "drive decays to 13 %": (_drive_decays, {}),
     "vibration 3 s after its command": (None, {"drive_late": 3.0, "events": True}),

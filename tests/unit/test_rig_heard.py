@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import zlib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -23,6 +24,8 @@ from asperity.runs import Run
 from asperity.tribometer.checking import study as checking
 from asperity.tribometer.plots import plot_findings
 from asperity.tribometer.recording import Recording
+from asperity.tribometer.reduction.drive_signal import Stretch
+from asperity.tribometer.reduction.heard import moving
 from asperity.tribometer.reduction.heard.zero import Zero
 from asperity.tribometer.reduction.study import Reducible, Series, heard_in, reduce_recording
 from asperity.tribometer.tables import TABLES
@@ -39,6 +42,7 @@ TOLD = {
     "encoder stuck at a value": "speed_steel does not answer its motor",
     "encoder of the bronze disc dead": "speed_bronze does not move",
     "torque saturates below its range": "torque_steel saturates",
+    "torque saturates within its noise": "torque_steel saturates",
     "drive decays to 13 %": "drive signal is not steady",
     "vibration 3 s after its command": "vibration comes late",
     "vibration acts 3 s after its drive": "torque steps within its window",
@@ -281,3 +285,26 @@ def test_no_fault_is_made_up_where_a_recording_holds_no_rest(tmp_path):
     assert len(segments) == 1
     assert not heard.at_rest
     assert heard.findings == ()
+
+
+def test_an_end_that_takes_the_noise_of_most_blocks_is_an_end():
+    """Of a torque that is clipped within its noise, few blocks are flat and none is higher."""
+    rng = np.random.default_rng(3)
+    samples = np.minimum(rng.normal(2000.0, 20.0, (400, 80)), 1962.0).astype(np.uint16)
+    low, high = samples.min(axis=1), samples.max(axis=1)
+    assert 0.0 < np.mean(low == high) < 0.3
+    of = SimpleNamespace(
+        recording=SimpleNamespace(
+            place=lambda _: 0, sources=[SimpleNamespace(offset=0.0, scale=1e-3)]
+        ),
+        blocks=SimpleNamespace(
+            length=0.02, lines={"torque_steel": SimpleNamespace(offset=0.0, gain=1.0)}
+        ),
+    )
+    window = Stretch(0, 400)
+    assert "end at 1.962" in moving._ended(of, "torque_steel", low, high, window)
+    # Coarse steps of a quiet channel are no end, and neither is noise as it is.
+    quiet = rng.choice([10, 11, 12], (400, 80), p=[0.05, 0.35, 0.6]).astype(np.uint16)
+    for each in (quiet, rng.normal(2000.0, 20.0, (400, 80)).astype(np.uint16)):
+        ends = each.min(axis=1), each.max(axis=1)
+        assert moving._ended(of, "torque_steel", *ends, window) is None

@@ -14,7 +14,7 @@ import pytest
 from apparatus import rigs
 from apparatus.grid import slow
 
-from asperity.errors import InputError
+from asperity.errors import InputError, StorageError
 from asperity.processes.alone import alone
 from asperity.runs import Run
 from asperity.tribometer.guardian import journal as journals
@@ -530,3 +530,17 @@ def test_sums_and_bounds_over_time_are_those_of_each_column(samples):
     assert np.array_equal(over_time(np.maximum, counts), counts.max(axis=0))
     assert np.array_equal(over_time(np.minimum, counts[1:] if samples > 1 else counts),
                           (counts[1:] if samples > 1 else counts).min(axis=0))  # fmt: skip
+
+
+def test_a_link_or_a_file_of_another_is_no_journal_and_stays_as_it_is(tmp_path):
+    other = tmp_path / "precious"
+    other.write_text("of somebody\n")
+    path = tmp_path / "journal.jsonl"
+    path.symlink_to(other)
+    with pytest.raises(StorageError, match="cannot be written"):
+        Journal(tmp_path)
+    path.unlink()
+    path.write_text("of somebody\n")
+    with pytest.raises(InputError, match="is no journal of a run"):
+        Journal(tmp_path)
+    assert path.read_text() == other.read_text() == "of somebody\n"

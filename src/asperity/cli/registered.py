@@ -73,6 +73,7 @@ def _command(command: Command, into: typer.Typer) -> None:
 
         execute(command, case, settings or (), as_json=as_json, out=out, **options)
 
+    own = {option.name for option in command.options}
     case = Annotated[str, typer.Argument(metavar=command.case, help=CASE_HELP)]
     parameters = {
         **{
@@ -84,7 +85,7 @@ def _command(command: Command, into: typer.Typer) -> None:
         **({"full": (FullOption, False)} if command.brief else {}),
         **({"pictures": (FormatOption, "png")} if command.draws else {}),
         "settings": (SetOption, None),
-        "units": (UnitsOption, ""),
+        **({} if "units" in own else {"units": (UnitsOption, "")}),
         "language": (LanguageOption, ""),
         "as_json": (JsonOption, False),
         "out": (_out(command), None),

@@ -90,6 +90,9 @@ def execute(
     **options
         What the command takes beside a case.
     """
+    if any(option.name == "units" for option in command.options):
+        # Of what is read, rather than of what is shown.
+        options["units"], units = units, ""
     check_shown(units, language)
     pictures = pictures and picture_format(pictures)
     file = out if command.out != "DIR" else None

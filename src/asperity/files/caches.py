@@ -31,6 +31,7 @@ KINDS = {
     "kernels": ("machine code of compiled functions", _CODE),
     "condensed": ("elastic bodies, condensed to where they touch", _ANSWER),
     "reduced": ("teeth of drives, reduced to what a march takes", _ANSWER),
+    "loaded": ("gearsets loaded as they are mounted, points of misalign and relief", _ANSWER),
     "modes": ("lowest natural frequencies of teeth", _ANSWER),
     "sweep": ("points of sweeps", rf"{_ROWS}(-wal|-shm|\.damaged)?"),
     "thesis": ("solved cases that exhibits share", _ANSWER),

@@ -97,7 +97,9 @@ class Journal(Lines):
         self.lines: list[Line] = []
         self._end = 0
         with _told(self.path):
-            self._file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND, 0o644)
+            # A link would have what it leads to written, and its end cut off.
+            flags = os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_NOFOLLOW", 0)
+            self._file = os.open(self.path, flags, 0o644)
         try:
             self._hold()
             torn = self._read()
@@ -143,6 +145,10 @@ class Journal(Lines):
                 # The last line may be torn in its middle, where the power failed.
                 whole = text.rfind(b"\n", 0, whole - 1) + 1
                 self.lines = lines_of(text[:whole], self.path)
+            if not self.lines and text and not text.startswith(b"{"):
+                raise InputError(
+                    f"{self.path} is no journal of a run; move it away, or choose another folder"
+                )
             self._end = whole
             if whole < len(text):
                 os.ftruncate(self._file, whole)

@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -43,7 +44,7 @@ def prepare(
     told = told_of(rate, columns, units)
     files = (file, *(join or ()))
     names = [plain(one) for one in files]
-    if len({Path(one).resolve() for one in files}) < len(files):
+    if len(set(map(os.path.realpath, files))) < len(files):
         raise InputError(f"{names[0]}: a file is given twice")
     forms = [form_of(Path(one), name) for one, name in zip(files, names, strict=True)]
     if OWN in forms and (len(files) > 1 or told != Told()):

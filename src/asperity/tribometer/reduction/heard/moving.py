@@ -22,6 +22,7 @@ _CHANGES = 0.1  # of a level, by which a signal changes at least as its motor is
 _STILL, _ELSEWHERE = 0.3, 0.1  # shares of blocks without any noise, here and somewhere else
 _AT_END, _OTHER_END = 0.6, 0.3  # shares of blocks that reach one and the same count
 _LEAST_NOISE = 4  # steps between least and largest sample of a block
+_LIVELY = 0.9  # quantile of the ranges of blocks
 _JUMP, _JUMP_SHARE = 10.0, 0.05  # robust deviations, and share of the level
 _SPIKE = 6.0  # of the usual range of a block
 _AROUND = 0.5  # s over which a course is smooth
@@ -140,10 +141,12 @@ def _held(of: Material, signal: str, rest: Rest) -> Iterator[Finding]:
 
 
 def _ended(of: Material, signal: str, low: Counts, high: Counts, window: Stretch) -> str | None:
-    steps = np.diff(np.unique(high.astype(float)))
+    steps = np.diff(np.unique(np.concatenate((high, low)).astype(float)))
     if not steps.size or signal == "acceleration":
         return None
-    if float(np.median(high.astype(float) - low)) < _LEAST_NOISE * float(steps.min()):
+    # Where an end takes the noise of most blocks, the others have it still.
+    spread = float(np.quantile(high.astype(float) - low, _LIVELY))
+    if spread < _LEAST_NOISE * float(steps.min()):
         return None
     tops, bottoms = float(np.mean(high == high.max())), float(np.mean(low == low.min()))
     if max(tops, bottoms) < _AT_END or min(tops, bottoms) > _OTHER_END:
