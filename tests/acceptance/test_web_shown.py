@@ -70,7 +70,9 @@ def test_what_ships_for_a_screen_that_opens_is_what_it_is_answered(tmp_path, one
         found = page.ask("POST", f"/api/do/{one['verb']}", one["body"]).json
     finally:
         page.close()
-    assert [key for key in ("answer", "series", "svg") if same(told[key], found[key])] == []
+    keys = ("answer", "series", "svg")
+    assert any(key in told for key in keys)
+    assert [key for key in keys if same(told.get(key), found.get(key))] == []
 
 
 COMMANDS = [one for one in LISTED if one["asked"]["command"] != "thesis"]

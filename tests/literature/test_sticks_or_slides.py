@@ -42,7 +42,7 @@ def swing_alone(speed, start, viscous=VISCOUS):
 
     times = np.linspace(0.5, 0.55, 4001)
     answer = solve_ivp(
-        rates, (0.0, times[-1]), start, method="LSODA", rtol=1e-6, atol=1e-12, t_eval=times
+        rates, (0.0, times[-1]), start, method="LSODA", rtol=1e-8, atol=1e-12, t_eval=times
     )
     force = friction(answer.y[1], answer.y[2])[0] / (MU * LOAD)
     return float(np.ptp(force)), float(force.mean())

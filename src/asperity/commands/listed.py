@@ -3,6 +3,8 @@
 from asperity.commands.command import Addition, Argument, Command, Option
 from asperity.commands.of_rig import RIG_COMMANDS
 
+_AN_AXIS = "An axis: 1,2,3 or start:stop:step, with units; again for another axis."
+
 GROUPS = {"rig": "A disc-on-disc tribometer: plan, procedure, recordings and their reduction."}
 """Commands that have a name in common, and what they are about."""
 
@@ -43,13 +45,7 @@ COMMANDS = (
         read="asperity.sweep.axes:read_first",
         counts="points",
         options=(
-            Option(
-                "over",
-                "An axis: 1,2,3 or start:stop:step, with units; again for another axis.",
-                "TABLE.KEY=VALUES",
-                many=True,
-                one_of="axes",
-            ),
+            Option("over", _AN_AXIS, "TABLE.KEY=VALUES", many=True, one_of="axes"),
             Option(
                 "points",
                 "Values that change together, a row a point, under headings table.key [unit].",
@@ -214,14 +210,7 @@ COMMANDS = (
         module="asperity.drive.studies.misalign",
         needs=("gearset", "operation", "drive"),
         counts="points",
-        options=(
-            Option(
-                "over",
-                "An axis: 1,2,3 or start:stop:step, with units; again for another axis.",
-                "TABLE.KEY=VALUES",
-                many=True,
-            ),
-        ),
+        options=(Option("over", _AN_AXIS, "TABLE.KEY=VALUES", many=True),),
     ),
     Command(
         "relief",

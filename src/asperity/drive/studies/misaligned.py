@@ -10,6 +10,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.result import inputs
 from asperity.drive.static.loaded import Loaded
+from asperity.drive.studies.points import told_points
 from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
@@ -201,20 +202,7 @@ class Misaligned(Drawn):
             "shift_face_mm": _MILLI * self.shift_face,
             "shift_radial_mm": _MILLI * self.shift_radial,
         }
-        return [
-            {
-                "name": str(name),
-                "values": {
-                    f"{axis.path} [{axis.unit or '1'}]": float(value) if value == value else None
-                    for axis, value in zip(self.axes, values, strict=True)
-                },
-                **{
-                    key: float(column[n]) if np.isfinite(column[n]) else None
-                    for key, column in columns.items()
-                },
-            }
-            for n, (name, values) in enumerate(zip(self.name, self.value, strict=True))
-        ]
+        return told_points(self.axes, self.name, self.value, columns)
 
     def to_json(self) -> dict[str, Any]:
         """Return every point with its numbers."""

@@ -1,7 +1,10 @@
 """Loaded gearsets solved by the dozen: over all cores, each kept as soon as it is there."""
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
 
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded, loaded
@@ -88,3 +91,27 @@ def solved(problem: DriveProblem) -> Loaded | str:
 def _name(problem: DriveProblem) -> str:
     assert problem.case is not None
     return key(code_key(_LOADED), problem.case.canonical())
+
+
+def told_points(
+    axes: Iterable[Any],
+    names: Iterable[Any],
+    values: Iterable[Any],
+    columns: Mapping[str, Any],
+) -> list[dict[str, Any]]:
+    """Return points for JSON: what each is called, its place on the axes and its numbers."""
+    every = list(axes)
+    return [
+        {
+            "name": str(name),
+            "values": {
+                f"{axis.path} [{axis.unit or '1'}]": float(value) if value == value else None
+                for axis, value in zip(every, place, strict=True)
+            },
+            **{
+                key: float(column[n]) if np.isfinite(column[n]) else None
+                for key, column in columns.items()
+            },
+        }
+        for n, (name, place) in enumerate(zip(names, values, strict=True))
+    ]

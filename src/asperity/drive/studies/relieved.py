@@ -11,6 +11,7 @@ from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.result import inputs
 from asperity.drive.static.notes import few_phases
+from asperity.drive.studies.points import told_points
 from asperity.gearset import Geometry
 from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
@@ -191,20 +192,7 @@ class Relieved(Drawn):
             "transmission_error_rad": self.error,
             "k_h_beta": self.k_h_beta,
         }
-        return [
-            {
-                "name": str(name),
-                "values": {
-                    f"{axis.path} [{axis.unit or '1'}]": float(value) if value == value else None
-                    for axis, value in zip(self.axes, values, strict=True)
-                },
-                **{
-                    key: float(column[n]) if np.isfinite(column[n]) else None
-                    for key, column in columns.items()
-                },
-            }
-            for n, (name, values) in enumerate(zip(self.name, self.value, strict=True))
-        ]
+        return told_points(self.axes, self.name, self.value, columns)
 
     def to_json(self) -> dict[str, Any]:
         """Return every design with its numbers."""
