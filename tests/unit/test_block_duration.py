@@ -99,6 +99,7 @@ def test_what_still_fades_is_judged_by_the_quarters_of_the_window(monkeypatch):
     assert np.mean(found[0]) == pytest.approx(answer.ratio, rel=1e-2)
 
 
+@pytest.mark.slow
 def test_without_a_duration_a_block_goes_on_until_it_has_settled():
     run = Heard()
     block = problem(*SLOW)

@@ -77,7 +77,8 @@ function Verdict({ off }) {
   return still.length ? html`<p class="fault" role="alert">✗ Not read back to be off: ${still.join("; ")}.
       Switch it off by hand.</p>`
     : html`${read ? html`<p class="good">✓ Read back to be off within ${took.toFixed(2)} s: ${off.why}.</p>` : null}
-      ${hand.length ? html`<p class="fault">Nothing reads back, and a person is asked to switch off: ${hand.join("; ")}.</p>`
+      ${hand.length
+        ? html`<p class="fault">Nothing reads back, and a person is asked to switch off: ${hand.join("; ")}.</p>`
         : read ? null : html`<p class="fault">✗ Nothing was read back: ${off.why}.</p>`}`;
 }
 
