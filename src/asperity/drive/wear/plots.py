@@ -42,6 +42,7 @@ def over_life(dataset: "xr.Dataset") -> "Figure":
 
 def flank(dataset: "xr.Dataset") -> "Figure":
     """Draw the depth on the flank, and where it bears, new and worn."""
+    from matplotlib.ticker import MaxNLocator
     from matplotlib.tri import Triangulation
 
     z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
@@ -61,7 +62,7 @@ def flank(dataset: "xr.Dataset") -> "Figure":
             Triangulation(z, r, halves), values, levels=np.linspace(0.0, _ABOVE * top, _LEVELS),
             cmap="cividis",
         )  # fmt: skip
-        bar = figure.colorbar(filled, ax=panel, format="%.4g")
+        bar = figure.colorbar(filled, ax=panel, format="%.4g", ticks=MaxNLocator(6))
         bar.set_label(unit)
         panel.set_aspect("equal")
         panel.grid(visible=False)
