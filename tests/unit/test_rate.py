@@ -522,26 +522,6 @@ class TestVariants:
             for code in np.unique(rated.reason(key)[missing]):
                 assert rated.legend(standard)[int(code)]
 
-    @pytest.mark.parametrize("standard", ["iso14521", "bs721", "agma6034"])
-    def test_blocks_side_by_side_give_what_one_block_gives(self, monkeypatch, standard):
-        lots = np.random.default_rng(5)
-        given = {
-            "diameter_factor": lots.uniform(0.5, 40.0, 500),
-            "worm_speed": lots.uniform(0.5, 500.0, 500),
-        }
-        whole = variants(*minimal(), (standard,), **given)
-        # The function stands for its module in the room's names.
-        monkeypatch.setitem(variants.__globals__, "BLOCK", 17)
-        parts = variants(*minimal(), (standard,), **given)
-        for key in whole:
-            np.testing.assert_array_equal(parts[key], whole[key])
-            told, wanted = (
-                [one.legend(standard).get(int(code), "") for code in one.reason(key)]
-                for one in (parts, whole)
-            )
-            assert told == wanted
-        assert any(told)
-
     def test_number_that_all_variants_share_and_no_formula_allows_masks_them_all(self):
         rated = variants(*minimal({"starts": 5}), worm_roughness=[1e-6, 2e-6])
         assert np.isnan(rated["bs721.M_w_Nm"]).all()

@@ -68,27 +68,17 @@ class Mask:
         other.reason, other.legend = self.reason[where], self.legend
         return other
 
-    def take(self, where: Any, other: "Mask") -> None:
-        """Take over the reasons of some of the elements, which another mask went on with."""
-        codes = np.zeros(max(other.legend, default=0) + 1, dtype=np.int16)
-        for code, sentence in other.legend.items():
-            codes[code] = self._code(sentence)
-        self.reason[where] = codes[other.reason]
-
     def refuse(self, where: npt.ArrayLike, sentence: str) -> None:
         """Give a reason where there is none yet; what holds for all is always remembered."""
         holds = np.asarray(where)
         new = np.broadcast_to(holds, self.reason.shape) & (self.reason == 0)
         if not new.any() and (holds.ndim or not holds):
             return
-        self.reason[new] = self._code(sentence)
-
-    def _code(self, sentence: str) -> int:
         code = next((c for c, known in self.legend.items() if known == sentence), None)
         if code is None:
             code = len(self.legend) + 1
             self.legend[code] = sentence
-        return code
+        self.reason[new] = code
 
 
 _MASK: contextvars.ContextVar[Mask | None] = contextvars.ContextVar("mask", default=None)

@@ -173,15 +173,15 @@ def variants(
 def _calculate(
     name: str, given: Inputs, mask: Mask, capacity: bool, tables: Tables | None
 ) -> Values:
-    """Return the numbers of a standard, block by block, as many at once as there are cores."""
+    """Return the numbers of a standard, block by block."""
+    found: Values = {}
     count = mask.reason.size
     fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
     arrays = {key: value for key, value in fields.items() if np.ndim(value)}
-
-    def numbers_of(part: Any) -> tuple[Values, Mask]:
+    for start in range(0, max(count, 1), BLOCK) if count > BLOCK else (None,):
+        part = ... if start is None else slice(start, start + BLOCK)
         here = dataclasses.replace(given, **{key: array[part] for key, array in arrays.items()})
-        own = mask.part(part).copy()
-        with masking(own):
+        with masking(mask.part(part)):
             if name == "iso14521":
                 numbers = rated_efficiency(here)
                 numbers = rated_capacity(here, numbers) if capacity else numbers
@@ -190,21 +190,9 @@ def _calculate(
             else:
                 numbers = rated_agma6034(here)
         # What leads to the numbers of a duty cycle would take more room than the numbers.
-        return {key: one for key, one in numbers.items() if not key.startswith("part_")}, own
-
-    if count <= BLOCK:
-        numbers, own = numbers_of(...)
-        mask.take(..., own)
-        return numbers
-    from concurrent.futures import ThreadPoolExecutor
-
-    from asperity.runs.workers import cores
-
-    found: Values = {}
-    parts = [slice(start, start + BLOCK) for start in range(0, count, BLOCK)]
-    with ThreadPoolExecutor(cores()) as pool:
-        for part, (numbers, own) in zip(parts, pool.map(numbers_of, parts), strict=True):
-            mask.take(part, own)
-            for key, value in numbers.items():
-                found.setdefault(key, np.empty(count))[part] = value
+        numbers = {key: one for key, one in numbers.items() if not key.startswith("part_")}
+        if start is None:
+            return numbers
+        for key, value in numbers.items():
+            found.setdefault(key, np.empty(count))[part] = value
     return found
