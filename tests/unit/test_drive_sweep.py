@@ -1,16 +1,18 @@
 """Drives over a grid: what stands beside the ratio, and what is refused."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from apparatus.drives import GIVEN, problem, solved
 
 from asperity.commands import case_tables
+from asperity.drive.protocols import march
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
-from asperity.drive.swept import DRIVE
+from asperity.drive.swept import DRIVE, steps_of
 from asperity.errors import InputError
 from asperity.results import read
 from asperity.runs import Interrupted, Run
@@ -89,10 +91,15 @@ def test_a_key_of_a_sliding_body_is_no_axis_of_a_drive():
         read_grid("drive-screw", case_tables(), GIVEN, ["slider.mass=1 kg"])
 
 
-def test_how_long_a_sweep_takes_is_measured_on_a_march_s_first_steps():
+def test_how_long_a_sweep_takes_is_measured_on_a_march_s_first_steps(monkeypatch):
     given = problem()
     steps = solve_shaken(given, ReducedModel(given, reduction(given, Run())), Run()).steps
-    assert 0.0 < DRIVE.seconds(given) < 1e-4 * steps
+    # By a clock on which the first steps take 50 s, loading with them, and as many more take 3 s.
+    clock = iter((0.0, 50.0, 100.0, 103.0))
+    monkeypatch.setattr(march, "time", SimpleNamespace(perf_counter=lambda: next(clock)))
+    assert DRIVE.seconds(given) == pytest.approx(3.0 / 20 * steps_of(given), rel=1e-12)
+    assert steps_of(given) >= steps
+    monkeypatch.undo()
     # One that no worm can turn is a gap of the sweep and no end of it.
     locked = dataclasses.replace(
         given, friction=given.friction.model_copy(update={"mu": 5.0}, units="SI")

@@ -99,6 +99,7 @@ def test_a_load_drives_elastic_teeth_back_as_those_reduced():
     assert cycles[0] == pytest.approx(cycles[1], rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_tooth_takes_the_forces_that_increments_on_its_whole_flank_take():
     model = model_of("drive.flanks=driving")
     mesh, sector = model.teeth, model.sector
