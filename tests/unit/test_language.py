@@ -7,7 +7,7 @@ import pytest
 from asperity.casefile.project import Project
 from asperity.commands.listed import COMMANDS
 from asperity.commands.shown import shown_as
-from asperity.errors import InputError, StorageError
+from asperity.errors import InputError
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
 from asperity.results.system import shown_in, shown_table
@@ -147,7 +147,12 @@ def test_a_language_of_a_readers_own_is_a_file_beside_the_case(tmp_path):
     ("content", "said"),
     [
         ("texts = 3", r"no table \[texts\]"),
-        ("[texts", "no TOML"),
+        ("[texts", "not valid TOML"),
+        ("kept = 3\n[texts]", "kept is 3; it must be a list"),
+        ("kept = [3]\n[texts]", "must be a list of words"),
+        ('[texts]\n"{0} h" = "{0} h"', "a brace that belongs to no hole"),
+        ('[texts]\n"a" = "a {"', "a brace that belongs to no hole"),
+        ('[texts]\n"{a b}" = "{a b}"', "a brace that belongs to no hole"),
         ('[texts]\n"{a} of {b}" = "{a}"', "each of its holes once"),
         ('[texts]\n"{a} of {a}" = "{a}"', "each of its holes once"),
     ],
@@ -162,5 +167,5 @@ def test_a_file_that_is_no_catalogue_is_refused(tmp_path, content, said):
 def test_a_language_that_there_is_not_is_one_line(tmp_path):
     with pytest.raises(InputError, match="it must be one of 'en', 'de', or a file"):
         catalogue_of("tlh")
-    with pytest.raises(StorageError, match="cannot be read"):
+    with pytest.raises(InputError, match="cannot be read: no such file"):
         catalogue_of(str(tmp_path / "none.toml"))

@@ -11,17 +11,17 @@ import contextvars
 import functools
 import itertools
 import re
-import tomllib
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from asperity.errors import InputError, StorageError, choices, plain, shown
+from asperity.errors import InputError, choices, plain, shown
+from asperity.files.store import read_toml
 from asperity.results.words import Number, Sentence
 
 ENGLISH = "en"
 _FOLDER = Path(__file__).with_name("languages")
-_HOLE = re.compile(r"\{(\w+)\}")
+_HOLE = re.compile(r"\{([A-Za-z_]\w*)\}")
 _WORD = re.compile(r"(?<![\w.])(?:[a-z][a-z-]{2,}|[A-Z][a-z]{3,})(?![\w(=]|\.\w)")
 # Numbers of a sentence keep their digits and keys: signs of no language stand for them meanwhile.
 _FIRST = 0xE000
@@ -199,7 +199,7 @@ def catalogue_of(language: str) -> Catalogue | None:
     Raises
     ------
     InputError
-        There is no such language, or its file is not a catalogue.
+        There is no such language, or its file cannot be read or is no catalogue.
     """
     if language in ("", ENGLISH):
         return None
@@ -216,24 +216,24 @@ def catalogue_of(language: str) -> Catalogue | None:
 
 @functools.cache
 def _read(path: Path) -> Catalogue:
-    name = plain(shown(str(path)))
-    try:
-        found = tomllib.loads(path.read_text("utf-8"))
-    except OSError as error:
-        raise StorageError(f"language {name} cannot be read: {error.strerror}") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"language {name} is no TOML: {error}") from None
+    name = f"language {plain(shown(str(path)))}"
+    found = read_toml(path, name)
     texts, kept, code = found.get("texts"), found.get("kept", []), found.get("code", path.stem)
     if not isinstance(texts, dict) or not all(isinstance(said, str) for said in texts.values()):
-        raise InputError(
-            f'language {name} has no table [texts] of lines "English words" = "other words"'
-        )
+        raise InputError(f'{name} has no table [texts] of lines "English words" = "other words"')
+    if not isinstance(kept, list) or not all(isinstance(word, str) for word in kept):
+        raise InputError(f"{name}: kept is {shown(kept)}; it must be a list of words that stay")
     for english, said in texts.items():
         holes = _HOLE.findall(english)
         if sorted(set(_HOLE.findall(said))) != sorted(holes):
             raise InputError(
-                f"language {name}: {english!r} must have each of its holes once, and "
-                f"{said!r} the same ones"
+                f"{name}: {shown(english)} must have each of its holes once, and {shown(said)} the "
+                "same ones"
+            )
+        if any(brace in _HOLE.sub("", each) for each in (english, said) for brace in "{}"):
+            raise InputError(
+                f"{name}: {shown(english)} has a brace that belongs to no hole; a hole is a name "
+                "in braces, such as {a} or {_name}"
             )
     return Catalogue(texts, tuple(kept), str(code))
 
