@@ -207,6 +207,7 @@ def test_what_the_teeth_are_given_is_lost_or_stored(amplitude, limit):
     assert outs[:, AT.residual].max() < 1e-6
 
 
+@pytest.mark.slow
 def test_a_wheel_that_runs_ahead_bears_on_its_other_flank():
     model = model_of()
     play = 0.28e-3 / (model.point.normal_z * model.point.arm)
@@ -226,6 +227,7 @@ def test_a_wheel_that_runs_ahead_bears_on_its_other_flank():
     assert (outs[free, AT.stored] == 0.0).all()
 
 
+@pytest.mark.slow
 def test_teeth_are_handed_over_at_a_pitch():
     model = model_of("drive.flanks=driving")
     q, v = moved(model, 3, swung(0.0))
@@ -392,6 +394,7 @@ def test_a_march_of_teeth_goes_on_to_the_bit_from_where_it_was_left():
     assert other.committed.tobytes() == whole.committed.tobytes()
 
 
+@pytest.mark.slow
 def test_an_open_tooth_tells_how_fast_it_comes_near_before_it_touches():
     model = model_of()
     play = 0.5 * 0.28e-3 / (model.point.normal_z * model.point.arm)
