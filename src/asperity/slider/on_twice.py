@@ -1,11 +1,11 @@
-"""A body in the cycle of its vibration on steps twice as long, from where it is on the first."""
+"""A body in the cycle of its vibration on steps twice or half as long, from where it is on the first."""
 
 import numpy as np
 
 from asperity.kernels.compiled import kernel
 from asperity.kernels.dense import copy
 from asperity.slider.other_drives import in_longer_steps, pressed_in_longer_steps
-from asperity.slider.shooting import close, run_cycle
+from asperity.slider.shooting import close, predicted, run_cycle
 
 
 @kernel
@@ -19,23 +19,37 @@ def _pairs(increments):
 
 
 @kernel
-def _moved(start, springs, p, q, increments, rises, sums):
-    """What `close` takes of the body on the longer steps: copies, the cycle's steps are even."""
+def _halves(increments):
+    """Increments over halves of steps in which velocities are constant, of a wave with corners."""
+    halves = np.empty(2 * increments.size - 1)
+    for i in range(halves.size):
+        halves[i] = 0.5 * increments[i // 2]
+    return halves
+
+
+@kernel
+def _moved(start, springs, p, q, increments, rises, sums, longer):
+    """What `close` takes of the body on steps that are longer, twice or half: copies.
+
+    Of twice the steps are even.
+    """
     states, records, held = np.empty_like(start), np.empty_like(sums), np.empty_like(springs)
     states[0] = start[0]
     records[0] = sums[0]
     copy(springs, held)
-    longer, pressing = in_longer_steps(p, 2.0), pressed_in_longer_steps(q, 2.0)
+    other, pressing = in_longer_steps(p, longer), pressed_in_longer_steps(q, longer)
     # Velocities are those of the half step that follows.
     state = states[0]
-    gained = 0.25 * longer.mobility_x * (state.drive_force - state.friction_x)
-    state.velocity_x = 2.0 * state.velocity_x + gained
-    state.velocity_y = 2.0 * state.velocity_y - 0.25 * longer.mobility_y * state.friction_y
-    pairs = _pairs(increments)
+    half = 0.5 * (1.0 - 1.0 / longer)
+    gained = half * other.mobility_x * (state.drive_force - state.friction_x)
+    state.velocity_x = longer * state.velocity_x + gained
+    state.velocity_y = longer * state.velocity_y - half * other.mobility_y * state.friction_y
+    steps = _pairs(increments) if longer > 1.0 else _halves(increments)
     if q is None:
-        return states, held, longer, pressing, pairs, pairs, records
-    state.rise *= 2.0
-    return states, held, longer, pressing, pairs, _pairs(rises), records
+        return states, held, other, pressing, steps, steps, records
+    state.rise *= longer
+    rise_steps = _pairs(rises) if longer > 1.0 else _halves(rises)
+    return states, held, other, pressing, steps, rise_steps, records
 
 
 @kernel
@@ -45,7 +59,7 @@ def close_on_twice(start, springs, p, q, increments, rises, sums, jacobian, most
     Returns the defect that is left and the state's mean drive force over mu F_N.
     """
     states, held, longer, pressing, pairs, rise_pairs, records = _moved(
-        start, springs, p, q, increments, rises, sums
+        start, springs, p, q, increments, rises, sums, 2.0
     )
     left, _ = close(states, held, longer, pressing, pairs, rise_pairs, records[0], jacobian, most)
     return left, records[0].drive_force / records[0].steps
@@ -55,10 +69,21 @@ def close_on_twice(start, springs, p, q, increments, rises, sums, jacobian, most
 def friction_on_twice(start, springs, p, q, increments, rises, sums, cycles):
     """Return the mean friction over mu F_N of some cycles on steps twice as long."""
     states, held, longer, pressing, pairs, rise_pairs, records = _moved(
-        start, springs, p, q, increments, rises, sums
+        start, springs, p, q, increments, rises, sums, 2.0
     )
     total = 0.0
     for _ in range(cycles):
         run_cycle(states[0], held, longer, pressing, pairs, rise_pairs, records[0])
         total += records[0].friction_x / records[0].steps
     return total / cycles
+
+
+@kernel
+def predicted_on_half(start, springs, p, q, increments, rises, sums, jacobian, slopes):
+    """Foresee the state on steps half as long, as `predicted`; what is given is left as it is."""
+    states, held, shorter, pressing, halves, rise_halves, records = _moved(
+        start, springs, p, q, increments, rises, sums, 0.5
+    )
+    return predicted(
+        states, held, shorter, pressing, halves, rise_halves, records[0], jacobian, slopes
+    )

@@ -119,10 +119,23 @@ def _defect(
 
 
 @kernel
+def mean_drive(sums, start, end, p):
+    """Mean drive force over a cycle from ``start``, whose own drive force is taken as that at the end.
+
+    A rigid drive has it of its contact.
+    """
+    before = p.stiffness * start.stretch + p.damping * (p.drive - start.velocity_x)
+    return (sums.drive_force + 0.5 * (end.drive_force - before)) / sums.steps
+
+
+@kernel
 def differentiate(
-    start, springs, p, q, increments, rises, sums, count, change, side, room, jacobian
+    start, springs, p, q, increments, rises, sums, count, change, side, mean, room, jacobian
 ):  # fmt: skip
-    """Jacobian of the scaled defect at ``start``, by differences of a size; a cycle an unknown."""
+    """Jacobian of the scaled defect at ``start``, by differences of a size; a cycle an unknown.
+
+    A row more are the slopes of the mean drive force, which is ``mean`` at ``start``.
+    """
     trial, trial_springs, here, there = room.trial, room.trial_springs, room.here, room.there
     other, defect = room.trial_defect, room.defect
     read_unknowns(start[0], springs, p, q, here)
@@ -140,6 +153,7 @@ def differentiate(
         )  # fmt: skip
         for i in range(count):
             jacobian[i, j] = (other[i] - defect[i]) / signed
+        jacobian[count, j] = (mean_drive(sums, trial[0], room.trial_end[0], p) - mean) / signed
 
 
 @kernel
@@ -157,6 +171,7 @@ def _newton(
     worst = _defect(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
     )
+    mean = mean_drive(sums, start[0], end[0], p)
     fresh = False
     side = 1.0
     for _ in range(_NEWTON_STEPS):
@@ -167,8 +182,9 @@ def _newton(
             # Steps that shrink with the defect do not reach a kink the answer is not at.
             change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE))
             differentiate(
-                start, springs, p, q, increments, rises, sums, count, change, side, room, jacobian
-            )
+                start, springs, p, q, increments, rises, sums, count, change, side, mean, room,
+                jacobian,
+            )  # fmt: skip
             cycles += count
             fresh = True
         for i in range(count):
@@ -209,7 +225,7 @@ def _newton(
         side = 1.0
         # The differences cost a cycle an unknown: keep them while they still gain a digit.
         fresh = reached < 0.1 * worst and length == 1.0
-        worst = reached
+        worst, mean = reached, mean_drive(sums, trial[0], trial_end[0], p)
         read_unknowns(trial[0], trial_springs, p, q, there)
         write_unknowns(there, p, q, start[0], springs)
         end[0] = trial_end[0]
@@ -276,7 +292,8 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     sums : record
         Overwritten.
     jacobian : ndarray
-        Room for that of the map less one.
+        Room for that of the map less one, and in the row behind it for the slopes of the mean drive
+        force over mu F_N.
     settle : int
         0 for the first call; else cycles to run beforehand, the drive damped critically, which
         calms the lateral motion too; on its own drive if below zero.
@@ -323,17 +340,19 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
 def differentiated(start, springs, p, q, increments, rises, sums, jacobian):
     """Write the Jacobian of the map over a cycle, less one, in scaled unknowns.
 
-    It is a row and a column an unknown; ``sums`` are overwritten.
+    It is a row and a column an unknown, and a row for the slopes of the mean drive force over
+    mu F_N; ``sums`` are overwritten.
     """
     room = room_for(start, springs)
     unknown_scales(start, springs, p, q, room.scales)
-    count = jacobian.shape[0]
+    count = jacobian.shape[1]
     _defect(
         start, springs, p, q, increments, rises, sums, count, room, room.trial_end,
         room.trial_end_springs, room.defect,
     )  # fmt: skip
+    mean = mean_drive(sums, start[0], room.trial_end[0], p)
     differentiate(
-        start, springs, p, q, increments, rises, sums, count, _DIFFERENCE, 1.0, room, jacobian
+        start, springs, p, q, increments, rises, sums, count, _DIFFERENCE, 1.0, mean, room, jacobian
     )
 
 
@@ -369,7 +388,35 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
             start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
         )
         cycles += 1
-    # The drive's force at the start is that at the end, which a rigid drive has of its contact.
-    before = p.stiffness * start[0].stretch + p.damping * (p.drive - start[0].velocity_x)
-    sums.drive_force += 0.5 * (end[0].drive_force - before)
+    sums.drive_force = sums.steps * mean_drive(sums, start[0], end[0], p)
     return worst, cycles
+
+
+@kernel
+def predicted(start, springs, p, q, increments, rises, sums, jacobian, slopes):
+    """Foresee the state next to ``start`` by a cycle from there, of which a Jacobian is known.
+
+    Returns how far the unknown is that moves most, in its scale, and the mean drive force of the
+    state over mu F_N, by its ``slopes``; infinite where the Jacobian tells nothing.
+    """
+    room = room_for(start, springs)
+    count = unknown_scales(start, springs, p, q, room.scales)
+    step, matrix, end = room.step, room.matrix, room.trial_end
+    worst = _defect(
+        start, springs, p, q, increments, rises, sums, count, room, end, room.trial_end_springs,
+        room.defect,
+    )  # fmt: skip
+    mean = mean_drive(sums, start[0], end[0], p)
+    if not worst < 1e300:
+        return np.inf, mean
+    for i in range(count):
+        step[i] = -room.defect[i]
+        for j in range(count):
+            matrix[i, j] = jacobian[i, j]
+    if not eliminate(matrix, step, count, 1e-14):
+        return (np.inf if count else 0.0), mean
+    far = 0.0
+    for i in range(count):
+        far = max(far, abs(step[i]))
+        mean += slopes[i] * step[i]
+    return far, mean

@@ -140,12 +140,13 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     put(end, step, state, springs)
     unknowns = _unknowns(end)
     if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
-        jacobian = np.zeros((unknowns, unknowns))
+        found = np.zeros((unknowns + 1, unknowns))
         if unknowns:
             differentiated(
                 end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums()[0], jacobian,
+                end.body.no_sums()[0], found,
             )  # fmt: skip
+        jacobian = found[:unknowns]
         there = end.copied()
         one = _closed(there, jacobian)
         other = _closed_beside(there, jacobian)
