@@ -137,8 +137,7 @@ class HomogenisedLaw:
 
     def __repr__(self) -> str:
         """Return how much is tabulated, and what the law says at its ends and in its middle."""
-        low, high = float(self.velocity[0]), float(self.velocity[-1])
-        front = self.velocity > 0.0
+        low, high, front = float(self.velocity[0]), float(self.velocity[-1]), self.velocity > 0.0
         forces = self.full_friction * self.table[front, FORCE]
         held = f", {len(self.missing)} interpolated over" if self.missing else ""
         held += f", {len(self.unsettled)} not settled" if self.unsettled else ""
@@ -184,10 +183,9 @@ class HomogenisedLaw:
     def _of_missing(self) -> Iterator[str]:
         if not self.missing:
             return
-        count = len(self.missing)
         tried = len({*self.velocity, *self.missing}) - 1
         yield (
-            f"no periodic state was found at {count} of {tried} mean "
+            f"no periodic state was found at {len(self.missing)} of {tried} mean "
             f"velocities, which are interpolated over: {_places(self.missing)}"
         )
 

@@ -1,11 +1,14 @@
-"""A body in the cycle of its vibration on steps twice or half as long, from where it is on the first."""
+"""A body in the cycle of its vibration on steps twice or half as long, from where it is."""
 
 import numpy as np
 
 from asperity.kernels.compiled import kernel
 from asperity.kernels.dense import copy
+from asperity.kernels.elimination import eliminate
 from asperity.slider.other_drives import in_longer_steps, pressed_in_longer_steps
-from asperity.slider.shooting import close, predicted, run_cycle
+from asperity.slider.search_room import room_for
+from asperity.slider.shooting import CLOSE, close, defect_of, mean_drive, run_cycle
+from asperity.slider.unknowns import unknown_scales
 
 
 @kernel
@@ -79,11 +82,40 @@ def friction_on_twice(start, springs, p, q, increments, rises, sums, cycles):
 
 
 @kernel
+def _predicted(start, springs, p, q, increments, rises, sums, jacobian, slopes):
+    """Foresee the state next to ``start`` by a cycle from there, of which a Jacobian is known.
+
+    Returns the mean drive force over mu F_N of that cycle, and of the state, by its ``slopes``;
+    infinite where the Jacobian tells nothing.
+    """
+    room = room_for(start, springs)
+    count = unknown_scales(start, springs, p, q, room.scales)
+    step, matrix, end = room.step, room.matrix, room.trial_end
+    worst = defect_of(
+        start, springs, p, q, increments, rises, sums, count, room, end, room.trial_end_springs,
+        room.defect,
+    )  # fmt: skip
+    first = mean_drive(sums, start[0], end[0], p)
+    if worst <= CLOSE:
+        return first, first
+    for i in range(count):
+        step[i] = -room.defect[i]
+        for j in range(count):
+            matrix[i, j] = jacobian[i, j]
+    if not (worst < 1e300 and eliminate(matrix, step, count, 1e-14)):
+        return first, np.inf
+    mean = first
+    for i in range(count):
+        mean += slopes[i] * step[i]
+    return first, mean
+
+
+@kernel
 def predicted_on_half(start, springs, p, q, increments, rises, sums, jacobian, slopes):
-    """Foresee the state on steps half as long, as `predicted`; what is given is left as it is."""
+    """Foresee the state on steps half as long, as `_predicted`; what is given is left as it is."""
     states, held, shorter, pressing, halves, rise_halves, records = _moved(
         start, springs, p, q, increments, rises, sums, 0.5
     )
-    return predicted(
+    return _predicted(
         states, held, shorter, pressing, halves, rise_halves, records[0], jacobian, slopes
     )

@@ -98,7 +98,7 @@ def run(state, springs, p, q, increments, rises, sums):
 
 
 @kernel
-def _defect(
+def defect_of(
     start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
 ):  # fmt: skip
     """Scaled change of the unknowns over a cycle from ``start``; returns its largest part."""
@@ -120,7 +120,7 @@ def _defect(
 
 @kernel
 def mean_drive(sums, start, end, p):
-    """Mean drive force over a cycle from ``start``, whose own drive force is taken as that at the end.
+    """Mean drive force over a cycle, whose start is taken to have that of its end.
 
     A rigid drive has it of its contact.
     """
@@ -147,7 +147,7 @@ def differentiate(
         signed = -change * side if here[j] > 0.0 else change * side
         there[j] += signed * room.scales[j]
         write_unknowns(there, p, q, trial[0], trial_springs)
-        _defect(
+        defect_of(
             trial, trial_springs, p, q, increments, rises, sums, count, room, room.trial_end,
             room.trial_end_springs, other,
         )  # fmt: skip
@@ -168,7 +168,7 @@ def _newton(
     trial_end, trial_end_springs = room.trial_end, room.trial_end_springs
     defect, matrix, step, scales = room.defect, room.matrix, room.step, room.scales
     cycles = 1
-    worst = _defect(
+    worst = defect_of(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
     )
     mean = mean_drive(sums, start[0], end[0], p)
@@ -206,7 +206,7 @@ def _newton(
                 if q is None and size > 1.5 * p.static_ratio:
                     trial[0].deflection_x *= p.static_ratio / size
                     trial[0].deflection_y *= p.static_ratio / size
-            reached = _defect(
+            reached = defect_of(
                 trial, trial_springs, p, q, increments, rises, sums, count, room, trial_end,
                 trial_end_springs, room.trial_defect,
             )  # fmt: skip
@@ -256,7 +256,7 @@ def _first_guess(
             springs[0, j] = max(q.reference - q.heights[j], 0.0)
     if not p.rigid:
         state.stretch = state.friction_x / p.stiffness
-    worst = _defect(
+    worst = defect_of(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, room.defect
     )
     if worst <= 1e-12:
@@ -346,7 +346,7 @@ def differentiated(start, springs, p, q, increments, rises, sums, jacobian):
     room = room_for(start, springs)
     unknown_scales(start, springs, p, q, room.scales)
     count = jacobian.shape[1]
-    _defect(
+    defect_of(
         start, springs, p, q, increments, rises, sums, count, room, room.trial_end,
         room.trial_end_springs, room.defect,
     )  # fmt: skip
@@ -366,7 +366,7 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
     count = unknown_scales(start, springs, p, q, room.scales)
     here, defect, step, matrix = room.here, room.defect, room.step, room.matrix
     end, end_springs = room.trial_end, room.trial_end_springs
-    worst = _defect(
+    worst = defect_of(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
     )
     cycles = 1
@@ -384,39 +384,9 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
             # Found without Newton's method, in a cycle or some: it is left to itself here too.
             start[0] = end[0]
             copy(end_springs, springs)
-        worst = _defect(
+        worst = defect_of(
             start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
         )
         cycles += 1
     sums.drive_force = sums.steps * mean_drive(sums, start[0], end[0], p)
     return worst, cycles
-
-
-@kernel
-def predicted(start, springs, p, q, increments, rises, sums, jacobian, slopes):
-    """Foresee the state next to ``start`` by a cycle from there, of which a Jacobian is known.
-
-    Returns how far the unknown is that moves most, in its scale, and the mean drive force of the
-    state over mu F_N, by its ``slopes``; infinite where the Jacobian tells nothing.
-    """
-    room = room_for(start, springs)
-    count = unknown_scales(start, springs, p, q, room.scales)
-    step, matrix, end = room.step, room.matrix, room.trial_end
-    worst = _defect(
-        start, springs, p, q, increments, rises, sums, count, room, end, room.trial_end_springs,
-        room.defect,
-    )  # fmt: skip
-    mean = mean_drive(sums, start[0], end[0], p)
-    if not worst < 1e300:
-        return np.inf, mean
-    for i in range(count):
-        step[i] = -room.defect[i]
-        for j in range(count):
-            matrix[i, j] = jacobian[i, j]
-    if not eliminate(matrix, step, count, 1e-14):
-        return (np.inf if count else 0.0), mean
-    far = 0.0
-    for i in range(count):
-        far = max(far, abs(step[i]))
-        mean += slopes[i] * step[i]
-    return far, mean
