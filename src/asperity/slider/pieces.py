@@ -60,7 +60,8 @@ def of_one(
     breaks: FloatArray, coefficients: FloatArray, viscous: float
 ) -> Callable[[float], float]:
     """Return `interpolate` as a function of one velocity, by the same operations without arrays."""
-    places, cubics = breaks.tolist(), coefficients.T.tolist()
+    places: list[float] = breaks.tolist()
+    cubics: list[list[float]] = coefficients.T.tolist()
     last = len(places) - 2
 
     def value_at(velocity: float) -> float:
@@ -68,7 +69,7 @@ def of_one(
         piece = min(bisect.bisect_right(places, at) - 1, last)
         x = at - places[piece]
         a, b, c, d = cubics[piece]
-        value: float = ((a * x + b) * x + c) * x + d
+        value = ((a * x + b) * x + c) * x + d
         if at == velocity:
             return value
         full, share = math.copysign(1.0, velocity), at / velocity
