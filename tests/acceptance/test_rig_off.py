@@ -385,6 +385,44 @@ def test_a_start_over_what_was_left_on_switches_off_or_names(
     gone_on_with(begun, rig, tmp_path / "run", **looked)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["silent", "late", "very late", "stuck at a value"])
+@pytest.mark.parametrize("way", ["interrupted", "killed"])
+def test_at_a_start_it_is_named_within_a_second_and_nothing_waits_for_the_rest(
+    begun, rig, dials, tmp_path, fault, way
+):
+    dials.turn(opening=20.0)
+    lost = rig.lost()
+    set_fault(rig, "steel", fault)
+    # Of a run that has nothing written down yet.
+    procedure = begun()
+    first = waited_for(lambda: lines_of(tmp_path / "run", "off"))[0]
+    assert first["took_s"] <= NAMED + rig.lost() - lost
+    assert [one.partition(":")[0] for one in first["still_on"]] == [NAMES["steel"]]
+    # Said by whoever is not in the terminal's way.
+    waited_for(lambda: f"NOT READ BACK TO BE OFF: {NAMES['steel']}" in procedure.said)
+    asked = time.monotonic()
+    procedure.kill(signal.SIGINT if way == "interrupted" else signal.SIGKILL)
+    code = procedure.ended()
+    assert time.monotonic() - asked < 15.0
+    if way == "killed":
+        assert code == -signal.SIGKILL
+    elif fault != "late":
+        # As fast as an answer that comes too late.
+        assert code == 4
+        assert f"{NAMES['steel']}: " in procedure.said.rpartition("not everything")[2]
+    else:
+        assert code in (4, 130)
+    rig.sound()
+    rig.quiet()
+    procedure.gone()
+    assert lines_of(tmp_path / "run", "off")[0] == first
+    rig.hold(False)
+    again = begun()
+    assert again.ended() == 0, again.said
+    assert len(rigs.cells(tmp_path / "run")) == 2
+
+
 def journal_latched(folder):
     kinds = [line["kind"] for line in rigs.journal(folder)]
     return "latched" in kinds and "acknowledged" not in kinds[kinds.index("latched") :]

@@ -5,6 +5,7 @@ import dataclasses
 import json
 import subprocess
 import sys
+from pathlib import Path
 from typing import Any
 
 from asperity.casefile import Case
@@ -134,8 +135,17 @@ class GuardedBench(Bench):
             self.rig.close()
 
 
-def open_bench(case: Case, backend: str) -> GuardedBench:
-    """Return the instruments of a configuration, everything switched off by their guardian.
+def open_bench(case: Case, backend: str, folder: Path | None = None) -> GuardedBench:
+    """Return the instruments of a configuration, which their guardian begins to switch off.
+
+    Parameters
+    ----------
+    case : Case
+        The configuration.
+    backend : str
+        One of `BACKENDS`, but for a replay.
+    folder : Path, optional
+        Of the run.
 
     Raises
     ------
@@ -146,9 +156,9 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     """
     inputs = inputs_for(case)
     if backend == "sim":
-        return _simulated(case, simulated_of(inputs))
+        return _simulated(case, simulated_of(inputs), folder)
     person = Operator()
-    guard = Guard(case, backend, None)
+    guard = Guard(case, backend, None, folder)
     owned, _ = owned_by(case, backend)
     due = case.get(Table, Table()).due(simulated=False)
     sampled = case.get(Acquisition, Acquisition())
@@ -179,11 +189,11 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     )
 
 
-def _simulated(case: Case, inputs: tuple[Input, ...]) -> GuardedBench:
+def _simulated(case: Case, inputs: tuple[Input, ...], folder: Path | None) -> GuardedBench:
     address = begun_rig(case)
     line = RigLine(address)
     try:
-        guard = Guard(case, "sim", address)
+        guard = Guard(case, "sim", address, folder)
     except BaseException:
         line.close()
         raise
