@@ -12,9 +12,13 @@ from apparatus.grid import slow
 from apparatus.standing_rig import Procedure, StandingRig, lines_of, waited_for
 
 from asperity.tribometer.guardian import guard, guardian, stop, switching
-from asperity.tribometer.guardian.asked import AskedPerson
+from asperity.tribometer.guardian.asked import AskedPerson, AskedScope
 from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.procedure import packer
 from asperity.tribometer.procedure.interlock import Interlock
+from asperity.tribometer.procedure.logger import Logger
+from asperity.tribometer.recording import joining
+from asperity.tribometer.recording.blocks import Blocks
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning"),
@@ -517,6 +521,48 @@ def test_a_person_may_take_longer_than_the_patience_of_hardware(dials, tmp_path)
         between = [line for line in lines if cells[0] < line["line"] < cells[1]]
         assert any("mode" in line for line in between if line["kind"] == "done")
         assert len(asked.read_text().splitlines()) > 4
+        assert not OUTPUTS & set(rig.on())
+    finally:
+        procedure.end()
+        rig.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hangs", [False, True])
+def test_what_takes_its_time_between_two_files_is_no_hang_and_a_hang_is(dials, tmp_path, hangs):
+    case = rigs.small_case(
+        'plan.frequencies=["250 Hz"]', 'plan.steel_supplies=["3 V","5.5 V"]',
+        f'guardian.patience="{LONG} s"', f'guardian.deadline="{LONG} s"',
+    )  # fmt: skip
+
+    def slow_disk_and_scope():
+        def slowly(act, seconds=2 * PATIENCE):
+            def done(*given, **named):
+                time.sleep(seconds)
+                return act(*given, **named)
+
+            return done
+
+        for verb in ("start", "stop"):
+            setattr(AskedScope, verb, slowly(getattr(AskedScope, verb)))
+        Blocks.sync, Blocks.close = slowly(Blocks.sync), slowly(Blocks.close)
+        joining._join, joining.compressed = slowly(joining._join), slowly(joining.compressed)
+        packer.compressed = joining.compressed
+        if hangs:
+            Logger.keep = slowly(Logger.keep, 4 * PATIENCE)
+
+    rig = StandingRig(case)
+    dials.turn(patience=PATIENCE)
+    procedure = Procedure(case, tmp_path / "run", rig, dials=dials, before=slow_disk_and_scope)
+    try:
+        assert procedure.ended() == (3 if hangs else 0), procedure.said
+        procedure.gone()
+        assert ("has said nothing for" in procedure.said) == hangs
+        if not hangs:
+            assert len(rigs.cells(tmp_path / "run")) == 2
+            files = sorted(file.name for file in (tmp_path / "run").glob("*.nc"))
+            assert files == ["file-01.nc", "file-02.nc"]
+            assert not list((tmp_path / "run").glob(".*.blocks"))
         assert not OUTPUTS & set(rig.on())
     finally:
         procedure.end()

@@ -1,12 +1,14 @@
 """The instruments of a configuration, by who makes them, their outputs owned by a guardian."""
 
+import concurrent.futures as cf
 import contextlib
 import dataclasses
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from asperity.casefile import Case
 from asperity.errors import AsperityError
@@ -14,7 +16,7 @@ from asperity.tribometer.guardian import asked
 from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.devices import DRIVE, OUTPUTS, owned_by
 from asperity.tribometer.guardian.guard import Guard
-from asperity.tribometer.guardian.in_time import ScopeInTime
+from asperity.tribometer.guardian.in_time import ScopeInTime, beaten
 from asperity.tribometer.guardian.rig import Address, RigLine
 from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
@@ -39,6 +41,8 @@ from asperity.tribometer.instruments.protocols import (
 # Kinds of what an interlock says of a rig that somebody else has switched off.
 _AS_OFF = "vibration", "supply"
 REPLAY = "replay"
+_WORKING = 5.0  # s that a disk may take
+T = TypeVar("T")
 BACKENDS = "sim", REPLAY, "hardware", "manual"
 """All of it simulated; a run played back; all that can be had as hardware; a PicoScope, and a
 person for the rest."""
@@ -107,6 +111,17 @@ class GuardedBench(Bench):
     def waiting(self) -> contextlib.AbstractContextManager[None]:
         """Return what tells the guardian meanwhile that the procedure goes on."""
         return self.guard.beating()
+
+    def work(self, act: Callable[[], T]) -> T:
+        """Return what a piece of work gives; the guardian is told that the procedure waits for it.
+
+        What takes longer than a disk may is told no more, and ends as a procedure that hangs.
+        """
+        with cf.ThreadPoolExecutor(1) as pool:
+            future = pool.submit(act)
+            with contextlib.suppress(cf.TimeoutError):
+                return beaten(future, self.guard.here, _WORKING)
+            return future.result()
 
     def _scope_let_go(self) -> bool:
         try:
@@ -178,6 +193,7 @@ def open_bench(case: Case, backend: str, folder: Path | None = None) -> GuardedB
             lambda: opened_scope(case, inputs),
             sampled.deadline(due),
             late=late,
+            beat=guard.here,
         ),
         vibration=vibration,
         motors=outputs,
@@ -203,7 +219,7 @@ def _simulated(case: Case, inputs: tuple[Input, ...], folder: Path | None) -> Gu
     due = case.get(Table, Table()).due(simulated=True)
     outputs = {key: asked.AskedSupply(guard, key, name) for key, name in OUTPUTS.items()}
     return GuardedBench(
-        scope=ScopeInTime(name, inputs, lambda: scope, due),
+        scope=ScopeInTime(name, inputs, lambda: scope, due, beat=guard.here),
         vibration=_Vibration(guard),
         motors={key: outputs[key] for key in ("steel", "bronze")},
         tachometer=asked.AskedTachometer(line, "tachometer", "simulated tachometer"),

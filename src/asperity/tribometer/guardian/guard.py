@@ -149,6 +149,11 @@ class Guard:
         if error := self.switched_off():
             raise error
 
+    def here(self) -> None:
+        """Tell that the procedure goes on, whatever has become of the guardian."""
+        with contextlib.suppress(OSError, ValueError):
+            self._wire.send(_HERE)
+
     @contextlib.contextmanager
     def beating(self) -> Iterator[None]:
         """Tell that the procedure goes on while it waits for a person, everything off."""

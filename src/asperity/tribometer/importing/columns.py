@@ -12,8 +12,8 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, shown
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.recording import Source
+from asperity.tribometer.recording.joining import Counts
 from asperity.tribometer.recording.layout import BEYOND, LARGEST, MISSING
-from asperity.tribometer.recording.recorder import Counts
 from asperity.tribometer.reduction.blocks import unit_scale
 from asperity.tribometer.signals import NEEDED, SIGNALS
 

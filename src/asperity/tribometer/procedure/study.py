@@ -32,7 +32,7 @@ from asperity.tribometer.procedure.kept import check_kept
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
-from asperity.tribometer.recording.recorder import joined_all
+from asperity.tribometer.recording.joining import joined_all
 from asperity.tribometer.signals import SIMULATED
 from asperity.tribometer.twin.plant import Plant
 from asperity.tribometer.twin.provenance import standing
