@@ -1,9 +1,8 @@
 """A gearset's case from ratio, torque and speed alone."""
 
-import dataclasses
 import functools
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 from asperity.casefile import Table
@@ -15,7 +14,11 @@ from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
+from asperity.rating.rows import Row
 from asperity.rating.spectrum import Spectrum
+from asperity.shafts.options import BearingOptions
+from asperity.shafts.parameters import WheelShaft, WormShaft
+from asperity.shafts.study import prepared, studied
 from asperity.start.kinds import KINDS, Values
 from asperity.studies.proposals import propose
 from asperity.studies.proposed import Proposals
@@ -96,7 +99,7 @@ def proposals(
     gearset = _table(Gearset, kept | _STAND_IN)
     operation = _operation(values)
     options = _table(RatingOptions, values.get("rating", {}))
-    found = propose(
+    return propose(
         _ratio(ratio, asked),
         gearset,
         operation,
@@ -104,20 +107,12 @@ def proposals(
         rank=rank,
         exact=exact,
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
+        borne=_borne(values, kept, operation, options),
         details=functools.partial(_details, kept, values.get(Tolerances.table)),
         held=held,
         locks=locks,
         requirements=asked,
     )
-    shafts = [f"[{name}]" for name in ("worm_shaft", "wheel_shaft") if name in values]
-    if not shafts:
-        return found
-    # What shafts and bearings bear follows from where they stand, which a proposal moves.
-    said = (
-        f"{' and '.join(shafts)} of the case are not among what holds here: asperity rate judges "
-        "them with each proposal that --out writes"
-    )
-    return dataclasses.replace(found, notes=(said, *found.notes))
 
 
 def _ratio(given: float | None, asked: Requirements) -> float:
@@ -172,6 +167,28 @@ def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:
     except (InputError, ConvergenceError):
         return False
     return True
+
+
+def _borne(
+    values: Values, kept: Mapping[str, Any], operation: Operation, options: RatingOptions
+) -> Callable[[Mapping[str, Any]], tuple[Row, ...]] | None:
+    """Return what says of a gearset by its keys what its shafts come to; None without shafts."""
+    tables: list[Any] = [
+        _table(model, values[model.table]) if model.table in values else None
+        for model in (WormShaft, WheelShaft, BearingOptions)
+    ]
+    worm, wheel, asked = tables
+    if worm is None and wheel is None:
+        return None
+
+    def rows(keys: Mapping[str, Any]) -> tuple[Row, ...]:
+        gearset = _table(Gearset, {**kept, **keys})
+        shafts = worm, wheel
+        return studied(
+            prepared(gearset, operation, options, shafts, asked or BearingOptions())
+        ).rows
+
+    return rows
 
 
 def _details(

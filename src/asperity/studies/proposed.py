@@ -4,12 +4,26 @@ from collections.abc import Iterator
 from typing import Any, ClassVar, NamedTuple
 
 from asperity.rating.demands import DEMANDS
+from asperity.rating.rows import Row
 from asperity.rating.standing import NAMES
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 
 MOST = 20
 """Proposals that are shown."""
+
+
+def gearset_keys(
+    starts: float, teeth: float, distance: float, module: float, factor: float
+) -> dict[str, Any]:
+    """Return what a ``[gearset]`` table has of a macro-geometry, lengths in mm."""
+    return {
+        "starts": int(starts),
+        "wheel_teeth": int(teeth),
+        "centre_distance": f"{distance:.12g} mm",
+        "axial_module": f"{module:.12g} mm",
+        "diameter_factor": float(f"{factor:.12g}"),
+    }
 
 
 class Proposal(NamedTuple):
@@ -26,7 +40,7 @@ class Proposal(NamedTuple):
     margin : float
         The least of all safeties over what is asked; 1 and more holds.
     limited_by : str
-        The safety that has it, as ``standard.key``.
+        The safety that has it, as ``standard.key``, or the shaft or bearing by its name.
     holds : bool
         Whether every safety is enough.
     locks_at_rest, locks_in_motion : tuple of str
@@ -39,6 +53,8 @@ class Proposal(NamedTuple):
         Of worm and wheel as full bodies, and of the wheel's rim with its teeth.
     backlash_arcmin : tuple of float, optional
         Least and greatest at the wheel in the worst case, where there are tolerances.
+    rows : tuple of Row, optional
+        What its shafts and bearings come to, where the case has any.
     """
 
     starts: int
@@ -58,17 +74,18 @@ class Proposal(NamedTuple):
     mass_kg: float | None = None
     rim_kg: float | None = None
     backlash_arcmin: tuple[float, float] | None = None
+    rows: tuple[Row, ...] = ()
 
     @property
     def keys(self) -> dict[str, Any]:
         """What a ``[gearset]`` table has of it."""
-        return {
-            "starts": self.starts,
-            "wheel_teeth": self.wheel_teeth,
-            "centre_distance": f"{self.centre_distance_mm:.12g} mm",
-            "axial_module": f"{self.axial_module_mm:.12g} mm",
-            "diameter_factor": self.diameter_factor,
-        }
+        return gearset_keys(
+            self.starts,
+            self.wheel_teeth,
+            self.centre_distance_mm,
+            self.axial_module_mm,
+            self.diameter_factor,
+        )
 
     @property
     def settings(self) -> tuple[str, ...]:
@@ -96,7 +113,8 @@ class Proposals(Result):
     def to_json(self) -> dict[str, Any]:
         """Return the proposals, each with the settings that make it."""
         found = [
-            {key: value for key, value in p._asdict().items() if value not in (None, "")}
+            {k: v for k, v in p._asdict().items() if k != "rows" and v not in (None, "")}
+            | ({"rows": [row.to_json() for row in p.rows]} if p.rows else {})
             | {"settings": list(p.settings)}
             for p in self.found
         ]
@@ -114,6 +132,7 @@ class Proposals(Result):
             for place, p in enumerate(self.found[:MOST], 1)
         ]  # fmt: skip
         best = self.found[0]
+        said_above = not (self.holding and best.holds)
         first = " ".join(f'--set "{setting}"' for setting in best.settings)
         remarks = [
             f"{self.rated} gearset{'s' * (self.rated != 1)} rated, {self.holding} "
@@ -121,12 +140,29 @@ class Proposals(Result):
             f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
             # One that breaks is nobody's first one.
             *([f"the first one: {first}"] if best.holds else []),
-            *(self.notes if self.holding else self.notes[:-1]),
+            *(self.notes[:-1] if said_above else self.notes),
         ]
         if len(self.found) > MOST:
             remarks.insert(1, f"{len(self.found) - MOST} more with --json")
-        title = "" if self.holding else self.notes[-1].capitalize()
-        return (Table.of(headings, rows, title=title, remarks=remarks), *self._made())
+        title = self.notes[-1].capitalize() if said_above else ""
+        table = Table.of(headings, rows, title=title, remarks=remarks)
+        return (table, *self._borne(), *self._made())
+
+    def _borne(self) -> Iterator[Table]:
+        """Yield what shafts and bearings come to, where the case has any."""
+        shown = self.found[:MOST]
+        names = [(row.name, row.unit) for row in shown[0].rows]
+        if names:
+            heads = [f"{name} ({unit})" if unit else name for name, unit in names]
+            rows = [
+                (str(place), *(f"{row.value:.3g}{'' if row.holds else ' FAILS'}" for row in p.rows))
+                for place, p in enumerate(shown, 1)
+            ]
+            asked = [f"{row.name} {row.asked:.4g}" for row in shown[0].rows]
+            yield Table.of(
+                ("", *heads), rows, title="Shafts and bearings, as asperity rate judges them",
+                remarks=(f"asked: {', '.join(asked)}",),
+            )  # fmt: skip
 
     def _made(self) -> Iterator[Table]:
         """Yield what they weigh and, where it is asked, what cuts them and how they play."""
@@ -148,8 +184,8 @@ class Proposals(Result):
 
 def _safety(path: str) -> str:
     """Return a safety as its symbol and the name of its standard."""
-    demand = next(demand for demand in DEMANDS if demand.path == path)
-    return f"{demand.symbol} {NAMES[demand.standard]}"
+    demand = next((demand for demand in DEMANDS if demand.path == path), None)
+    return path if demand is None else f"{demand.symbol} {NAMES[demand.standard]}"
 
 
 def _backlash(proposal: Proposal) -> str:
