@@ -20,10 +20,11 @@ RATIO = 50.0
 
 
 def begun(**worm_bearing):
-    """Return the duty of the actuator with its shafts; the worm's bearing A otherwise."""
+    """Return the duty of the actuator with shafts and 50 teeth, the worm's bearing A otherwise."""
     values = copy.deepcopy(duty("actuator-shafts"))
     for key in MACRO:
         values["gearset"].pop(key)
+    values["gearset"]["wheel_teeth"] = 50
     values["worm_shaft"]["bearing"][0]["bearing"].update(worm_bearing)
     complete(values)
     return values
@@ -31,9 +32,10 @@ def begun(**worm_bearing):
 
 @pytest.fixture
 def duty_file(tmp_path):
-    """Return a duty file; the text of the case that ships without its macro-geometry."""
+    """Return a duty file; the text of the case that ships, of its gearset the teeth alone."""
     text = case_file("actuator-shafts").read_text("utf-8")
-    lines = [line for line in text.splitlines() if line.split(" = ")[0] not in MACRO]
+    free = [key for key in MACRO if key != "wheel_teeth"]
+    lines = [line for line in text.splitlines() if line.split(" = ")[0] not in free]
     path = tmp_path / "duty.toml"
     path.write_text("\n".join([*lines, "[requirements]", "ratio = 50"]), "utf-8")
     assert "gearset" in read_toml(path)
@@ -70,16 +72,16 @@ def test_every_proposal_has_the_verdict_of_its_rating_to_the_last_bit(asperity, 
 
 
 def test_a_bearing_too_small_for_any_fails_every_proposal_and_is_named(asperity, duty_file):
-    changed(duty_file, 'dynamic_rating = "36 kN"', 'dynamic_rating = "0.5 kN"')
-    code, output, errors = asperity("size", str(duty_file), "--uncut")
+    changed(duty_file, 'dynamic_rating = "36 kN"', 'dynamic_rating = "0.2 kN"')
+    folder = duty_file.parent / "out"
+    code, output, errors = asperity("size", str(duty_file), "--uncut", "--out", str(folder))
     assert code == 0, errors
     words = " ".join(output.split())
     assert words.startswith("None holds with its shafts and bearings; these come nearest")
     assert "whose shafts or bearings do not hold; nearest to it: worm bearing A by ISO 281" in words
     assert "the first one" not in words
-    code, output, errors = asperity("size", str(duty_file), "--uncut", "--json")
-    found = json.loads(output)["proposals"]
-    assert {one["limited_by"] for one in found} == {"worm bearing A"}
+    found = json.loads((folder / "size.json").read_text("utf-8"))["proposals"]
+    assert found[0]["limited_by"] == "worm bearing A"
     assert not any(one["holds"] for one in found)
 
 
@@ -108,6 +110,7 @@ def test_those_that_are_judged_last_are_those_that_nothing_beats(monkeypatch, ra
     monkeypatch.setattr(room, "choose", slowly)
     assert worth(proposals(values, RATIO).found) == worth(quick.found)
     assert all(p.holds for p in quick.found)
+    assert rating == "4 kN" or "do not hold" in quick.notes[0]
 
 
 def test_a_shaft_that_cannot_be_judged_is_refused_as_rate_refuses_it(asperity, duty_file):
