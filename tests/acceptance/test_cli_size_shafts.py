@@ -110,7 +110,7 @@ def test_those_that_are_judged_last_are_those_that_nothing_beats(monkeypatch, ra
     monkeypatch.setattr(room, "choose", slowly)
     assert worth(proposals(values, RATIO).found) == worth(quick.found)
     assert all(p.holds for p in quick.found)
-    assert rating == "4 kN" or "do not hold" in quick.notes[0]
+    assert rating == "4 kN" or any("do not hold" in note for note in quick.notes)
 
 
 def test_a_shaft_that_cannot_be_judged_is_refused_as_rate_refuses_it(asperity, duty_file):
