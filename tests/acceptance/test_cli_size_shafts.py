@@ -92,7 +92,7 @@ def worth(found):
     }
 
 
-@pytest.mark.parametrize("rating", ["4 kN", "1.5 kN", "0.9 kN"])
+@pytest.mark.parametrize("rating", ["4 kN", "1.5 kN", pytest.param("0.9 kN", marks=pytest.mark.slow)])
 def test_those_that_are_judged_last_are_those_that_nothing_beats(monkeypatch, rating):
     """Judging only what nothing else beats finds what judging every one would find."""
     from asperity.studies import proposals as room
@@ -103,7 +103,7 @@ def test_those_that_are_judged_last_are_those_that_nothing_beats(monkeypatch, ra
     def slowly(kept, margins, best, judges, least, known=None):
         rows = {int(n): judges.borne(judges.keys(n)) for n in kept}
         for n, own in rows.items():
-            margins[n] = min(margins[n], *(row.value / row.asked for row in own))
+            margins[n] = min(margins[n], *(row.value / row.asked for row in own.rows))
         left = kept if least is None else kept[margins[kept] >= least]
         return room.Chosen(best(left) if len(left) else left, rows, 0, (), {})
 
@@ -143,3 +143,78 @@ def test_a_margin_that_is_asked_for_counts_for_shafts_too():
     safety = math.nextafter(life.value / life.asked, math.inf)
     values["requirements"] = {"safety": f"{safety:.9g}"}
     assert "worm bearing A" not in {p.limited_by for p in proposals(values, RATIO).found if p.holds}
+
+
+SHELF = """
+[source.maker]
+name = "invented"
+confidence = "own choice"
+"""
+BEARING = """
+[bearing."{name}"]
+kind = "{kind}"
+bore = "{bore} mm"
+outside_diameter = "{outside} mm"
+width = "16 mm"
+dynamic_rating = "{c} kN"
+static_rating = "{c0} kN"
+from = {{ "*" = "maker" }}
+{more}
+"""
+ANGLE = 'contact_angle = "40 deg"'
+
+
+def of_shelf(name, kind, outside, c, c0, more="", bore=30):
+    return BEARING.format(name=name, kind=kind, outside=outside, c=c, c0=c0, more=more, bore=bore)
+
+
+def test_the_smallest_bearing_of_the_shelf_that_does_stands_where_none_is_named(
+    asperity, duty_file
+):
+    folder = duty_file.parent
+    shelf = SHELF + "".join(
+        (
+            of_shelf("large", "angular contact", 72, 60, 40, ANGLE),
+            of_shelf("right", "angular contact", 62, 36, 26, ANGLE),
+            # One that bears the running, but not what the peak puts on it at rest.
+            of_shelf("soft", "angular contact", 58, 36, 0.5, ANGLE),
+            of_shelf("small", "angular contact", 55, 0.4, 26, ANGLE),
+            of_shelf("wide bore", "angular contact", 52, 36, 26, ANGLE, bore=32),
+            of_shelf("no pair", "cylindrical", 47, 36, 26),
+        )
+    )
+    (folder / "shelf.toml").write_text(shelf, "utf-8")
+    text = duty_file.read_text("utf-8")
+    first, rest = text.split("[worm_shaft.bearing.bearing]", 1)
+    rest = rest.partition("\n\n")[2]
+    second, rest = rest.split("[worm_shaft.bearing.bearing]", 1)
+    rest = rest.partition("\n\n")[2]
+    asked = '[requirements]\nbearings = "own"'
+    duty_file.write_text((first + second + rest).replace("[requirements]", asked), "utf-8")
+    command = ("--materials", str(folder / "shelf.toml"), "size", str(duty_file), "--uncut")
+    code, output, errors = asperity(*command, "--out", str(folder / "out"))
+    assert code == 0, errors
+    assert "Bearings of the shelf" in output
+    told = json.loads((folder / "out" / "size.json").read_text("utf-8"))["proposals"]
+    for one in told:
+        assert one["holds"]
+        assert list(one["bearings"].values()) == ["right", "no pair"]
+    code, output, errors = asperity(
+        "--materials", str(folder / "shelf.toml"), "rate", str(folder / "out" / "proposal-1.toml"),
+        "--json",
+    )  # fmt: skip
+    assert code == 0, errors
+    assert json.loads(output)["verdict"]["rows"] == told[0]["rows"]
+    # Where nothing does, the one that comes nearest is named.
+    code, output, errors = asperity(*command, "--json", "--set", "requirements.safety=1e2")
+    found = json.loads(output)["proposals"]
+    assert not any(one["holds"] for one in found)
+    (folder / "shelf.toml").write_text(SHELF, "utf-8")
+    code, _, errors = asperity(*command)
+    assert code == 2
+    assert 'requirements.bearings is "own", but no data file has a bearing' in errors
+    (folder / "shelf.toml").write_text(SHELF + of_shelf("a", "cylindrical", 47, 36, 26), "utf-8")
+    code, _, errors = asperity(*command)
+    assert code == 2
+    assert "worm_shaft.bearing at 30 mm names none, and of the 1 of data files none has" in errors
+    assert len(errors.strip().splitlines()) == 1

@@ -133,6 +133,24 @@ def studied(problem: Prepared, rating: Rating | None = None) -> ShaftStudy:
 
 def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy:
     """Return what both shafts come to under given loads, beside a rating by ISO/TR 14521."""
+    return ShaftStudy.of(
+        problem.given,
+        found_of(problem, loads),
+        loads,
+        asked_life(problem, loads),
+        (float(iso["delta_m_mm"]), float(iso["delta_lim_mm"])) if "delta_m_mm" in iso else None,
+    )
+
+
+def asked_life(problem: Prepared, loads: tuple[Load, ...]) -> float:
+    """Return the life that the bearings must reach, h."""
+    if problem.options.life is not None:
+        return scaled(problem.options.life, 1.0 / 3600.0)
+    return float(sum(load.hours for load in loads))
+
+
+def found_of(problem: Prepared, loads: tuple[Load, ...]) -> dict[str, ShaftFound]:
+    """Return both shafts under loads, by table."""
     given, options = problem.given, problem.options
     hand = 1.0 if given.gearset.hand == "right" else -1.0
     cases = cases_of(loads, options.raises)
@@ -156,16 +174,7 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
         found["wheel_shaft"] = find_shaft(
             problem.wheel, loads, cases, options, on_wheel, of_wheel=True
         )
-    life = float(sum(load.hours for load in loads))
-    if options.life is not None:
-        life = scaled(options.life, 1.0 / 3600.0)
-    return ShaftStudy.of(
-        given,
-        found,
-        loads,
-        life,
-        (float(iso["delta_m_mm"]), float(iso["delta_lim_mm"])) if "delta_m_mm" in iso else None,
-    )
+    return found
 
 
 def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:

@@ -2,7 +2,7 @@
 
 import functools
 import math
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from typing import Any
 
 from asperity.casefile import Table
@@ -14,11 +14,8 @@ from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rows import Row
 from asperity.rating.spectrum import Spectrum
-from asperity.shafts.options import BearingOptions
-from asperity.shafts.parameters import WheelShaft, WormShaft
-from asperity.shafts.study import prepared, studied
+from asperity.start.borne import borne_by
 from asperity.start.kinds import KINDS, Values
 from asperity.studies.proposals import propose
 from asperity.studies.proposed import Proposals
@@ -107,7 +104,7 @@ def proposals(
         rank=rank,
         exact=exact,
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
-        borne=_borne(values, kept, operation, options),
+        borne=borne_by(values, kept, operation, options, asked),
         details=functools.partial(_details, kept, values.get(Tolerances.table)),
         held=held,
         locks=locks,
@@ -167,28 +164,6 @@ def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:
     except (InputError, ConvergenceError):
         return False
     return True
-
-
-def _borne(
-    values: Values, kept: Mapping[str, Any], operation: Operation, options: RatingOptions
-) -> Callable[[Mapping[str, Any]], tuple[Row, ...]] | None:
-    """Return what says of a gearset by its keys what its shafts come to; None without shafts."""
-    tables: list[Any] = [
-        _table(model, values[model.table]) if model.table in values else None
-        for model in (WormShaft, WheelShaft, BearingOptions)
-    ]
-    worm, wheel, asked = tables
-    if worm is None and wheel is None:
-        return None
-
-    def rows(keys: Mapping[str, Any]) -> tuple[Row, ...]:
-        gearset = _table(Gearset, {**kept, **keys})
-        shafts = worm, wheel
-        return studied(
-            prepared(gearset, operation, options, shafts, asked or BearingOptions())
-        ).rows
-
-    return rows
 
 
 def _details(

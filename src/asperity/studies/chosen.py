@@ -6,6 +6,7 @@ those that nothing beats before; what they take makes room for others, which are
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +18,21 @@ from asperity.rating.rows import Row
 
 Keys = Mapping[str, Any]
 """What a ``[gearset]`` table has of a design."""
+
+
+class Borne(NamedTuple):
+    """What shafts and bearings of a design come to.
+
+    Attributes
+    ----------
+    rows : tuple of Row
+        By what is judged.
+    bearings : dict of str to str
+        Names of those that are chosen, by where they stand in the case.
+    """
+
+    rows: tuple[Row, ...] = ()
+    bearings: Mapping[str, str] = MappingProxyType({})
 
 
 class Judges(NamedTuple):
@@ -34,7 +50,7 @@ class Judges(NamedTuple):
 
     keys: Callable[[int], Keys]
     cut: Callable[[Keys], bool] | None = None
-    borne: Callable[[Keys], tuple[Row, ...]] | None = None
+    borne: Callable[[Keys], Borne] | None = None
 
 
 class Chosen(NamedTuple):
@@ -44,7 +60,7 @@ class Chosen(NamedTuple):
     ----------
     shown : ndarray of int
         Their numbers.
-    rows : dict of int to tuple of Row
+    borne : dict of int to Borne
         What shafts and bearings come to, of all that were asked about.
     uncut : int
         How many would be shown but for their wheel, which no hob cuts.
@@ -55,7 +71,7 @@ class Chosen(NamedTuple):
     """
 
     shown: npt.NDArray[np.int_]
-    rows: dict[int, tuple[Row, ...]]
+    borne: dict[int, Borne]
     uncut: int
     weak: tuple[Row, ...]
     refused: dict[int, str]
@@ -67,7 +83,7 @@ def choose(
     best: Callable[[npt.NDArray[np.int_]], npt.NDArray[np.int_]],
     judges: Judges,
     least: float | None,
-    known: Mapping[int, tuple[Row, ...]] | None = None,
+    known: Mapping[int, Borne] | None = None,
 ) -> Chosen:
     """Return the best of what is kept.
 
@@ -83,7 +99,7 @@ def choose(
         Who else is asked.
     least : float or None
         Margin that a design must have; None where all fall short and the nearest are wanted.
-    known : mapping of int to tuple of Row, optional
+    known : mapping of int to Borne, optional
         What shafts and bearings of some come to, by which their margins are already.
 
     Returns
@@ -91,25 +107,25 @@ def choose(
     Chosen
         None are shown where no design is left.
     """
-    rows = dict(known or {})
+    borne = dict(known or {})
     cut: dict[int, bool] = {}
     weak: list[Row] = []
     refused: dict[int, str] = {}
     while len(kept):
         shown = best(kept)
         lost = set[int]()
-        new = [int(n) for n in shown if n not in rows] if judges.borne else []
+        new = [int(n) for n in shown if n not in borne] if judges.borne else []
         for n in new:
             assert judges.borne is not None
             try:
-                rows[n] = judges.borne(judges.keys(n))
+                borne[n] = judges.borne(judges.keys(n))
             except InputError as error:
-                refused[n], rows[n] = str(error), ()
+                refused[n], borne[n] = str(error), Borne()
                 lost.add(n)
                 continue
-            margins[n] = min(margins[n], *(row.margin for row in rows[n]), np.inf)
+            margins[n] = min(margins[n], *(row.margin for row in borne[n].rows), np.inf)
             if least is not None and margins[n] < least:
-                weak.append(weakest(rows[n]))
+                weak.append(weakest(borne[n].rows))
                 lost.add(n)
         if not new and judges.cut is not None:
             asked = [int(n) for n in shown if n not in cut]
@@ -120,7 +136,7 @@ def choose(
         kept = np.array([n for n in kept if n not in lost], dtype=int)
     shown = best(kept) if len(kept) else kept
     uncut = sum(not good for good in cut.values())
-    return Chosen(shown, rows, uncut, tuple(weak), refused)
+    return Chosen(shown, borne, uncut, tuple(weak), refused)
 
 
 def weakest(rows: Sequence[Row]) -> Row:

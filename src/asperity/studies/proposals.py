@@ -20,11 +20,10 @@ from asperity.gearset.threads import thread_room
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rows import Row
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
-from asperity.studies.chosen import Chosen, Judges, choose, undominated, weakest
+from asperity.studies.chosen import Borne, Chosen, Judges, choose, undominated, weakest
 from asperity.studies.proposed import MOST, Proposal, Proposals, gearset_keys
 from asperity.studies.requirements import Requirements
 from asperity.studies.series import grid
@@ -47,7 +46,7 @@ def propose(
     held: Mapping[str, float] | None = None,
     locks: str = "",
     requirements: Requirements | None = None,
-    borne: Callable[[Mapping[str, Any]], tuple[Row, ...]] | None = None,
+    borne: Callable[[Mapping[str, Any]], Borne] | None = None,
     details: Callable[[Mapping[str, Any]], Mapping[str, Any]] | None = None,
 ) -> Proposals:
     """Propose gearsets for a ratio, by the torque and the speed of an operation.
@@ -158,7 +157,7 @@ def propose(
     holds = bool(holding.any())
 
     def proposal(n: int) -> Proposal:
-        rows = chosen.rows.get(n, ())
+        rows, bearings = chosen.borne.get(n, Borne())
         weak = rows and weakest(rows).margin == margins[n]
         return Proposal(
             int(starts[n]),
@@ -174,6 +173,7 @@ def propose(
             *_locks(locking, n),
             hob=hob_of(hobs or (), int(starts[n]), float(module[n]), float(factor[n])),
             rows=rows,
+            bearings=bearings,
         )
 
     def keys(n: int) -> dict[str, Any]:
@@ -189,7 +189,7 @@ def propose(
     if holds and not len(chosen.shown) and (chosen.weak or chosen.refused):
         holds, before = False, chosen
         others = np.array([n for n in np.flatnonzero(known) if n not in before.refused], dtype=int)
-        chosen = choose(others, margins, best, judges, None, before.rows)
+        chosen = choose(others, margins, best, judges, None, before.borne)
         chosen = chosen._replace(weak=before.weak, refused=before.refused | chosen.refused)
     if not len(chosen.shown):
         raise InputError(_none_left(chosen))

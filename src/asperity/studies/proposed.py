@@ -1,6 +1,7 @@
 """Worm gearsets that are proposed, and how they are told."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple
 
 from asperity.rating.demands import DEMANDS
@@ -9,6 +10,7 @@ from asperity.rating.standing import NAMES
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 
+_OF_SHAFTS = ("rows", "bearings")
 MOST = 20
 """Proposals that are shown."""
 
@@ -55,6 +57,8 @@ class Proposal(NamedTuple):
         Least and greatest at the wheel in the worst case, where there are tolerances.
     rows : tuple of Row, optional
         What its shafts and bearings come to, where the case has any.
+    bearings : mapping of str to str, optional
+        Names of those that are chosen from data files, by where they stand in the case.
     """
 
     starts: int
@@ -75,6 +79,7 @@ class Proposal(NamedTuple):
     rim_kg: float | None = None
     backlash_arcmin: tuple[float, float] | None = None
     rows: tuple[Row, ...] = ()
+    bearings: Mapping[str, str] = MappingProxyType({})
 
     @property
     def keys(self) -> dict[str, Any]:
@@ -113,7 +118,8 @@ class Proposals(Result):
     def to_json(self) -> dict[str, Any]:
         """Return the proposals, each with the settings that make it."""
         found = [
-            {k: v for k, v in p._asdict().items() if k != "rows" and v not in (None, "")}
+            {k: v for k, v in p._asdict().items() if k not in _OF_SHAFTS and v not in (None, "")}
+            | ({"bearings": dict(p.bearings)} if p.bearings else {})
             | ({"rows": [row.to_json() for row in p.rows]} if p.rows else {})
             | {"settings": list(p.settings)}
             for p in self.found
@@ -163,6 +169,14 @@ class Proposals(Result):
                 ("", *heads), rows, title="Shafts and bearings, as asperity rate judges them",
                 remarks=(f"asked: {', '.join(asked)}",),
             )  # fmt: skip
+
+        places = list(shown[0].bearings)
+        if places:
+            rows = [
+                (str(place), *(p.bearings.get(where, "-") for where in places))
+                for place, p in enumerate(shown, 1)
+            ]
+            yield Table.of(("", *places), rows, title="Bearings of the shelf")
 
     def _made(self) -> Iterator[Table]:
         """Yield what they weigh and, where it is asked, what cuts them and how they play."""
