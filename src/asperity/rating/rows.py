@@ -49,7 +49,7 @@ class Row(NamedTuple):
     @property
     def stands(self) -> str:
         """What there is of what is asked."""
-        return f"{self.value:.3g}{self._unit} of {self.asked:.4g}"
+        return f"{self.value:.3g}{self._unit} of the {self.asked:.4g} asked"
 
     @property
     def _unit(self) -> str:

@@ -1,6 +1,6 @@
 """Worm gearsets that are proposed, and how they are told."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple
 
@@ -8,6 +8,7 @@ from asperity.rating.demands import DEMANDS
 from asperity.rating.rows import Row
 from asperity.rating.standing import NAMES
 from asperity.results import Result, quantity
+from asperity.results.language import said
 from asperity.results.table import Table
 
 _OF_SHAFTS = ("rows", "bearings")
@@ -157,19 +158,21 @@ class Proposals(Result):
     def _borne(self) -> Iterator[Table]:
         """Yield what shafts and bearings come to, where the case has any."""
         shown = self.found[:MOST]
-        names = [(row.name, row.unit) for row in shown[0].rows]
-        if names:
-            heads = [f"{name} ({unit})" if unit else name for name, unit in names]
+        told = [_grouped(p.rows) for p in shown]
+        if told[0]:
+            heads = (
+                "",
+                *(f"{name} ({row.unit})" if row.unit else name for name, row in told[0].items()),
+            )
+            asked = ("asked", *(f"{row.asked:.4g}" for row in told[0].values()))
             rows = [
-                (str(place), *(f"{row.value:.3g}{'' if row.holds else ' FAILS'}" for row in p.rows))
-                for place, p in enumerate(shown, 1)
+                (
+                    str(place),
+                    *(f"{row.value:.3g}{'' if row.holds else ' FAILS'}" for row in own.values()),
+                )
+                for place, own in enumerate(told, 1)
             ]
-            asked = [f"{row.name} {row.asked:.4g}" for row in shown[0].rows]
-            yield Table.of(
-                ("", *heads), rows, title="Shafts and bearings, as asperity rate judges them",
-                remarks=(f"asked: {', '.join(asked)}",),
-            )  # fmt: skip
-
+            yield Table.of(heads, [asked, *rows], title="Shafts and bearings")
         places = list(shown[0].bearings)
         if places:
             rows = [
@@ -194,6 +197,18 @@ class Proposals(Result):
             columns["backlash (arcmin)"] = [_backlash(p) for p in shown]
         rows = list(zip(*columns.values(), strict=True))
         yield Table.of(tuple(columns), rows, title="Worm and wheel as full bodies")
+
+
+def _grouped(rows: Sequence[Row]) -> dict[str, Row]:
+    """Return the rows of shafts and bearings by what is told of them; of lives the least."""
+    lives = [row for row in rows if row.unit]
+    least = {"bearings": min(lives, key=lambda row: row.margin)} if lives else {}
+    return {**least, **{row.name: row for row in rows if not row.unit}}
+
+
+def _cell(row: Row) -> str:
+    fails = "" if row.holds else f" {said('FAILS')}"
+    return f"{row.value:.3g}{fails}"
 
 
 def _safety(path: str) -> str:
