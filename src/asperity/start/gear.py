@@ -94,7 +94,7 @@ def proposals(
     kept = {key: value for key, value in values["gearset"].items() if key not in _HELD}
     held = _held({key: value for key, value in values["gearset"].items() if key in _HELD})
     gearset = _table(Gearset, kept | _STAND_IN)
-    operation = _operation(values)
+    operation = operation_of(values)
     options = _table(RatingOptions, values.get("rating", {}))
     return propose(
         _ratio(ratio, asked),
@@ -124,8 +124,8 @@ def _ratio(given: float | None, asked: Requirements) -> float:
     return given
 
 
-def _operation(values: Values) -> Operation:
-    """Return how it is run, with its load spectrum and housing."""
+def operation_of(values: Values) -> Operation:
+    """Return how it is run, with its load spectrum and housing; raises InputError."""
     run: Operation = _table(Operation, values["operation"])
     tables = {
         model.table: _table(model, values[model.table])
