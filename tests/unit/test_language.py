@@ -133,7 +133,7 @@ def test_a_german_report_has_the_numbers_of_the_english_one(given):
 
 def test_inches_are_the_same_in_both_languages():
     _, result = answer_of("actuator-duty")
-    number = re.compile(r"\d+(?:[.,]\d+)?(?: (?:hp|lbf in|degF))?")
+    number = re.compile(r"\d+(?:[.,]\d+)?(?: (?:hp|lbf·in|degF))?")
     with shown_in("us"):
         english = number.findall(result.brief())
         with spoken(catalogue_of("de")):
