@@ -10,8 +10,8 @@ from asperity.flanks.export.space import views
 from asperity.flanks.export.space.scene import gearset_scene, write_gearset
 from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.gearset.blanks import Blanks
 from asperity.mesh import HexMesh
 from asperity.mesh.inp import write_inp
 from asperity.mesh.stl import write_stl

@@ -9,10 +9,10 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.export.turned import merged, rim_radius, wheel_section
-from asperity.flanks.parameters import Blanks
+from asperity.flanks.export.turned import merged
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import on_cylinder, turned
+from asperity.gearset.blanks import Blanks, rim_radius, wheel_section
 
 FLANK_ERROR = 4e-7
 """Largest distance of a tooth's splines from the flanks, mm, but for corners of undercut."""

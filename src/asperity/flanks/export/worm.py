@@ -10,9 +10,9 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
 from asperity.flanks.export.turned import shaft_sections
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.setting import Pair
+from asperity.gearset.blanks import Blanks
 
 _LEAST_ALONG = 8
 # Distance of the points on a ground flank at the root, to the mean distance.

@@ -9,14 +9,14 @@ from asperity.flanks import parameters
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.cad.keyway import require_keys
 from asperity.flanks.export.extras import require_cad, require_draw, require_view
-from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
+from asperity.flanks.export.turned import shaft_sizes
 from asperity.flanks.measuring import measures
 from asperity.flanks.mesh.tooth import element_size, read_density, tooth
 from asperity.flanks.meshing import lubrication
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
-from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
+from asperity.flanks.parameters import Disc, Hob, MeasuringOptions, Modification, Mount
 from asperity.flanks.study.meshed import ToothMesh
 from asperity.flanks.study.mounted import MountedStudy
 from asperity.flanks.study.result import FlankStudy
@@ -24,6 +24,7 @@ from asperity.flanks.study.toleranced import Toleranced, require_once
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
+from asperity.gearset.blanks import Blanks, wheel_sizes
 from asperity.gearset.proportions import SOURCES as PROPORTIONS
 from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.table import Tolerances

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from asperity.errors import AsperityError
 from asperity.files.store import write_text
 from asperity.flanks.export.assembly import Assembly
-from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
+from asperity.flanks.export.turned import shaft_sizes
 from asperity.flanks.measuring.drawing import Datum, csv_of, drawing_data
 from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.meshing.analysis import LABELS, Analysis
 from asperity.flanks.meshing.lubrication import LoadedNumbers
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.study.meshed import ToothMesh
 from asperity.flanks.study.toleranced import Toleranced
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.gearset import Geometry
+from asperity.gearset.blanks import Blanks, wheel_sizes
 from asperity.gearset.drawn import Drawn
 from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.dataset import to_dataset

@@ -11,10 +11,10 @@ from typing import Any
 
 from asperity.files.store import write_text
 from asperity.flanks.export.extras import require_draw
-from asperity.flanks.export.turned import shaft_sections, wheel_section, wheel_sizes
+from asperity.flanks.export.turned import shaft_sections
 from asperity.flanks.measuring.drawing import Datum, on_drawing
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.worm.setting import Pair
+from asperity.gearset.blanks import Blanks, wheel_section, wheel_sizes
 from asperity.gearset.drawing import draw_along, draw_through, scale_of
 from asperity.results.svg import Point, Words, scale_text
 

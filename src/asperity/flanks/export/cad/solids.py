@@ -16,8 +16,8 @@ from asperity.flanks.export.patch import Body
 from asperity.flanks.export.space.scene import BRONZE, STEEL
 from asperity.flanks.export.tooth import tooth_body, wheel_body
 from asperity.flanks.export.worm import whole_worm
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.gearset.blanks import Blanks
 
 _BOTH = "worm", "wheel"
 

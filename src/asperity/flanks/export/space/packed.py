@@ -20,12 +20,11 @@ from asperity.errors import InputError
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.patch import Body
 from asperity.flanks.export.tooth import beside_flanks, shown_tooth
-from asperity.flanks.export.turned import wheel_section
 from asperity.flanks.export.worm import SHOWN, whole_worm
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, FlankAnalysis
 from asperity.flanks.meshing.lubrication import LoadedLines
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.gearset.blanks import Blanks, wheel_section
 from asperity.mesh.packed import Arrays, floats, indices, packed, size_of
 from asperity.mesh.surface import Surface
 

@@ -9,10 +9,9 @@ import numpy as np
 from asperity.flanks.export import tooth, worm
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.patch import Body
-from asperity.flanks.export.turned import wheel_section
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import turned
+from asperity.gearset.blanks import Blanks, wheel_section
 from asperity.mesh.glb import Node, write_glb
 
 STEEL, BRONZE = (0.68, 0.71, 0.75), (0.85, 0.66, 0.38)
