@@ -93,7 +93,7 @@ def draw_along(
     top = -a - tip - _GAP
     words = _named(g, "worm_face_width")
     if abs(high - low - g.worm_face_width) > 1e-6:
-        words = ("", text_of(high - low))
+        words = ("", f"{high - low:.5g}")
     drawing.dimension((first, -a - tip), (last, -a - tip), top, words)
     bottom = outer + _GAP
     drawing.dimension((-outer, 0.0), (outer, 0.0), bottom, _named(g, "wheel_throat_diameter"))

@@ -25,7 +25,7 @@ from asperity.rating.levers import Alternative, Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row
+from asperity.rating.rows import Row, Shafts
 from asperity.rating.self_locking import SelfLocking, self_locking
 from asperity.rating.standards import PROMISED, STANDARDS, known_standards, rate_by, tables_of
 from asperity.rating.starting import Starting, starting, starting_table
@@ -37,6 +37,7 @@ from asperity.results.system import shown_frame
 from asperity.results.table import Table
 
 if TYPE_CHECKING:
+    from asperity.gearset.drawn import Views
     from asperity.results.report import Heading, Section
 
 
@@ -77,6 +78,8 @@ class Rated(Result):
         What the tolerances leave of it, where there are any.
     rows : tuple of Row
         What others than the standards say of the same gearbox, for its verdict.
+    shafts : Shafts, optional
+        What draws its shafts, and works them out in the workbook.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
@@ -98,6 +101,7 @@ class Rated(Result):
     contact: "Section | None" = None
     backlash: Backlash | None = None
     rows: tuple[Row, ...] = ()
+    shafts: Shafts | None = None
 
     @property
     def verdict(self) -> Verdict:
@@ -198,11 +202,18 @@ class Rated(Result):
                 name = f"{standard}.{number.symbol or number.key}"
                 yield Entry(name, label, number.value, origin=number)
 
+    @property
+    def seen(self) -> "Views":
+        """Both views of the gearset, with its shafts where there are any."""
+        from asperity.gearset.drawn import views_of
+
+        if self.shafts is None:
+            return views_of(self.geometry, self.gearset.hand)
+        return self.shafts.seen()
+
     def views(self) -> dict[str, str]:
         """Return the gearset drawn to scale."""
-        from asperity.gearset.drawing import along_the_wheel, through_the_wheel
-
-        along, through = along_the_wheel(self.geometry), through_the_wheel(self.geometry)
+        along, through = self.seen
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
@@ -270,7 +281,7 @@ class Rated(Result):
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         if len(self.given.duty) > _MOST_SHEETS:
             return [*names, "rate.csv"]
-        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
+        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx", self.shafts)
         return [*names, "rate.csv", "rate.xlsx"]
 
 

@@ -1,6 +1,7 @@
 """What the report of a rating says, from verdict to sources."""
 
 import dataclasses
+import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -41,8 +42,9 @@ Reported = Any
 def sections(rated: Reported) -> Iterator[Section]:
     """Yield the sections of the report of a rating."""
     cited: dict[Source, int] = {}
-    yield Section("Verdict", tuple(_come_to(rated)), tables=tuple(_verdict(rated)))
-    yield dataclasses.replace(drawn(rated.geometry), tables=(_geometry(rated),))
+    verdict = (*_verdict(rated), *_beside(rated))
+    yield Section("Verdict", tuple(_come_to(rated)), tables=verdict)
+    yield dataclasses.replace(drawn(rated.seen), tables=(_geometry(rated),))
     if rated.iso14521 is not None:
         flow = Picture("", svg=power_flow(rated.iso14521),
                        caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip
@@ -148,6 +150,24 @@ def _verdict(rated: Reported) -> Iterator[Table]:
     wear = (told,) if rated.verdict.wear_assumed else ()
     unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
     yield Table(columns, tuple(rows), remarks=(said, *wear, *unrated))
+
+
+def _beside(rated: Reported) -> Iterator[Table]:
+    """Yield what shafts and bearings come to, where there are any."""
+    if not rated.rows:
+        return
+    rows = []
+    for place, row in enumerate(rated.rows):
+        key = f"verdict.rows.{place}.{'life_h' if row.unit else 'safety'}"
+        value = text_of(row.value, key=key) if math.isfinite(row.value) else "-"
+        stands = "holds" if row.holds else "FAILS"
+        rows.append((f"{row.standard} {row.name}", value, f"{row.asked:.4g}", row.unit, row.by,
+                     stands))  # fmt: skip
+    columns = (
+        Column("shafts and bearings"), Column("value", right=True), Column("asked", right=True),
+        Column("unit"), Column("by", folds=True), Column(""),
+    )  # fmt: skip
+    yield Table(columns, tuple(rows))
 
 
 def _geometry(rated: Reported) -> Table:

@@ -12,7 +12,7 @@ from asperity.gearset.drawing import Pen, draw_along, draw_through
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.keys import key_of
 from asperity.results.svg import Drawing, Point, scale_for, scale_text
-from asperity.shafts.shape import Keyway, Profile, Seat, Shape
+from asperity.shafts.shape import Keyway, Profile, Seat, Shape, on_shaft
 
 _WIDEST, _HIGHEST = 120.0, 130.0
 _EDGE = math.radians(15.0)  # between two lines, from where on they have an edge between them
@@ -86,27 +86,27 @@ def along_with_shafts(
 def through_with_shafts(
     drawing: Pen, g: Geometry, s: float, wheel: Shape | None, blanks: Blanks | None = None
 ) -> None:
-    """Draw the section through the wheel's axis at a scale, the middle of the axis at (0, 0)."""
-    if wheel is None:
-        draw_through(drawing, g, s)
-        return
-    reach = s * (wheel.length - wheel.mesh), s * wheel.mesh
+    """Draw the section through the wheel's axis at a scale, the middle of the axis at (0, 0).
+
+    With neither shaft nor blanks the wheel is drawn without its hub.
+    """
+    reach = (0.0, 0.0)
+    if wheel is not None:
+        reach = s * (wheel.length - wheel.mesh), s * wheel.mesh
+        blanks = on_shaft(blanks, wheel)
     draw_through(drawing, g, s, reach)
-    fitted = on_shaft(blanks, wheel)
-    for side in (-1.0, 1.0):
-        blank = [(s * z, side * s * r) for r, z in wheel_section(g, fitted)]
-        drawing.line(blank, closed=True)
-        drawing.hatch(blank)
-    if wheel.keyed_at_mesh:
-        half = 0.5 * s * wheel_sizes(g, fitted)["hub_width"]
-        top = -s * (0.5 * wheel.bore + key_of(wheel.bore, "bore").in_hub)
-        drawing.line([(-half, top), (half, top)], "narrow")
-    draw_shaft(drawing, wheel, s, 0.0)
-
-
-def on_shaft(blanks: Blanks | None, shape: Shape) -> Blanks:
-    """Return what a wheel is beside its teeth where it sits on a shaft, whose bore it has."""
-    return (blanks or Blanks()).model_copy(update={"bore": 1e-3 * shape.bore}, units="SI")
+    if blanks is not None:
+        for side in (-1.0, 1.0):
+            blank = [(s * z, side * s * r) for r, z in wheel_section(g, blanks)]
+            drawing.line(blank, closed=True)
+            drawing.hatch(blank)
+        if blanks.keyways in ("wheel", "both"):
+            sizes = wheel_sizes(g, blanks)
+            half, bore = 0.5 * s * sizes["hub_width"], sizes["bore"]
+            top = -s * (0.5 * bore + key_of(bore, "blank.bore").in_hub)
+            drawing.line([(-half, top), (half, top)], "narrow")
+    if wheel is not None:
+        draw_shaft(drawing, wheel, s, 0.0)
 
 
 def draw_shaft(drawing: Pen, shape: Shape, s: float, axis: float) -> None:

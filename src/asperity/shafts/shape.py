@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from asperity.errors import InputError
-from asperity.gearset.blanks import chamfer_of
+from asperity.gearset.blanks import Blanks, chamfer_of
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.keys import key_of
 from asperity.rating.inputs import scaled
@@ -16,8 +16,9 @@ from asperity.shafts.parameters import ShaftBearing, ShaftSection, WheelShaft, W
 
 Profile = tuple[tuple[float, float], ...]
 
-_ARC = math.radians(10.0)  # between the points of a fillet
-_FROM_END, _LENGTH = 0.1, 0.7  # of the section at a shaft's end, of a keyway
+_ARC = math.radians(5.0)  # between the points of a fillet
+FROM_END, LENGTH = 0.1, 0.7
+"""Where a keyway begins in the section at a shaft's end, and how long it is, as shares of it."""
 _WITHIN = 0.8  # of another section
 _BELOW_ROOT = 0.98  # of the threads' root, where a shaft meets them
 
@@ -270,9 +271,9 @@ def _keyways(
         start, long = ends[n], ends[n + 1] - ends[n]
         first, share = 0.5 * (1.0 - _WITHIN), _WITHIN
         if n == 0:
-            first, share = _FROM_END, _LENGTH
+            first, share = FROM_END, LENGTH
         elif n == len(sizes) - 1:
-            first, share = 1.0 - _FROM_END - _LENGTH, _LENGTH
+            first, share = 1.0 - FROM_END - LENGTH, LENGTH
         low = start + first * long
         made.append(Keyway(low, low + share * long, key.width, key.in_shaft, sizes[n]))
     return tuple(made), tuple(notes)
@@ -298,3 +299,51 @@ def _seat(place: ShaftBearing, number: int) -> Seat:
         scaled(each, 1e3) for each in (rolling.bore, rolling.outside_diameter, rolling.width)
     )
     return Seat(scaled(place.at, 1e3), bore, outside, width, rolling.kind, angles)
+
+
+def on_shaft(blanks: Blanks | None, shape: Shape) -> Blanks:
+    """Return what a wheel is beside its teeth on its shaft, whose diameter its bore has."""
+    own = blanks or Blanks()
+    keyed = "none"
+    if shape.keyed_at_mesh:
+        keyed = "both" if own.keyways in ("worm", "both") else "wheel"
+    elif own.keyways == "worm":
+        keyed = "worm"
+    return own.model_copy(update={"bore": 1e-3 * shape.bore, "keyways": keyed}, units="SI")
+
+
+def require_once(blanks: Blanks | None, worm: Shape | None, wheel: Shape | None) -> None:
+    """Refuse what [blank] says of shafts otherwise than their own tables.
+
+    Raises
+    ------
+    InputError
+        Both say something of a shaft.
+    """
+    if blanks is None:
+        return
+    given = blanks.model_fields_set
+    for key in ("shaft_diameter", "drive_end", "free_end"):
+        if worm is not None and key in given:
+            raise InputError(
+                f"blank.{key} and [worm_shaft] both say how long or thick the worm's shaft is: "
+                f"leave blank.{key} out"
+            )
+    wanted = blanks.keyways
+    if wanted in ("worm", "both") and worm is not None and not worm.keyways:
+        raise InputError(
+            f"blank.keyways is {wanted!r}; no section of [worm_shaft] has notch = 'keyway': give "
+            "it there"
+        )
+    if wheel is None:
+        return
+    if blanks.bore is not None and abs(1e3 * blanks.bore - wheel.bore) > 1e-6:
+        raise InputError(
+            f"blank.bore is {1e3 * blanks.bore:g} mm; [wheel_shaft] is {wheel.bore:g} mm thick at "
+            "its mesh: leave blank.bore out"
+        )
+    if wanted in ("wheel", "both") and not wheel.keyed_at_mesh:
+        raise InputError(
+            f"blank.keyways is {wanted!r}; the section of [wheel_shaft] at its mesh has no notch = "
+            "'keyway': give it there"
+        )

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
+from asperity.gearset.blanks import Blanks
 from asperity.gearset.parameters import Gearset
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import driven
@@ -30,6 +31,7 @@ from asperity.shafts.parameters import WheelShaft, WormShaft
 from asperity.shafts.result import ShaftStudy
 from asperity.shafts.rows import rows_of
 from asperity.shafts.shaft import ShaftFound, find_shaft
+from asperity.shafts.shape import require_once, shape_of
 from asperity.shafts.statics import PointLoad
 
 
@@ -41,6 +43,7 @@ class Prepared(NamedTuple):
     worm: Model | None
     wheel: Model | None
     options: BearingOptions
+    blanks: Blanks | None = None
 
 
 def given_shafts(case: Case) -> bool:
@@ -76,13 +79,17 @@ def prepare(case: Case) -> Prepared:
         operation = driven(gearset, operation_of(case), options)
         gearset.require_consistent()
         given = inputs(gearset, operation, options)
-        worm, wheel = case.get(WormShaft), case.get(WheelShaft)
+        worm, wheel, blanks = case.get(WormShaft), case.get(WheelShaft), case.get(Blanks)
+        g = gearset.geometry
+        shapes = (None if table is None else shape_of(table, g) for table in (worm, wheel))
+        require_once(blanks, *shapes)
         return Prepared(
             given,
             tables_of(options, case.folder),
             None if worm is None else model_of(worm, gearset.geometry),
             None if wheel is None else model_of(wheel, gearset.geometry),
             case.get(BearingOptions, BearingOptions()),
+            blanks,
         )
 
 
@@ -142,6 +149,7 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
         loads,
         life,
         (float(iso["delta_m_mm"]), float(iso["delta_lim_mm"])) if "delta_m_mm" in iso else None,
+        problem.blanks,
     )
 
 
@@ -167,7 +175,7 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
 
     def add(rated: Rated, _: Run) -> Rated:
         iso = rated.iso14521 or rate_by("iso14521", problem.given, problem.tables)
-        rows = rows_of(study(problem, loads_of(problem.given, iso), iso))
-        return dataclasses.replace(rated, rows=rows)
+        shafts = study(problem, loads_of(problem.given, iso), iso)
+        return dataclasses.replace(rated, rows=rows_of(shafts), shafts=shafts)
 
     return add

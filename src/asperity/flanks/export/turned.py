@@ -1,17 +1,22 @@
-"""What is turned of a worm: its shaft's ends; and what all turned sections have in common.
+"""What worm and wheel are beside their teeth: shafts as a case describes them, or as assumed.
 
 A section is points of radius and z, mm. The outside of a body lies to the left of the way along it,
 seen with the radius to the right and the axis upwards.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.flanks.worm.setting import Pair
-from asperity.gearset.blanks import Blanks, chamfer_of, rounded, sizes_given
+from asperity.gearset.blanks import Blanks, chamfer_of, rounded, sizes_given, wheel_sizes
+from asperity.gearset.keys import key_of
+from asperity.shafts.parameters import WheelShaft, WormShaft
+from asperity.shafts.shape import FROM_END, LENGTH, Keyway, Shape, on_shaft, require_once, shape_of
 
 _SAME = 1e-9
 
@@ -22,6 +27,84 @@ SPAN = 1.5
 JOURNAL = 2.0
 """What the drive end is longer than the free end where none is given, in shaft diameters."""
 _LARGEST_SHAFT = 0.98
+
+
+class Bodies(NamedTuple):
+    """What both are beside their teeth.
+
+    Attributes
+    ----------
+    blanks : Blanks or None
+        As the table ``[blank]`` has it, of the wheel that sits on its shaft.
+    worm, wheel : Shape or None
+        Shafts, where a case describes them.
+    """
+
+    blanks: Blanks | None = None
+    worm: Shape | None = None
+    wheel: Shape | None = None
+
+    @classmethod
+    def of(cls, case: Case, pair: Pair) -> "Bodies":
+        """Return those of a case.
+
+        Raises
+        ------
+        InputError
+            Two tables say the same, or there is no such body.
+        """
+        blanks, g = case.get(Blanks), pair.geometry
+        tables = case.get(WormShaft), case.get(WheelShaft)
+        worm, wheel = (None if table is None else shape_of(table, g) for table in tables)
+        require_once(blanks, worm, wheel)
+        made = cls(blanks if wheel is None else on_shaft(blanks, wheel), worm, wheel)
+        wheel_sizes(g, made.blanks)
+        worm_shape(pair, made)
+        return made
+
+
+Beside = Blanks | Bodies | None
+"""What both are beside their teeth: nothing where all is assumed."""
+
+
+def blanks_of(beside: Beside) -> Blanks | None:
+    """Return what a wheel is beside its teeth."""
+    return beside.blanks if isinstance(beside, Bodies) else beside
+
+
+def worm_shape(pair: Pair, beside: Beside = None) -> Shape:
+    """Return the worm's shaft, as it is described or assumed.
+
+    Raises
+    ------
+    InputError
+        As of `shaft_sizes`.
+    """
+    if isinstance(beside, Bodies) and beside.worm is not None:
+        return beside.worm
+    blanks = blanks_of(beside)
+    diameter, drive, free, chamfer = shaft_sizes(pair, blanks).values()
+    thread, radius = pair.geometry.worm_face_width, 0.5 * diameter
+    end = drive + thread + free
+    profiles = []
+    if drive > 0.0:
+        profiles.append(((0.0, 0.0), (0.0, radius - chamfer), (chamfer, radius), (drive, radius)))
+    if free > 0.0:
+        profiles.append(
+            ((drive + thread, radius), (end - chamfer, radius), (end, radius - chamfer), (end, 0.0))
+        )
+    keyways: tuple[Keyway, ...] = ()
+    if blanks is not None and blanks.keyways in ("worm", "both"):
+        key = key_of(diameter, "blank.shaft_diameter")
+        if drive <= 0.0:
+            raise InputError(
+                f"blank.keyways is {blanks.keyways!r}; the worm has no shaft at its driven end: "
+                "give blank.drive_end"
+            )
+        start = FROM_END * drive
+        keyways = (Keyway(start, start + LENGTH * drive, key.width, key.in_shaft, diameter),)
+    mesh = drive + 0.5 * thread
+    return Shape(tuple(profiles), end, mesh, (drive, drive + thread), keyways, (), diameter)
 
 
 def shaft_sizes(pair: Pair, blanks: Blanks | None = None) -> dict[str, float]:
@@ -52,28 +135,39 @@ def shaft_sizes(pair: Pair, blanks: Blanks | None = None) -> dict[str, float]:
     }
 
 
-def shaft_sections(pair: Pair, blanks: Blanks | None = None) -> list[FloatArray]:
+def shaft_sections(pair: Pair, beside: Beside = None) -> list[FloatArray]:
     """Return the sections of a worm's shaft ends, the drive end where z is positive, (k, 2).
 
-    Errors as in `shaft_sizes`.
+    Each ends on the threads; one that is thicker than their root there is closed, and ends on the
+    axis at both ends. Errors as in `worm_shape`.
     """
-    diameter, drive, free, chamfer = shaft_sizes(pair, blanks).values()
-    thread = 0.5 * pair.geometry.worm_face_width
-    sections = []
-    for side, beyond in ((1.0, drive), (-1.0, free)):
-        if beyond == 0.0:
-            continue
-        end = thread + beyond
-        profile = np.array(
-            [
-                (0.0, end),
-                (0.5 * diameter - chamfer, end),
-                (0.5 * diameter, end - chamfer),
-                (0.5 * diameter, thread),
-            ]
-        )
-        sections.append(merged(profile if side > 0.0 else (profile * [1.0, -1.0])[::-1]))
-    return sections
+    most = _LARGEST_SHAFT * pair.worm.root_radius * (1.0 + _SAME)
+    shape = worm_shape(pair, beside)
+    made = []
+    for section in sections_of(shape):
+        whole = section
+        if section[0][0] > most:
+            whole = np.vstack([[0.0, section[0][1]], whole])
+        if section[-1][0] > most:
+            whole = np.vstack([whole, [0.0, section[-1][1]]])
+        made.append(whole)
+    return made
+
+
+def sections_of(shape: Shape) -> list[FloatArray]:
+    """Return the sections of a shaft, its mesh at z = 0 and its first end where z is positive."""
+    return [
+        merged(np.array([(radius, shape.mesh - place) for place, radius in profile]))
+        for profile in shape.profiles
+    ]
+
+
+def threads_of(pair: Pair, beside: Beside = None) -> tuple[float, float]:
+    """Return from where to where a worm's threads go, mm along z."""
+    shape = worm_shape(pair, beside)
+    assert shape.threads is not None
+    start, end = shape.threads
+    return shape.mesh - end, shape.mesh - start
 
 
 def merged(section: FloatArray) -> FloatArray:
