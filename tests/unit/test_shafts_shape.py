@@ -252,3 +252,17 @@ def test_the_report_of_a_rating_shows_shafts_bearings_and_what_they_come_to():
     for row in rated.rows:
         assert f"{row.standard} {row.name}" in page
     assert "without hub" in rate_case(CASE).to_html()
+
+
+def test_a_shaft_too_thick_for_its_wheel_is_rated_and_makes_no_solid():
+    from asperity.runs import Run
+    from asperity.shafts.study import beside_rating
+
+    sections = "wheel_shaft.section=[{length='170 mm', diameter='150 mm'}]"
+    case = read_case("actuator-shafts", case_tables(), [sections])
+    page = beside_rating(case)(rate_case(case), Run()).to_html()
+    assert "without the hub, which has no room" in page
+    with pytest.raises(
+        InputError, match=r"\[wheel_shaft\] is thick at its mesh: blank\.bore"
+    ):
+        Bodies.of(case, Pair.of(GEARSET))

@@ -15,6 +15,7 @@ from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
 from asperity.rating.verdict import bar, locking_line, power_lines
+from asperity.results.language import Spoken, said
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
 from asperity.results.words import Number, Sentence, text_of
@@ -161,7 +162,8 @@ def _beside(rated: Reported) -> Iterator[Table]:
         key = f"verdict.rows.{place}.{'life_h' if row.unit else 'safety'}"
         value = text_of(row.value, key=key) if math.isfinite(row.value) else "-"
         stands = "holds" if row.holds else "FAILS"
-        rows.append((f"{row.standard} {row.name}", value, f"{row.asked:.4g}", row.unit, row.by,
+        name = Spoken(f"{row.standard} {said(row.name)}")
+        rows.append((name, value, f"{row.asked:.4g}", row.unit, row.by,
                      stands))  # fmt: skip
     columns = (
         Column("shafts and bearings"), Column("value", right=True), Column("asked", right=True),

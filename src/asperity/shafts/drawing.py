@@ -7,6 +7,7 @@ the driving end of the wheel's are on the right.
 import math
 from collections.abc import Callable, Iterator
 
+from asperity.errors import InputError
 from asperity.gearset.blanks import Blanks, wheel_section, wheel_sizes
 from asperity.gearset.drawing import Pen, draw_along, draw_through
 from asperity.gearset.geometry import Geometry
@@ -45,13 +46,19 @@ def views_of(
     along = Drawing("Worm gearset with the worm's shaft, seen along the wheel's axis")
     along_with_shafts(along, g, s, hand, worm, wheel)
     through = Drawing("Section of the worm gearset through the wheel's axis, with its shaft")
-    through_with_shafts(through, g, s, wheel, blanks)
+    hub = None if wheel is None else _hub(g, wheel, blanks)
+    through_with_shafts(through, g, s, wheel, hub)
     said = "Along the wheel's axis, the worm's driven end on the right, scale"
     if worm is None:
         said = "Along the wheel's axis, without the worm's shaft, scale"
     other = "Section through the wheel's axis, the end that drives on the right, scale"
     if wheel is None:
         other = "Section through the wheel's axis, without hub and shaft, scale"
+    elif hub is None:
+        other = (
+            "Section through the wheel's axis, the end that drives on the right, without the hub, "
+            "which has no room, scale"
+        )
     return (
         (along.svg(), f"{said} {scale_text(s)}, lengths in mm"),
         (through.svg(), f"{other} {scale_text(s)}"),
@@ -88,12 +95,11 @@ def through_with_shafts(
 ) -> None:
     """Draw the section through the wheel's axis at a scale, the middle of the axis at (0, 0).
 
-    With neither shaft nor blanks the wheel is drawn without its hub.
+    Without blanks the wheel is drawn without its hub.
     """
     reach = (0.0, 0.0)
     if wheel is not None:
         reach = s * (wheel.length - wheel.mesh), s * wheel.mesh
-        blanks = on_shaft(blanks, wheel)
     draw_through(drawing, g, s, reach)
     if blanks is not None:
         for side in (-1.0, 1.0):
@@ -107,6 +113,16 @@ def through_with_shafts(
             drawing.line([(-half, top), (half, top)], "narrow")
     if wheel is not None:
         draw_shaft(drawing, wheel, s, 0.0)
+
+
+def _hub(g: Geometry, wheel: Shape, blanks: Blanks | None) -> Blanks | None:
+    """Return what a wheel is beside its teeth on its shaft; None where that leaves no wheel."""
+    fitted = on_shaft(blanks, wheel)
+    try:
+        wheel_sizes(g, fitted)
+    except InputError:
+        return None
+    return fitted
 
 
 def draw_shaft(drawing: Pen, shape: Shape, s: float, axis: float) -> None:

@@ -58,7 +58,13 @@ class Bodies(NamedTuple):
         worm, wheel = (None if table is None else shape_of(table, g) for table in tables)
         require_once(blanks, worm, wheel)
         made = cls(blanks if wheel is None else on_shaft(blanks, wheel), worm, wheel)
-        wheel_sizes(g, made.blanks)
+        try:
+            wheel_sizes(g, made.blanks)
+        except InputError as error:
+            if wheel is None:
+                raise
+            said = "the wheel's bore is as [wheel_shaft] is thick at its mesh"
+            raise InputError(f"{said}: {error}") from None
         worm_shape(pair, made)
         return made
 
