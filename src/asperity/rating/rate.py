@@ -12,6 +12,7 @@ from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.table import Tolerances
+from asperity.rating import own_table
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import given_of, told_of
 from asperity.rating.duty import DutyPart, duty_parts, duty_table
@@ -353,6 +354,7 @@ def rated_of(
         if steel is None
         else [f"worm material: {steel.note}, by {steel.name} ({steel.confidence})"]
     )
+    rows, told = own_table.rows_of(given)
     for name in wanted:
         try:
             found[name] = rate_by(name, given, tables)
@@ -375,7 +377,8 @@ def rated_of(
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
         self_locking=self_locking(given, found, tables),
-        notes=(*told_of(asked, given.operation), *notes),
+        notes=(*told_of(asked, given.operation), *told, *notes),
+        rows=rows,
         assumed=assumptions(given),
     )
 

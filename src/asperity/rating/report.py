@@ -162,11 +162,11 @@ def _beside(rated: Reported) -> Iterator[Table]:
         key = f"verdict.rows.{place}.{'life_h' if row.unit else 'safety'}"
         value = text_of(row.value, key=key) if math.isfinite(row.value) else "-"
         stands = "holds" if row.holds else "FAILS"
-        name = Spoken(f"{row.standard} {said(row.name)}")
+        name = Spoken(f"{said(row.standard)} {said(row.name)}")
         rows.append((name, value, f"{row.asked:.4g}", row.unit, row.by,
                      stands))  # fmt: skip
     columns = (
-        Column("shafts and bearings"), Column("value", right=True), Column("asked", right=True),
+        Column("besides the standards"), Column("value", right=True), Column("asked", right=True),
         Column("unit"), Column("by", folds=True), Column(""),
     )  # fmt: skip
     yield Table(columns, tuple(rows))

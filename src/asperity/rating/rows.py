@@ -58,7 +58,7 @@ class Row(NamedTuple):
         fails = "" if self.holds else f"  {said('FAILS')}"
         stands = f"{self.value:.3g}{unit} {said('of')} {self.asked:.4g}{fails}"
         by = f"; {said(self.by)}" if self.by else ""
-        return Spoken(f"{f'{self.standard} {said(self.name)}':24} {stands}{by}")
+        return Spoken(f"{f'{said(self.standard)} {said(self.name)}':24} {stands}{by}")
 
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""

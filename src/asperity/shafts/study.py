@@ -176,6 +176,6 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     def add(rated: Rated, _: Run) -> Rated:
         iso = rated.iso14521 or rate_by("iso14521", problem.given, problem.tables)
         shafts = study(problem, loads_of(problem.given, iso), iso)
-        return dataclasses.replace(rated, rows=rows_of(shafts), shafts=shafts)
+        return dataclasses.replace(rated, rows=(*rated.rows, *rows_of(shafts)), shafts=shafts)
 
     return add
