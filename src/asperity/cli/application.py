@@ -239,9 +239,12 @@ def schema(as_json: JsonOption = False) -> None:
 def materials(as_json: JsonOption = False) -> None:
     """List the materials of worms and wheels, with source and trust."""
     from asperity.cli.lists import print_library
+    from asperity.gearset.library import every
     from asperity.gearset.materials import Steel, WheelMaterial, WormMaterial
+    from asperity.gearset.plastics import Plastic
 
-    print_library((WheelMaterial, WormMaterial, Steel), as_json=as_json)
+    own = (Plastic,) if every(Plastic) else ()
+    print_library((WheelMaterial, *own, WormMaterial, Steel), as_json=as_json)
 
 
 @app.command()
