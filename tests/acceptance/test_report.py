@@ -160,6 +160,21 @@ def test_other_reports_draw_the_gearset_and_say_the_numbers_of_the_json(
     assert all(place.startswith("data:") or place == "gearset.glb" for place in page.asked)
 
 
+def test_a_body_has_a_report_too_with_its_picture_and_what_was_set(asperity, tmp_path):
+    set_so = "vibration.direction=37 deg"
+    code, _, errors = asperity("slide", "body-shaken-along", "--set", "solve.method=periodic",
+                               "--set", set_so, "--out", tmp_path)  # fmt: skip
+    assert code == 0, errors
+    text = (tmp_path / "report.html").read_text("utf-8")
+    page = Page(text)
+    assert len(page.numbers) > 10
+    check_numbers(page, json.loads((tmp_path / "slide.json").read_text("utf-8")))
+    assert f"--set {set_so}" in text
+    assert "<b>Sliding body.</b>" in text
+    assert page.tags.count("img") == 1
+    assert all(place.startswith("data:") for place in page.asked)
+
+
 def test_a_report_asks_for_nothing(rated):
     _, page, _ = rated
     assert all(place.startswith("data:") for place in page.asked)

@@ -81,7 +81,6 @@ class Rated(Result):
 
     title: ClassVar[str] = "Worm gearset, rated"
     stem: ClassVar[str] = "rate"
-    reported: ClassVar[bool] = True
 
     gearset: Gearset
     geometry: Geometry
