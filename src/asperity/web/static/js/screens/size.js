@@ -4,6 +4,7 @@ import { call, useAsked, useCaseFile, useLive } from "../api.js";
 import { STANDARDS, Verdict } from "../bars.js";
 import { Box, Field, words } from "../form.js";
 import { Plot } from "../plot.js";
+import { ReportNow } from "../report.js";
 import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
@@ -173,11 +174,13 @@ export function view() {
   const rank = params.rank ?? "size";
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
   const body = name ? { case: name, settings } : null;
+  const write = rest && (() => call("size", { settings: rest, options: { ...options, rank }, report: true }));
   const work = useJob("optimise", body);
   const { toml } = useTaken(work, "optimise", body);
   const answer = sized.data?.answer;
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy} now=${sized.now}
+      actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
     ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold by every standard${
       smallest(answer.proposals)}.</p>` : null}
