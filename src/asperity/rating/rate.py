@@ -86,7 +86,6 @@ class Rated(Result):
 
     title: ClassVar[str] = "Worm gearset, rated"
     stem: ClassVar[str] = "rate"
-    reported: ClassVar[bool] = True
 
     gearset: Gearset
     geometry: Geometry
