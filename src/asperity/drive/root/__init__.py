@@ -1,0 +1,1 @@
+"""Stress at the roots of loaded teeth, on a mesh of its own."""
