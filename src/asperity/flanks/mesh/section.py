@@ -40,14 +40,14 @@ def fill(
     inner: float,
     grading: float = 0.0,
 ) -> Blocks:
-    """Fill cross-sections with two blocks of quadrilaterals.
+    r"""Fill cross-sections with two blocks of quadrilaterals.
 
     ``first`` and ``second``, shape (k + 1, sections, 2), are the outlines on both sides of the
     tooth from the cut to the tip, ``second`` at the larger angles. At their point ``split``, in the
     middle of the fillets, the tooth's block begins. ``across`` the tooth and in ``layers`` of the
-    rim so many quadrilaterals lie; ``inner`` is the inner radius, mm, below all of the outline. With
-    a ``grading`` above 0 they are thinner towards the outline, the outermost about
-    :math:`2 g / \\sinh 2 g` of the mean.
+    rim so many quadrilaterals lie; ``inner`` is the inner radius, mm, below all of the outline.
+    With a ``grading`` :math:`g` above 0 they are thinner towards the outline, the outermost about
+    :math:`2 g / \sinh 2 g` of the mean.
     """
     share = np.linspace(0.0, 1.0, across + 1)[None, :, None, None]
     low, high = first[split:, None], second[split:, None]

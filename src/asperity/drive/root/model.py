@@ -18,28 +18,44 @@ import numpy as np
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.elastic.body import ElasticBody
-from asperity.drive.teeth.sector import DENSITY, RIM, lattice
 from asperity.contact.interface.surface import ContactSurface, contact_surface
+from asperity.drive.teeth.sector import DENSITY, RIM, lattice
 from asperity.flanks.mesh.tooth import Counts, tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import turned
 from asperity.gearset.materials import Material
 from asperity.mesh import HexMesh
-from asperity.mesh.shape import cell_shapes, gauss
+from asperity.mesh.shape import REFERENCE_NODES, cell_shapes, gauss
 
-COUNTS = Counts(flank=6, face=10, thickness=4, rim=3, land=2, low_fillet=4, high_fillet=4)
+COUNTS = Counts(flank=6, face=10, thickness=6, rim=4, land=2, low_fillet=4, high_fillet=4)
 """Hexahedra of a tooth."""
 
+COARSER = COUNTS._replace(thickness=4, rim=3)
+"""Of another mesh, by which that of `COUNTS` is judged."""
+
+GRADING = 2.0
+"""How much thinner hexahedra are towards the fillets: there a tenth of the tooth and of the rim.
+
+A fillet's radius is a few tenths of a module; evenly thick hexahedra tell half of its stress.
+"""
+
 TEETH = 3
+"""Without those beside it, over whose roots the stress goes on, a tooth has half the stress."""
+
 _POINTS = 27
 _SIDES = ("fillet_plus", "fillet_minus")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Fillet:
-    """The nodes of a fillet with the root beside it, of the middle tooth."""
+    """The nodes of a fillet with the root beside it, of the middle tooth.
+
+    They are in rows over the face, the first row at the foot of the flank, the last in the middle
+    of the tooth space.
+    """
 
     nodes: IntArray  #: (f,): In the mesh
+    grid: IntArray  #: (rows, columns): Their numbers among ``nodes``
     places: FloatArray  #: (f, 3): In the tooth's own frame, m
     cells: IntArray  #: (c,): Cells at it
     local: IntArray  #: (k, 2): Of each pair of a cell and a node of the fillet, cell and its node
@@ -48,9 +64,10 @@ class Fillet:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Roots:
-    """Stresses at both fillets under some loads; arrays have a row a load."""
+    """Stresses at both fillets under some loads; a row a load."""
 
-    stress: tuple[FloatArray, FloatArray]  #: (q, f, 6) xx yy zz xy yz zx of either fillet, Pa
+    #: (q, f, 6) each: Its xx, yy, zz, xy, yz, zx at the loaded fillet and the other, Pa
+    stress: tuple[FloatArray, FloatArray]
     jump: tuple[FloatArray, FloatArray]  #: (q, f): What elements differ by at a node, Pa
 
     def principal(self, side: int) -> FloatArray:
@@ -74,17 +91,29 @@ class RootModel:
     counts : Counts
         Hexahedra of a tooth.
     teeth : int
-        1 or 3: those beside the middle one, which bear as well, are left out with 1.
+        Of them the middle one is looked at; an odd number.
+    grading : float
+        As `GRADING`.
+
+    Raises
+    ------
+    InputError
+        The rim leaves no valid elements, or the mesh does not fit into the memory.
     """
 
     def __init__(
-        self, wheel: Wheel, material: Material, counts: Counts = COUNTS, teeth: int = TEETH,
-        grading: float = 0.0,
+        self,
+        wheel: Wheel,
+        material: Material,
+        counts: Counts = COUNTS,
+        teeth: int = TEETH,
+        grading: float = GRADING,
     ) -> None:
         self.counts, self.teeth = counts, teeth
         self.pitch = 2.0 * math.pi / wheel.pair.geometry.wheel_teeth
         self.material = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, DENSITY)
-        self.mesh: HexMesh = tooth(wheel, counts, teeth=teeth, order=2, grading=grading).converted("m")
+        made = tooth(wheel, counts, teeth=teeth, order=2, grading=grading)
+        self.mesh: HexMesh = made.converted("m")
 
     @cached_property
     def body(self) -> ElasticBody:
@@ -119,9 +148,11 @@ class RootModel:
         at, local = np.nonzero(np.isin(self.mesh.cells[cells], nodes))
         of = np.searchsorted(nodes, self.mesh.cells[cells[at], local])
         places = self.mesh.points[nodes] @ self._turn(middle)
-        return Fillet(nodes, places, cells, np.column_stack([at, local]), of)
+        face, angle = np.round(places[:, 2], 9), np.abs(np.arctan2(places[:, 0], places[:, 1]))
+        grid = np.lexsort((angle, face)).reshape(len(np.unique(face)), -1).T
+        return Fillet(nodes, grid, places, cells, np.column_stack([at, local]), of)
 
-    def loads(self, surface: ContactSurface, forces: FloatArray) -> FloatArray:
+    def nodal(self, surface: ContactSurface, forces: FloatArray) -> FloatArray:
         """Return the nodal forces of the mesh, (3N,), of those on the teeth's flanks.
 
         Parameters
@@ -160,7 +191,7 @@ class RootModel:
         return Roots((found[0][0], found[1][0]), (found[0][1], found[1][1]))
 
     def _stress(self, fillet: Fillet, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Stress at the nodes of a fillet, (q, f, 6), and what elements differ by, (q, f)."""
+        """Return the stress at the nodes of a fillet, (q, f, 6), and what elements differ by."""
         cells = self.mesh.cells[fillet.cells]
         at, _ = gauss(2, 3)
         _, slopes = cell_shapes(at, _POINTS)
@@ -168,7 +199,7 @@ class RootModel:
         jacobian = np.einsum("mni,qnj->mqij", corners, slopes)
         gradients = np.einsum("qnj,mqji->mqni", slopes, np.linalg.inv(jacobian))
         # Linear through the points of Gauss, as far as the nodes.
-        out, _ = cell_shapes(_nodes() * math.sqrt(3.0), 8)
+        out, _ = cell_shapes(REFERENCE_NODES[:_POINTS] * math.sqrt(3.0), 8)
         points, _ = cell_shapes(at * math.sqrt(3.0), 8)
         carried = out @ np.linalg.inv(points)
         first, second = self.material.lame
@@ -183,7 +214,8 @@ class RootModel:
             trace = np.trace(slope, axis1=2, axis2=3)
             own = np.stack(
                 [
-                    second * (slope[..., i, j] + slope[..., j, i]) + (first * trace if i == j else 0.0)
+                    second * (slope[..., i, j] + slope[..., j, i])
+                    + (first * trace if i == j else 0.0)
                     for i, j in pairs
                 ],
                 axis=-1,
@@ -195,9 +227,3 @@ class RootModel:
             off = np.abs(values - stress[q][fillet.of]).max(axis=1)
             np.maximum.at(jump[q], fillet.of, off)
         return stress, jump
-
-
-def _nodes() -> FloatArray:
-    from asperity.mesh.shape import REFERENCE_NODES
-
-    return np.asarray(REFERENCE_NODES[:_POINTS])
