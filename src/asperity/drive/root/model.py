@@ -187,10 +187,10 @@ class RootModel:
     def solve(self, loads: FloatArray) -> Roots:
         """Return the stresses at both fillets under nodal forces, (3N, q), N."""
         moved = self.body.response(loads)
-        found = [self._stress(fillet, moved) for fillet in self.fillets]
+        found = [self.stress(fillet, moved) for fillet in self.fillets]
         return Roots((found[0][0], found[1][0]), (found[0][1], found[1][1]))
 
-    def _stress(self, fillet: Fillet, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def stress(self, fillet: Fillet, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the stress at the nodes of a fillet, (q, f, 6), and what elements differ by."""
         cells = self.mesh.cells[fillet.cells]
         at, _ = gauss(2, 3)
