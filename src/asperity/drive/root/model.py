@@ -159,13 +159,15 @@ class RootModel:
         ----------
         surface : ContactSurface
             The flank of a tooth in its own frame, n nodes.
-        forces : ndarray, shape (teeth, n, 3)
-            On the teeth in the order of the mesh, each in its own frame, N.
+        forces : ndarray, shape (k, n, 3)
+            On an odd number of teeth in the order of the mesh, the looked at one in the middle,
+            each in its own frame, N; on those that the mesh does not have they are left out.
         """
         nodes = lattice(surface)
         rows, columns = nodes.shape
         z_own = surface.positions[nodes[0], 2]
-        tractions = forces / surface.nodal_area[:, None]
+        beside = (len(forces) - self.teeth) // 2
+        tractions = forces[beside : beside + self.teeth] / surface.nodal_area[:, None]
         out = np.zeros((len(self.mesh.points), 3))
         for place, (fine, own) in enumerate(zip(self._flanks, tractions, strict=True)):
             # Both meshes have their rows at equal shares of the way from the fillet to the tip.

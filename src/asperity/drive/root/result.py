@@ -103,6 +103,7 @@ class RootStress(Drawn):
         "S_F", "", "root safety by ISO/TR 14521, of that stress", default=None
     )
     nodes: int = quantity("", "", "nodes of the mesh", shown=False)
+    teeth: int = quantity("", "", "teeth of the mesh", shown=False)
 
     worm_angle: FloatArray = quantity(
         "beta", "rad", "angle of the worm", dims=_PHASE, coordinate=True, variable="phase"
@@ -174,7 +175,8 @@ class RootStress(Drawn):
             fillet_way=way,
             fillet_radius=np.hypot(places[..., 0], places[..., 1]),
             fillet_face=hand * places[..., 2],
-            notes=(*_notes(load.foot, mesh_change), *few_phases(problem)),
+            teeth=model.teeth,
+            notes=(*_notes(model.teeth, load.foot, mesh_change), *few_phases(problem)),
         )
 
     @property
@@ -195,8 +197,8 @@ class RootStress(Drawn):
     def heading(self) -> str:
         """Return what was solved."""
         return (
-            f"{len(self.worm_angle)} phases; three teeth of {self.nodes} nodes on a rim that is "
-            "held at its inside"
+            f"{len(self.worm_angle)} phases; {self.nodes} nodes, teeth: {self.teeth}, a rim that "
+            "is held at its inside"
         )
 
     def headline(self) -> tuple[str, ...]:
@@ -230,12 +232,17 @@ class RootStress(Drawn):
         return (*super().tables(), course)
 
 
-def _notes(foot: float, change: float) -> tuple[str, ...]:
+def _notes(teeth: int, foot: float, change: float) -> tuple[str, ...]:
     """What a reader should know of the numbers."""
     notes = [
         "stresses of the elastic body at its fillets, which yielding would spread; tau_F is a mean "
         "over the root's section, and its limit is made for it: they have no safety in common",
     ]
+    if teeth == 1:
+        notes.append(
+            "one tooth alone, whose root ends in the air: beside others it bears about twice as "
+            "much; drive.teeth=3 or more has them"
+        )
     if foot > _NEAR:
         notes.append(
             f"{_PERCENT * foot:.2g} % of the tooth's force is on the lowest fifth of its flank, "
@@ -243,7 +250,9 @@ def _notes(foot: float, change: float) -> tuple[str, ...]:
             "it is spread; modification.tip_relief of the worm moves it outwards"
         )
     if abs(change) > _CLOSE:
+        way = "more" if change > 0.0 else "less"
         notes.append(
-            f"a coarser mesh has {_PERCENT * change:+.2g} % more: the mesh is not fine enough here"
+            f"a coarser mesh has {_PERCENT * abs(change):.2g} % {way}: the stress is known no "
+            "better than that"
         )
     return tuple(notes)

@@ -9,7 +9,7 @@ from asperity.casefile import Case
 from asperity.drive.friction import rating_inputs
 from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
-from asperity.drive.root.model import COARSER, COUNTS, RootModel, Roots
+from asperity.drive.root.model import COARSER, COUNTS, TEETH, RootModel, Roots
 from asperity.drive.root.result import Largest, RootStress
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.solve import StaticModel
@@ -69,10 +69,11 @@ def answer(problem: DriveProblem, run: Run) -> RootStress:
         loads = loads_of(static)
         run.checkpoint(1, 3, what="meshes")
         wheel = right_handed(static.sector.wheel)
+        teeth = min(TEETH, static.sector.teeth)
         models = []
         found: list[Roots] = []
         for done, counts in enumerate((COARSER, COUNTS)):
-            model = RootModel(wheel, problem.gearset.wheel_material, counts)
+            model = RootModel(wheel, problem.gearset.wheel_material, counts, teeth)
             surface = static.sector.surface
             nodal = np.column_stack([model.nodal(surface, load.forces) for load in loads])
             found.append(model.solve(nodal))
