@@ -242,7 +242,8 @@ def test_an_archive_holds_the_same_files(asperity, run, package, tmp_path):
         ((), ("package.title, package.authors and package.licence are missing", "CC-BY-4.0")),
         (("package.title=T", 'package.licence="CC0-1.0"'), ("package.authors is missing",)),
         (('package.authors=["Doe, J; 0000-0002-1825-0098"]',), ("no ORCID",)),
-        (('package.licence="free for all"',), ("package.licence", "SPDX")),
+        (('package.licence="nonsense"',), ("package.licence", "SPDX", "CC0-1.0", "ODbL-1.0")),
+        (('package.licence="cc-by-40"',), ("SPDX", "did you mean 'CC-BY-4.0'")),
         (('package.doi="doi:10.1/x"',), ("package.doi", "10.5281")),
     ],
 )
@@ -251,6 +252,19 @@ def test_what_no_repository_takes_is_refused_in_a_line(asperity, run, tmp_path, 
     code, _, errors = asperity("rig", "package", run / "run", *given, "--out", tmp_path / "out")
     assert code == 2
     assert all(word in " ".join(errors.split()) for word in words), errors
+
+
+def test_a_case_that_is_begun_makes_a_package_and_a_report_that_say_so(asperity, run, tmp_path):
+    begun = tmp_path / "my-rig.toml"
+    assert asperity("new", "rig", begun)[0] == 0
+    code, printed, errors = asperity(
+        "rig", "package", run / "run", "--config", begun, "--out", tmp_path / "out", "--json"
+    )
+    assert code == 0, errors
+    notes = json.loads(printed)["notes"]
+    assert "package.authors is Doe, Jane, as asperity new has it; give yours" in notes
+    page = (tmp_path / "out" / "results" / "report.html").read_text("utf-8")
+    assert "(your laboratory)" in page
 
 
 @pytest.mark.parametrize("name", ["datacite.json", "journal.jsonl"])

@@ -244,10 +244,15 @@ def test_tdms_is_read(tmp_path):
         writer.write_segment(
             [
                 ChannelObject(
-                    "scope", name, given[:, n + 1],
-                    {"wf_increment": 5e-5, "unit_string": "V",
-                     "wf_start_time": np.datetime64("2026-05-01T23:59:50")},
-                )  # fmt: skip
+                    "scope",
+                    name,
+                    given[:, n + 1],
+                    {
+                        "wf_increment": 5e-5,
+                        "unit_string": "V",
+                        "wf_start_time": np.datetime64("2026-05-01T23:59:50"),
+                    },
+                )
                 for n, name in enumerate("ABCD")
             ]
         )
