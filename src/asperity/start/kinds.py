@@ -220,7 +220,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 # With these reports and packages can be made, and are seen to be begun.
                 "conditions": {"laboratory": "(your laboratory)", "operator": "(your name)"},
                 "package": {
-                    "title": "Friction under vibration", "authors": list(BEGUN_AUTHORS),
+                    "title": "Friction under vibration",
+                    "authors": list(BEGUN_AUTHORS),
                     "licence": "CC-BY-4.0",
                 },
             },
