@@ -121,7 +121,7 @@ class Packaged(Result):
             if self.zipped:
                 write_atomically(folder / ZIPPED, lambda target: _zip(contents, target))
                 return [ZIPPED]
-            with _whole() as written:
+            with _whole(folder) as written:
                 for one in contents:
                     path = folder / one.path
                     path.parent.mkdir(exist_ok=True)
@@ -177,7 +177,7 @@ class Packaged(Result):
 
 
 @contextlib.contextmanager
-def _whole() -> Iterator[list[Path]]:
+def _whole(package: Path) -> Iterator[list[Path]]:
     """Leave nothing of a package that could not be written: another attempt would refuse it."""
     written: list[Path] = []
     try:
@@ -186,7 +186,7 @@ def _whole() -> Iterator[list[Path]]:
         with contextlib.suppress(OSError):
             for path in written:
                 path.unlink(missing_ok=True)
-        for folder in {path.parent for path in written}:
+        for folder in {path.parent for path in written} - {package}:
             # One that holds something else, or all of it, stays.
             with contextlib.suppress(OSError):
                 folder.rmdir()
