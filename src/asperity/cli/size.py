@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from asperity.casefile.case import Case, naming_source
+from asperity.casefile.overruled import overruled
 from asperity.casefile.project import Project
 from asperity.cli import show
 from asperity.cli.new import OTHER_FORMS, given_to
@@ -42,7 +43,10 @@ def size(
     given_to(values, asked, settings)
     wanted = ratio_of(ratio) if ratio else None
     origin = {setting.partition("=")[0].strip(): setting for setting in settings}
-    with naming_source(Case(case or "size", Path(), {}, values, case_tables(), origin)):
+    asked_of = Case(case or "size", Path(), {}, values, case_tables(), origin)
+    for line in overruled(asked_of):
+        show.note(line)
+    with naming_source(asked_of):
         complete(values)
         found = proposals(values, wanted, rank, cut=cut, locks=locks)
     folder = Path(case).parent if case else Path()
