@@ -56,7 +56,7 @@ def size(
         else:
             show.print_tables(found.tables())
         if out is not None:
-            show.note(_written(found, values, out))
+            show.note(show.said(_written(found, values, out)))
 
 
 def _written(found: Proposals, values: Values, out: Path) -> str:
