@@ -1,11 +1,10 @@
 """``asperity shafts``, ``rate`` with shafts, and data files of bearings, as a user runs them."""
 
-import importlib.util
 import json
-from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from apparatus import reports
 
 CASE = "actuator-shafts"
 
@@ -19,14 +18,6 @@ class Done(NamedTuple):
 @pytest.fixture
 def run(asperity):
     return lambda *words, **more: Done(*asperity(*words, **more))
-
-
-def helper(name):
-    """Load a file of tests beside this one for what it has to read files with."""
-    spec = importlib.util.spec_from_file_location(name, Path(__file__).parent / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def answer(run, *words):
@@ -46,7 +37,6 @@ def test_shafts_tells_what_each_part_comes_to(run):
 
 def test_every_number_of_the_tables_of_shafts_knows_its_place_in_the_json(run, tmp_path):
     assert run("shafts", CASE, "--out", str(tmp_path)).returncode == 0
-    reports = helper("test_report")
     page = reports.Page((tmp_path / "report.html").read_text("utf-8"))
     told = json.loads((tmp_path / "shafts.json").read_text("utf-8"))
     reports.check_numbers(page, told)

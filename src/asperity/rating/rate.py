@@ -12,6 +12,7 @@ from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.table import Tolerances
+from asperity.rating import own_table
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import given_of, told_of
 from asperity.rating.duty import DutyPart, duty_mean, duty_parts, duty_table
@@ -26,7 +27,7 @@ from asperity.rating.levers import Alternative, Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row
+from asperity.rating.rows import Row, Shafts
 from asperity.rating.self_locking import SelfLocking, self_locking
 from asperity.rating.standards import PROMISED, STANDARDS, known_standards, rate_by, tables_of
 from asperity.rating.starting import Starting, starting, starting_table
@@ -38,6 +39,7 @@ from asperity.results.system import shown_frame
 from asperity.results.table import Table
 
 if TYPE_CHECKING:
+    from asperity.gearset.drawn import Views
     from asperity.results.report import Heading, Section
 
 
@@ -78,11 +80,12 @@ class Rated(Result):
         What the tolerances leave of it, where there are any.
     rows : tuple of Row
         What others than the standards say of the same gearbox, for its verdict.
+    shafts : Shafts, optional
+        What draws its shafts, and works them out in the workbook.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
     stem: ClassVar[str] = "rate"
-    reported: ClassVar[bool] = True
 
     gearset: Gearset
     geometry: Geometry
@@ -99,6 +102,7 @@ class Rated(Result):
     contact: "Section | None" = None
     backlash: Backlash | None = None
     rows: tuple[Row, ...] = ()
+    shafts: Shafts | None = None
 
     @property
     def verdict(self) -> Verdict:
@@ -201,11 +205,18 @@ class Rated(Result):
                 name = f"{standard}.{number.symbol or number.key}"
                 yield Entry(name, label, number.value, origin=number)
 
+    @property
+    def seen(self) -> "Views":
+        """Both views of the gearset, with its shafts where there are any."""
+        from asperity.gearset.drawn import views_of
+
+        if self.shafts is None:
+            return views_of(self.geometry, self.gearset.hand)
+        return self.shafts.seen()
+
     def views(self) -> dict[str, str]:
         """Return the gearset drawn to scale."""
-        from asperity.gearset.drawing import along_the_wheel, through_the_wheel
-
-        along, through = along_the_wheel(self.geometry), through_the_wheel(self.geometry)
+        along, through = self.seen
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
@@ -273,7 +284,7 @@ class Rated(Result):
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         if len(self.given.duty) > _MOST_SHEETS:
             return [*names, "rate.csv"]
-        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
+        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx", self.shafts)
         return [*names, "rate.csv", "rate.xlsx"]
 
 
@@ -345,6 +356,7 @@ def rated_of(
         if steel is None
         else [f"worm material: {steel.note}, by {steel.name} ({steel.confidence})"]
     )
+    rows, told = own_table.rows_of(given)
     for name in wanted:
         try:
             found[name] = rate_by(name, given, tables)
@@ -367,7 +379,8 @@ def rated_of(
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
         self_locking=self_locking(given, found, tables),
-        notes=(*told_of(asked, given.operation), *notes),
+        notes=(*told_of(asked, given.operation), *told, *notes),
+        rows=rows,
         assumed=assumptions(given),
     )
 

@@ -198,6 +198,8 @@ class Verdict(NamedTuple):
         failing = [f"{row.name} by {row.standard}" for row in self.rows if not row.holds]
         if failing:
             yield f"does not hold: {listed(failing)}"
+        elif self.rows and not self.safeties:
+            yield f"holds by {listed([*dict.fromkeys(row.standard for row in self.rows)])}"
 
     def sentences(self) -> Iterator[str]:
         """Yield whether it holds, and what fails first."""
@@ -242,13 +244,14 @@ class Verdict(NamedTuple):
 
         Below them what the bars of wear are judged by, where it is assumed.
         """
-        if not self.safeties:
+        if not self.safeties and not self.rows:
             return
         names = [f"{NAMES[one.demand.standard]} {said(one.demand.name)}" for one in self.safeties]
-        wide = max(_NAMES, *map(len, names))
+        wide = max([_NAMES, *map(len, names)])
         unit = _BAR // int(_LONGEST)
         scale = "".join(f"{number:>{unit}}" for number in range(1, int(_LONGEST) + 1))
-        yield f"{'':{wide + 1}}{scale}  {said('times what is asked')}"
+        if self.safeties:
+            yield f"{'':{wide + 1}}{scale}  {said('times what is asked')}"
         for name, safety in zip(names, self.safeties, strict=True):
             yield f"{name:{wide}} {bar(safety.margin)} {safety.said}"
         for row in self.rows:
@@ -317,6 +320,8 @@ def locking_line(locking: SelfLocking) -> str:
             said.append(f"{words}{alone}")
     locked = f"locks itself {', '.join(said)}" if said else "does not lock itself"
     angles = [math.degrees(math.atan(v.friction)) for v in locking]
+    if not angles:
+        locked = "no standard says whether it locks itself"
     lead = Number.of(math.degrees(locking.lead_angle), ".3g", "self_locking.lead_angle_deg")
     spread = f", friction {min(angles):.2g} to {max(angles):.2g} deg" if angles else ""
     return Sentence(f"{locked} (lead angle ", lead, f" deg{spread})")

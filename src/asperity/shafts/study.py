@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
+from asperity.gearset.blanks import Blanks
 from asperity.gearset.parameters import Gearset
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import driven
@@ -30,6 +31,7 @@ from asperity.shafts.options import BearingOptions
 from asperity.shafts.parameters import WheelShaft, WormShaft
 from asperity.shafts.result import ShaftStudy
 from asperity.shafts.shaft import ShaftFound, find_shaft
+from asperity.shafts.shape import require_once, shape_of
 from asperity.shafts.statics import PointLoad
 
 
@@ -41,6 +43,7 @@ class Prepared(NamedTuple):
     worm: Model | None
     wheel: Model | None
     options: BearingOptions
+    blanks: Blanks | None = None
 
 
 def given_shafts(case: Case) -> bool:
@@ -72,14 +75,20 @@ def prepare(case: Case) -> Prepared:
             f"{case.source}: the table [worm_shaft] is missing, and [wheel_shaft]; add one"
         )
     with naming_source(case):
-        return prepared(
+        gearset.require_consistent()
+        worm, wheel, blanks = case.get(WormShaft), case.get(WheelShaft), case.get(Blanks)
+        g = gearset.geometry
+        shapes = (None if table is None else shape_of(table, g) for table in (worm, wheel))
+        require_once(blanks, *shapes)
+        found = prepared(
             gearset,
             operation_of(case),
             case.get(RatingOptions, RatingOptions()),
-            (case.get(WormShaft), case.get(WheelShaft)),
+            (worm, wheel),
             case.get(BearingOptions, BearingOptions()),
             case.folder,
         )
+        return found._replace(blanks=blanks)
 
 
 def prepared(
@@ -139,6 +148,7 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
         loads,
         asked_life(problem, loads),
         (float(iso["delta_m_mm"]), float(iso["delta_lim_mm"])) if "delta_m_mm" in iso else None,
+        problem.blanks,
     )
 
 
@@ -198,6 +208,7 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     problem = prepare(case)
 
     def add(rated: Rated, _: Run) -> Rated:
-        return dataclasses.replace(rated, rows=studied(problem, rated.iso14521).rows)
+        shafts = studied(problem, rated.iso14521)
+        return dataclasses.replace(rated, rows=(*rated.rows, *shafts.rows), shafts=shafts)
 
     return add

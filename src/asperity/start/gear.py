@@ -36,7 +36,7 @@ _STAND_IN = {"starts": 1, "wheel_teeth": 40, "centre_distance": "100 mm", "axial
 SIZE = Command(
     "size",
     "Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.",
-    "With --out also size.json, size.nc and a case file for each proposal.",
+    "With --out also report.html, size.json, size.nc and a case file for each proposal.",
     module="",
     case="",
     options=(
