@@ -30,15 +30,20 @@ def compare(
     cases = [read_case(name, case_tables(), settings) for name in names]
     found = side_by_side(cases, _answered)
     first = cases[0]
-    if as_json:
-        show.print_json(found.to_json())
-    else:
-        with shown_as(first.get(Project, Project()), first.folder, *shown):
+
+    def written(to: Path) -> None:
+        folder = output_folder(to)
+        names = found.write(folder, pictures="")
+        show.note(show.said(f"written to {folder}: {', '.join(names)}"))
+
+    with (
+        shown_as(first.get(Project, Project()), first.folder, *shown),
+        show.files_first(None if out is None else lambda: written(out)),
+    ):
+        if as_json:
+            show.print_json(found.to_json())
+        else:
             show.print_tables(found.tables())
-    if out is not None:
-        folder = output_folder(out)
-        written = found.write(folder, pictures="")
-        show.note(f"written to {folder}: {', '.join(written)}")
 
 
 def _answered(command: Command, case: Case) -> Result:

@@ -53,13 +53,16 @@ def size(
         complete(values)
         found = proposals(values, wanted, rank, cut=cut, locks=locks)
     folder = Path(case).parent if case else Path()
+
+    def written(to: Path) -> None:
+        show.note(show.said(_written(found, asking, to, ratio)))
+
     with shown_as(Project.model_validate(values.get("project", {})), folder, *shown):
-        if as_json:
-            show.print_json(found.to_json())
-        else:
-            show.print_tables(found.tables())
-        if out is not None:
-            show.note(show.said(_written(found, asking, out, ratio)))
+        with show.files_first(None if out is None else lambda: written(out)):
+            if as_json:
+                show.print_json(found.to_json())
+            else:
+                show.print_tables(found.tables())
 
 
 def _written(found: Proposals, asking: Case, out: Path, ratio: str) -> str:
