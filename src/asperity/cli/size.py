@@ -57,12 +57,14 @@ def size(
     def written(to: Path) -> None:
         show.note(show.said(_written(found, asking, to, ratio)))
 
-    with shown_as(Project.model_validate(values.get("project", {})), folder, *shown):
-        with show.files_first(None if out is None else lambda: written(out)):
-            if as_json:
-                show.print_json(found.to_json())
-            else:
-                show.print_tables(found.tables())
+    with (
+        shown_as(Project.model_validate(values.get("project", {})), folder, *shown),
+        show.files_first(None if out is None else lambda: written(out)),
+    ):
+        if as_json:
+            show.print_json(found.to_json())
+        else:
+            show.print_tables(found.tables())
 
 
 def _written(found: Proposals, asking: Case, out: Path, ratio: str) -> str:
