@@ -38,7 +38,6 @@ from asperity.results.system import shown_frame
 from asperity.results.table import Table
 
 if TYPE_CHECKING:
-    from asperity.gearset.drawn import Views
     from asperity.results.report import Heading, Section
 
 
@@ -203,18 +202,11 @@ class Rated(Result):
                 name = f"{standard}.{number.symbol or number.key}"
                 yield Entry(name, label, number.value, origin=number)
 
-    @property
-    def seen(self) -> "Views":
-        """Both views of the gearset, with its shafts where there are any."""
-        from asperity.gearset.drawn import views_of
-
-        if self.shafts is None:
-            return views_of(self.geometry, self.gearset.hand)
-        return self.shafts.seen()
-
     def views(self) -> dict[str, str]:
         """Return the gearset drawn to scale."""
-        along, through = self.seen
+        from asperity.rating.report import seen
+
+        along, through = seen(self)
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
