@@ -192,13 +192,8 @@ class Rated(Result):
         """Yield every number of every rating, by ``standard.key``."""
         for standard, rating in self.found.items():
             for number in rating:
-                label = Label(
-                    number.symbol,
-                    number.unit,
-                    number.meaning,
-                    key=f"{standard}.{number.key}",
-                    variable=f"{standard}_{number.key}",
-                )
+                of = {"key": f"{standard}.{number.key}", "variable": f"{standard}_{number.key}"}
+                label = Label(number.symbol, number.unit, number.meaning, **of)
                 name = f"{standard}.{number.symbol or number.key}"
                 yield Entry(name, label, number.value, origin=number)
 
