@@ -192,8 +192,9 @@ class Rated(Result):
         """Yield every number of every rating, by ``standard.key``."""
         for standard, rating in self.found.items():
             for number in rating:
-                of = {"key": f"{standard}.{number.key}", "variable": f"{standard}_{number.key}"}
-                label = Label(number.symbol, number.unit, number.meaning, **of)
+                key, name = f"{standard}.{number.key}", f"{standard}_{number.key}"
+                of = number.symbol, number.unit, number.meaning
+                label = Label(*of, key=key, variable=name)
                 name = f"{standard}.{number.symbol or number.key}"
                 yield Entry(name, label, number.value, origin=number)
 
