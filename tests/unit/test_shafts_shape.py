@@ -262,7 +262,5 @@ def test_a_shaft_too_thick_for_its_wheel_is_rated_and_makes_no_solid():
     case = read_case("actuator-shafts", case_tables(), [sections])
     page = beside_rating(case)(rate_case(case), Run()).to_html()
     assert "without the hub, which has no room" in page
-    with pytest.raises(
-        InputError, match=r"\[wheel_shaft\] is thick at its mesh: blank\.bore"
-    ):
+    with pytest.raises(InputError, match=r"\[wheel_shaft\] is thick at its mesh: blank\.bore"):
         Bodies.of(case, Pair.of(GEARSET))

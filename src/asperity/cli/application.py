@@ -78,6 +78,14 @@ def export(
         str,
         typer.Option("--over", metavar="TABLE.KEY=VALUES", help="Mean friction over this as well."),
     ] = "",
+    subroutine: Annotated[
+        str,
+        typer.Option(
+            "--subroutine",
+            metavar="NAME",
+            help="appendix-e: user.f as in Appendix E of the thesis, which is not sound.",
+        ),
+    ] = "",
     as_json: JsonOption = False,
     out: Annotated[
         Path | None,
@@ -99,7 +107,7 @@ def export(
     """
     from asperity.cli.export import export as run
 
-    run(case, program, settings or (), over, as_json=as_json, out=out)
+    run(case, program, settings or (), over, subroutine, as_json=as_json, out=out)
 
 
 @app.command()

@@ -1,5 +1,6 @@
 """What ``asperity new`` does."""
 
+import dataclasses
 import sys
 from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from pathlib import Path
@@ -11,7 +12,8 @@ from asperity.errors import InputError, plain
 from asperity.files.store import write_text
 from asperity.rating.parameters import Operation
 from asperity.start import bearing, plastic
-from asperity.start.gear import MACRO, drop_begun_life, proposals, ratio_of
+from asperity.start.duty import complete, sized
+from asperity.start.gear import MACRO, drop_begun_life, operation_of, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
 
@@ -67,9 +69,14 @@ def new(
             f"What is given is that of {kind.case}; asperity cases {kind.case} prints it with "
             "where each value comes from. Replace it by your own."
         )
-    if "gearset" in values and not read:
+    if "gearset" in values and not read and name != "duty":
         remarks += _sized(values, given, ratio_of(wanted))
-    case = Case(path.name, path.parent.absolute(), {}, values, case_tables()).replace(())
+    case = Case(path.name, path.parent.absolute(), {}, values, case_tables())
+    if name == "duty":
+        # What size refuses is not written; what a duty says of a gearset is a part of one.
+        sized(case)
+        case = dataclasses.replace(case, raw={k: v for k, v in values.items() if k != "gearset"})
+    case = case.replace(())
     title = f"{kind.title}, begun by asperity new"
     names = (*kind.tables, *(table for table in values if table not in kind.tables))
     text = case_text(title, values, case_tables(), names, remarks)
@@ -234,6 +241,11 @@ def _try(path: str, values: Values) -> None:
     for key, sentence in mistakes_of(case_tables()[table], values[table]):
         if key == path:
             raise InputError(sentence)
+    if path == "spectrum.step":
+        # Loads are of a life under a rated torque, which is known by now.
+        run = {name: dict(values[name]) for name in ("operation", "spectrum")}
+        complete(run)
+        operation_of(run)
 
 
 def _asked_ratio(question: Question) -> str:

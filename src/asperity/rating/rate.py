@@ -15,13 +15,14 @@ from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating import own_table
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import given_of, told_of
-from asperity.rating.duty import DutyPart, duty_parts, duty_table
+from asperity.rating.duty import DutyPart, duty_mean, duty_parts, duty_table
 from asperity.rating.duty_words import duty_lines, loads_line
 from asperity.rating.endurance import Endurance, endurance, endurance_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs
+from asperity.rating.iso14521.housed import uncounted
 from asperity.rating.levers import Alternative, Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
@@ -84,7 +85,6 @@ class Rated(Result):
 
     title: ClassVar[str] = "Worm gearset, rated"
     stem: ClassVar[str] = "rate"
-    reported: ClassVar[bool] = True
 
     gearset: Gearset
     geometry: Geometry
@@ -113,6 +113,7 @@ class Rated(Result):
             self.given.operation.wear_assumed,
             self.unanswered,
             self.rows,
+            uncounted(self.given),
         )
 
     @property
@@ -143,9 +144,8 @@ class Rated(Result):
     @property
     def of_duty(self) -> tuple[str, ...]:
         """What the verdict says of spectrum and housing."""
-        lasts = self.endurance if self.given.operation.spectrum is not None else ()
-        parts = self.duty_cycle
-        return tuple(duty_lines(self.given, self.found, parts, lasts, self.starting))
+        lasts = self.endurance if self.given.operation.steps is not None else ()
+        return tuple(duty_lines(self.given, self.found, self.duty_cycle, lasts, self.starting))
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -181,9 +181,11 @@ class Rated(Result):
         }
 
     def _of_spectrum(self) -> dict[str, Any]:
-        if self.given.operation.spectrum is None:
+        if self.given.operation.steps is None:
             return {}
+        mean = duty_mean(self.given, self.duty_cycle)
         return {
+            **({} if mean is None else {"duty_mean": mean.to_json()}),
             "endurance": [one.to_json() for one in self.endurance],
             "starting": [one.to_json() for one in self.starting],
         }
@@ -208,8 +210,8 @@ class Rated(Result):
     def heading(self) -> str:
         """Return the gearset's name, and how it is loaded."""
         name = self.gearset.name or "worm gearset"
-        spectrum = self.given.operation.spectrum
-        return name if spectrum is None else f"{name}: {loads_line(self.given)}"
+        steps = self.given.operation.steps
+        return name if steps is None else f"{name}: {loads_line(self.given)}"
 
     def __repr__(self) -> str:
         return f"{self.heading()}\n{self.verdict!r}"
@@ -229,7 +231,7 @@ class Rated(Result):
             tables.append(self.self_locking.table())
         if self.holding:
             tables.append(held_table(self.holding))
-        if self.given.operation.spectrum is not None:
+        if self.given.operation.steps is not None:
             tables.append(endurance_table(self.endurance))
         if self.starting:
             tables.append(starting_table(self.starting))

@@ -87,13 +87,10 @@ def _duty(rated: Reported) -> Section:
     """Return what each load has in wear and heat, and how warm the housing gets."""
     iso, given = rated.iso14521, rated.given
     tables = [duty_table(rated.duty_cycle)]
-    if given.operation.spectrum is None and given.operation.housing is None:
-        return Section("Duty cycle", tables=tuple(tables))
     from asperity.rating.duty_plots import plot_duty
     from asperity.rating.warming import warming
 
-    if given.operation.spectrum is not None:
-        tables.append(endurance_table(rated.endurance))
+    tables.append(endurance_table(rated.endurance))
     tables += [starting_table(rated.starting)] if rated.starting else []
     figure = plot_duty(rated.duty_cycle, float(iso["theta_S_lim_degC"]), warming(given, iso))
     caption = (
@@ -158,7 +155,8 @@ def _verdict(rated: Reported) -> Iterator[Table]:
     told = rated.given.operation.wear_told("iso14521" if rated.iso14521 is not None else "")
     wear = (told,) if rated.verdict.wear_assumed else ()
     unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
-    yield Table(columns, tuple(rows), remarks=(said, *wear, *unrated))
+    heat = (rated.verdict.heat_assumed,) if rated.verdict.heat_assumed else ()
+    yield Table(columns, tuple(rows), remarks=(said, *wear, *heat, *unrated))
 
 
 def _beside(rated: Reported) -> Iterator[Table]:

@@ -47,6 +47,11 @@ class Row(NamedTuple):
     by: str = ""
 
     @property
+    def margin(self) -> float:
+        """What there is over what is asked."""
+        return self.value / self.asked
+
+    @property
     def holds(self) -> bool:
         """Whether it is enough."""
         return self.value >= self.asked
@@ -54,11 +59,19 @@ class Row(NamedTuple):
     @property
     def line(self) -> str:
         """It in a line of the screen."""
-        unit = f" {self.unit}" if self.unit else ""
         fails = "" if self.holds else f"  {said('FAILS')}"
-        stands = f"{self.value:.3g}{unit} {said('of')} {self.asked:.4g}{fails}"
+        stands = f"{self.value:.3g}{self._unit} {said('of')} {self.asked:.4g}{fails}"
         by = f"; {said(self.by)}" if self.by else ""
         return Spoken(f"{f'{said(self.standard)} {said(self.name)}':24} {stands}{by}")
+
+    @property
+    def stands(self) -> str:
+        """What there is of what is asked."""
+        return f"{self.value:.3g}{self._unit} of the {self.asked:.4g} asked"
+
+    @property
+    def _unit(self) -> str:
+        return f" {self.unit}" if self.unit else ""
 
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""

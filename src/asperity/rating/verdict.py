@@ -82,6 +82,8 @@ class Verdict(NamedTuple):
         The oil between the teeth, by ISO/TR 14521.
     wear_assumed : str
         What is to be said of the torque that wear is judged by.
+    heat_assumed : str
+        What is to be said of a duty that temperature is not judged by.
     rows : tuple of Row
         What others than the three standards say, of shafts and bearings for one.
     """
@@ -94,6 +96,7 @@ class Verdict(NamedTuple):
     film: Film | None = None
     wear_assumed: str = ""
     rows: tuple[Row, ...] = ()
+    heat_assumed: str = ""
 
     @classmethod
     def of(
@@ -104,6 +107,7 @@ class Verdict(NamedTuple):
         wear_assumed: str = "",
         unanswered: Mapping[str, str] | None = None,
         rows: tuple[Row, ...] = (),
+        heat_assumed: str = "",
     ) -> "Verdict":
         """Return the verdict of ratings by standard; why others have no answer, likewise.
 
@@ -121,6 +125,8 @@ class Verdict(NamedTuple):
             Why a standard has no answer.
         rows : tuple of Row
             Of what is not of the standards, such as bearings.
+        heat_assumed : str
+            What was assumed of a duty's heat; empty for nothing.
 
         Returns
         -------
@@ -138,6 +144,7 @@ class Verdict(NamedTuple):
             Film.of(found["iso14521"]) if "h_min_um" in found.get("iso14521", ()) else None,
             wear_assumed if any(demand.name == "wear" for demand in rated) else "",
             rows,
+            heat_assumed if any(demand.name == "temperature" for demand in rated) else "",
         )
 
     def __repr__(self) -> str:
@@ -250,6 +257,7 @@ class Verdict(NamedTuple):
         for row in self.rows:
             yield from wrapped(row.line)
         yield from wrapped(self.wear_assumed)
+        yield from wrapped(self.heat_assumed)
 
 
 def _short(value: float) -> str:

@@ -49,7 +49,6 @@ class ShaftStudy(Drawn):
         "shafts": "Each shaft to scale with its bearings and what they carry, bending moment and "
         "torque, and deflection, in the case that bends it most."
     }
-    reported: ClassVar[bool] = True
 
     name: str
     found: Mapping[str, ShaftFound]

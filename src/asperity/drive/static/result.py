@@ -52,7 +52,6 @@ class StaticResult(Drawn):
         "drive_error": "The transmission error by its orders, at rising load.",
         "drive_stiffness": "What gives way between motor and wheel.",
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
     sector: Sector

@@ -53,7 +53,6 @@ class Misaligned(Drawn):
         "misalign": "Pressure, edges, error and line load over what the mounting is off by.",
         "misalign_patterns": "Where a flank bears as the case is, at the ends, and at the worst.",
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
     axes: tuple[Axis, ...]

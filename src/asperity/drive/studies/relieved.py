@@ -54,7 +54,6 @@ class Relieved(Drawn):
     captions: ClassVar[Mapping[str, str]] = {
         "relief": "Forces on the edges, pressure and error of the designs that were tried."
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
     axes: tuple[Axis, ...]

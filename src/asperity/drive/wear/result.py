@@ -32,7 +32,6 @@ class WheelWorn(Drawn):
         "wear": "Pressure, error, efficiency and depth over the turns of the wheel.",
         "wear_flank": "What is worn off, and where the flank bears, new and worn.",
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
 

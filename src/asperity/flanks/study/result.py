@@ -96,7 +96,6 @@ class FlankStudy(Drawn):
         "transmission-error": "How far the wheel is ahead of an even turn.",
         "vibration": "Parts of a vibration's velocity on the flank s = +1.",
     }
-    reported: ClassVar[bool] = True
     labels = LABELS
 
     name: str

@@ -73,6 +73,8 @@ class Packaged(Result):
 
     title = "Package of a series of tests"
     stem = "package"
+    # It stands among the results in it.
+    reported = False
 
     report: Report
     head: Heading

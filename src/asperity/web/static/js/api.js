@@ -59,7 +59,10 @@ export async function post(path, body, { signal: stop } = {}) {
 
 /**
  * Ask a live verb.
- * @param {string} verb @param {{case?: string, settings?: object}} body @param {{signal?: AbortSignal}} [options]
+ * @param {string} verb
+ * @param {{case?: string, settings?: object, options?: object, report?: boolean}} body
+ *   `report`: as a page that prints, of those that have one
+ * @param {{signal?: AbortSignal}} [options]
  */
 export const call = (verb, body, options) => post(`/api/do/${verb}`, body, options);
 

@@ -1,5 +1,5 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
-import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
+import { html, signal, useEffect, useState } from "../vendor/preact.js";
 import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
 import { download } from "./figure.js";
 import { Notes } from "./shell.js";
@@ -7,11 +7,14 @@ import { route, setParam } from "./state.js";
 
 /** Files that are shown without asking for more. */
 const FEW = 6;
-const ENDED = ["stopped", "done", "failed"];
-const REPORT = "report.html";
+export const ENDED = ["stopped", "done", "failed"];
+/** What a job is told in on paper; its name. */
+export const REPORT = "report.html";
 
 /** Hand a file of a job over. */
-const take = async (id, name) => download(name, await (await fetchRaw(placeOf(id, encodeURIComponent(name)))).blob());
+export async function take(id, name) {
+  download(name, await (await fetchRaw(placeOf(id, encodeURIComponent(name)))).blob());
+}
 
 /** Jobs that were begun here, by what was asked: another visit finds them again. */
 const begun = {};
@@ -216,36 +219,11 @@ export const firstError = (...works) => works.map(({ error }) => error).find(Boo
 /** What a job has left, to take along. @param {{job: any}} props */
 export function Files({ job }) {
   if (!job?.files?.length || job.shipped) return null;
-  const buttons = job.files.map((name) => html`<button type="button" class="quiet" key=${name}
+  // What people read stands before what programs do.
+  const names = job.files.toSorted((one, other) => Number(other === REPORT) - Number(one === REPORT));
+  const buttons = names.map((name) => html`<button type="button" class="quiet" key=${name}
     onClick=${() => take(job.id, name)}>${name}</button>`);
   return html`<p class="row"><span class="says">files:</span> ${buttons.slice(0, FEW)}</p>
     ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more files</summary>
       ${buttons.slice(FEW)}</details>` : null}`;
-}
-
-/**
- * A report of what is set, made by a job and handed over when it is there.
- * @param {{command: string, body: object | null, files?: boolean}} props of a command that leaves `report.html`;
- *   `files`: whether its other files stand beneath
- */
-export function Report({ command, body, files = false }) {
-  const work = useJob(command, body, "-report");
-  const wanted = useRef(false);
-  const { id, job, asking, can, stale, start } = work;
-  const there = job?.state === "done" && !stale && job.files.includes(REPORT);
-  const running = asking || (job && !ENDED.includes(job.state));
-  useEffect(() => {
-    if (!there || !wanted.current) return;
-    wanted.current = false;
-    take(id, REPORT);
-  }, [there, id]);
-  const ask = () => {
-    if (there) return take(id, REPORT);
-    wanted.current = true;
-    start();
-  };
-  return html`<button type="button" disabled=${running || !can} onClick=${ask}>
-      ${running ? "report is being written" : "report"}</button>
-    ${there && files ? html`<${Files} job=${job} />` : null}
-    ${work.error ? html`<span class="bad" role="alert">✗ ${work.error.message}</span>` : null}`;
 }

@@ -8,13 +8,14 @@ import { Gears, Way } from "../gears.js";
 import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
 import { Plot } from "../plot.js";
+import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { Strips } from "../strips.js";
 import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, Report, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -172,7 +173,7 @@ export function view() {
   const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
       answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}
-      actions=${html`<${Report} command="drive" body=${body} />`}
+      actions=${html`<${Report} work=${shaken} />`}
       lead="A gearset under load, shaken: what the motor is spared, what that costs, and what it does to the teeth.">
     <div class="columns headed moving"><section class="controls" aria-label="what is set">
       <${Slider} path="vibration.frequency" low=${100} high=${100000} unit="Hz" log />
