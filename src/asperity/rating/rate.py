@@ -339,11 +339,9 @@ def rated_of(
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
     steel = gearset.worm_material.taken_for
-    notes = (
-        []
-        if steel is None
-        else [f"worm material: {steel.note}, by {steel.name} ({steel.confidence})"]
-    )
+    notes = []
+    if steel is not None:
+        notes.append(f"worm material: {steel.note}, by {steel.name} ({steel.confidence})")
     rows, told = own_table.rows_of(given)
     for name in wanted:
         try:

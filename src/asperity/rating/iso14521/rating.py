@@ -100,6 +100,12 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             "viscosity is extrapolated beyond the 100 degC it is given at"
         )
     notes += _of_heat(given, values)
+    spectrum = given.operation.spectrum
+    if spectrum is not None and spectrum.oil != "each" and spectrum.oil_temperature is None:
+        notes.append(
+            "the oil has the mean temperature of all loads, as the cycles of S3 are alike: give "
+            "spectrum.oil_temperature = 'each' where a load comes in long blocks"
+        )
     if given.duty:
         notes.append(
             f"the duty cycle: wear adds up over its parts, {_SUMPS[_oil(given)]}, "
@@ -154,7 +160,7 @@ _LIVES = {"life", "wheel_revolutions"}
 
 def _oil(given: Inputs) -> str:
     spectrum = given.operation.spectrum
-    return "each" if spectrum is None else spectrum.oil_temperature
+    return "each" if spectrum is None else spectrum.oil
 
 
 def _equations(given: Inputs) -> dict[str, str]:
