@@ -228,6 +228,12 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
 
     def add(rated: Rated, _: Run) -> Rated:
         shafts = studied(problem, rated.iso14521)
-        return dataclasses.replace(rated, rows=(*rated.rows, *shafts.rows), shafts=shafts)
+        wrong = (note for one in shafts.found.values() for note in one.model.misseated)
+        return dataclasses.replace(
+            rated,
+            rows=(*rated.rows, *shafts.rows),
+            shafts=shafts,
+            notes=(*rated.notes, *wrong),
+        )
 
     return add
