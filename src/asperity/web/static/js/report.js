@@ -25,7 +25,7 @@ export function Report({ work, files = false }) {
     wanted.current = true;
     start();
   };
-  return html`<button type="button" disabled=${running || !can} onClick=${ask}
+  return html`<button type="button" disabled=${running || !(can || there)} onClick=${ask}
       title=${there ? TITLE : `${TITLE}; it is solved first`}>
       ${running && wanted.current ? "report is being written" : "report"}</button>
     ${there && files ? html`<${Files} job=${job} />` : null}`;

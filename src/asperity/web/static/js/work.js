@@ -158,7 +158,7 @@ export function lasting(seconds) {
 }
 
 /** Draw anew every second while something goes on. */
-function useTicking(on) {
+export function useTicking(on) {
   const [, setCount] = useState(0);
   useEffect(() => {
     const timer = on ? setInterval(() => setCount((old) => old + 1), 1000) : 0;

@@ -4,6 +4,7 @@ import { useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
 import { span } from "../colours.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
+import { Further } from "../further.js";
 import { Gears, Way } from "../gears.js";
 import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
@@ -199,6 +200,7 @@ export function view() {
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
           says="A minute or several: it is marched at several amplitudes.">
         ${held.data ? html`<${Locking} answer=${held.data.answer} found=${holding} data=${creep} />` : null}<//>
+      <${Further} name=${name} settings=${settings} />
     </section></div>
   <//>`;
 }
