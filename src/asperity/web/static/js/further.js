@@ -1,6 +1,7 @@
 /** What else is asked of a loaded gearset, by jobs that their commands tell: mounting, wear, relief, control. */
-import { html, useState } from "../vendor/preact.js";
+import { html } from "../vendor/preact.js";
 import { useCaseFile } from "./api.js";
+import { Unfolded } from "./form.js";
 import { Told } from "./told.js";
 import { useJob, WorkPanel } from "./work.js";
 
@@ -28,11 +29,7 @@ function Study({ command, title, label, says, needs, name, settings }) {
 }
 
 /** @param {{name: string, settings: Record<string, string>}} props */
-export function Further({ name, settings }) {
-  const [open, setOpen] = useState(false);
-  return html`<details onToggle=${(event) => setOpen(event.target.open)}>
-    <summary>further: mounting, relief, wear, control</summary>
-    ${open ? STUDIES.map(([command, title, label, says, needs]) => html`<${Study} key=${command} command=${command}
-      title=${title} label=${label} says=${says} needs=${needs} name=${name} settings=${settings} />`) : null}
-  </details>`;
-}
+export const Further = ({ name, settings }) => html`<${Unfolded} says="further: mounting, relief, wear, control"
+  made=${() => STUDIES.map(([command, title, label, says, needs]) => html`<${Study} key=${command}
+    command=${command} title=${title} label=${label} says=${says} needs=${needs} name=${name}
+    settings=${settings} />`)} />`;
