@@ -38,7 +38,10 @@ hypothesis.settings.load_profile("asperity")
 
 # Programs of others that some tests compare with: name of the program, files of tests.
 _NEEDS = {
-    "gfortran": ["literature/test_fric_subroutine.py"],
+    "gfortran": [
+        "literature/test_fric_subroutine.py",
+        "literature/test_appendix_e_subroutine.py",
+    ],
     "ccx": ["literature/test_calculix.py"],
 }
 _absent = [program for program in _NEEDS if shutil.which(program) is None]

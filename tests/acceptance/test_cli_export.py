@@ -168,3 +168,23 @@ def test_a_line_feed_in_the_name_of_a_case_begins_no_line_of_a_deck(asperity, tm
     assert (code, errors) == (0, "")
     lines = (tmp_path / "out" / "block.inp").read_text().splitlines()
     assert not [line for line in lines if line.startswith("*INCLUDE")]
+
+
+@pytest.mark.parametrize(
+    ("case", "program", "name", "told"),
+    [
+        ("block-transverse", "abaqus", "appendix-e", "is of a gearset's deck"),
+        ("drive-thesis", "calculix", "appendix-e", "--subroutine is for --to abaqus"),
+        ("drive-thesis", "abaqus", "appendix-f", "it must be 'appendix-e'"),
+    ],
+)
+def test_the_subroutine_of_appendix_e_is_for_a_gearset_in_abaqus_alone(
+    asperity, tmp_path, case, program, name, told
+):
+    code, output, errors = asperity(
+        "export", case, "--to", program, "--subroutine", name, "--out", tmp_path / "deck"
+    )
+    assert (code, output) == (2, "")
+    assert told in errors
+    assert errors.count("\n") == 1
+    assert not (tmp_path / "deck").exists()

@@ -20,7 +20,7 @@ from asperity.results.words import Number, Sentence
 PINT = {
     "uin": "microinch", "in2": "inch**2", "in3": "inch**3", "1/in": "1/inch", "in/rad": "inch",
     "ft/min": "foot/minute", "in/s": "inch/second", "lbf": "pound_force", "psi": "psi",
-    "lbf/in": "pound_force/inch", "lbf in": "pound_force*inch", "hp": "horsepower",
+    "lbf/in": "pound_force/inch", "lbf·in": "pound_force*inch", "hp": "horsepower",
     "ksi": "kilopsi", "degF": "degF", "lb": "pound", "in": "inch", "ft2": "foot**2",
 }  # fmt: skip
 GIVEN = {
@@ -111,7 +111,7 @@ def test_screen_and_report_are_in_inches_and_json_is_in_si(asperity, tmp_path):
     assert re.search(r"losses 1\.929 hp of 6\.863 hp: teeth 1\.72 \+ idling", shown)
     assert json.loads((tmp_path / "rate.json").read_text()) == json.loads(si)
     page = (tmp_path / "report.html").read_text()
-    assert "lbf in" in page
+    assert "lbf·in" in page
     table = (tmp_path / "rate.csv").read_text().splitlines()
     rows = {(row["standard"], row["key"]): row for row in csv.DictReader(table)}
     own = rows["iso14521", "centre_distance_mm"]

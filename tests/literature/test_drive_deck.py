@@ -17,6 +17,7 @@ from asperity.drive.deck.calculix import deflection, torques
 from asperity.drive.deck.facets import on_faces, rows_of
 from asperity.drive.deck.setup import SLID, WORM, turned_about
 from asperity.drive.teeth.sector import RIM
+from asperity.errors import InputError
 from asperity.flanks.worm.distance import distances
 
 FLOAT = r"[-+]?\d\.\d+E[-+]\d+"
@@ -111,6 +112,14 @@ def test_abaqus_is_told_of_the_same_motion_and_of_dahl_s_law_by_a_subroutine(set
     assert set(files) == {"teeth.inp", "user.f"}
     assert "*FRICTION, USER, DEPVAR=3" in files["teeth.inp"]
     assert "law 'vector'" in files["user.f"]
+    # On request that of the thesis's Appendix E, with its state and its three properties.
+    asked = abaqus_files(dahl, "appendix-e")
+    assert re.search(
+        r"\*FRICTION, USER, DEPVAR=5, PROPERTIES=3\n0\.1344, 1\.0,", asked["teeth.inp"]
+    )
+    assert "Appendix E" in asked["user.f"]
+    with pytest.raises(InputError, match="Appendix E is of 'dahl'"):
+        abaqus_files(setup, "appendix-e")
 
 
 def test_abaqus_is_told_of_the_shaken_gearset_in_the_steps_of_the_thesis(setup):

@@ -76,9 +76,13 @@ DRIVE = {
 }  # fmt: skip
 
 
-def test_axial_vibration_ten_times_as_fast_as_the_sliding_saves_energy_at_40_khz():
+@pytest.mark.parametrize(
+    ("mu", "energy"),
+    [(0.2, 0.906), pytest.param(0.287, 0.824, marks=pytest.mark.slow)],
+)
+def test_axial_vibration_ten_times_as_fast_as_the_sliding_saves_energy_at_40_khz(mu, energy):
     light = {
-        "frequency": 40e3, "speed": 4.79, "load": 92.0, "mu": 0.287, "damping": 1e-3,
+        "frequency": 40e3, "speed": 4.79, "load": 92.0, "mu": mu, "damping": 1e-3,
         "inertia": 6.33e-4, "worm_inertia": 5.16e-7, "worm_mass": 0.0916, "torsion": 9200.0,
         "compliance": 2.9e-9, "amplitude": 1.91e-6,
     }  # fmt: skip
@@ -86,7 +90,7 @@ def test_axial_vibration_ten_times_as_fast_as_the_sliding_saves_energy_at_40_khz
     assert answer.settled
     assert answer.k_w == pytest.approx(10.0, rel=5e-3)
     assert answer.open_share == plain["open"] == 0.0
-    assert answer.energy_ratio < 0.9
+    assert answer.energy_ratio == pytest.approx(energy, abs=1e-3)
     assert plain["drive"] + plain["actuator"] == pytest.approx(answer.energy_ratio, abs=1e-3)
     assert ratio < 1e-3
     assert powers < 1e-3

@@ -4,6 +4,7 @@ Each is written with the same samples by `apparatus.laboratory_files`, and read 
 refused by name.
 """
 
+import datetime
 import importlib.util
 import re
 import wave
@@ -126,8 +127,11 @@ def test_mdf_is_read(tmp_path):
                 for name, one in zip("AB", BOTH, strict=True)
             ]
         )
+        file.header.start_time = datetime.datetime(2026, 5, 1, 12, tzinfo=datetime.UTC)
         file.save(tmp_path / "run.mf4")
-    holds(read_export(tmp_path / "run.mf4", "run.mf4"), BOTH)
+    found = read_export(tmp_path / "run.mf4", "run.mf4")
+    holds(found, BOTH)
+    assert found.began == (datetime.datetime(2026, 5, 1, 12, tzinfo=datetime.UTC), "its header")
 
 
 def test_a_file_a_channel_is_joined_by_time(tmp_path):

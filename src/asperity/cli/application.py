@@ -78,6 +78,14 @@ def export(
         str,
         typer.Option("--over", metavar="TABLE.KEY=VALUES", help="Mean friction over this as well."),
     ] = "",
+    subroutine: Annotated[
+        str,
+        typer.Option(
+            "--subroutine",
+            metavar="NAME",
+            help="appendix-e: user.f as in Appendix E of the thesis, which is not sound.",
+        ),
+    ] = "",
     as_json: JsonOption = False,
     out: Annotated[
         Path | None,
@@ -99,7 +107,7 @@ def export(
     """
     from asperity.cli.export import export as run
 
-    run(case, program, settings or (), over, as_json=as_json, out=out)
+    run(case, program, settings or (), over, subroutine, as_json=as_json, out=out)
 
 
 @app.command()
@@ -239,9 +247,12 @@ def schema(as_json: JsonOption = False) -> None:
 def materials(as_json: JsonOption = False) -> None:
     """List the materials of worms and wheels, with source and trust."""
     from asperity.cli.lists import print_library
+    from asperity.gearset.library import every
     from asperity.gearset.materials import Steel, WheelMaterial, WormMaterial
+    from asperity.gearset.plastics import Plastic
 
-    print_library((WheelMaterial, WormMaterial, Steel), as_json=as_json)
+    own = (Plastic,) if every(Plastic) else ()
+    print_library((WheelMaterial, *own, WormMaterial, Steel), as_json=as_json)
 
 
 @app.command()

@@ -1,6 +1,6 @@
 """What ``asperity export`` does."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from asperity.casefile import Case, naming_source, read_case
@@ -10,7 +10,9 @@ from asperity.errors import InputError, choices, suggestion
 from asperity.files.store import output_folder, write_atomically, write_text
 
 _MOST_NODES = 2_000_000
-_DECKS = ("abaqus", "calculix")
+_ABAQUS = "abaqus"
+_DECKS = (_ABAQUS, "calculix")
+SUBROUTINES = ("appendix-e",)
 _LAWS = ("c", "csv", "mat")
 _DAHL = "dahl"
 PROGRAMS = (*_DECKS, *_LAWS, _DAHL)
@@ -23,6 +25,7 @@ def export(
     program: str,
     settings: Sequence[str],
     over: str = "",
+    subroutine: str = "",
     *,
     as_json: bool,
     out: Path | None,
@@ -32,6 +35,13 @@ def export(
         raise InputError(
             f"--to {program}: it must be one of {choices(PROGRAMS)}{suggestion(program, PROGRAMS)}"
         )
+    if subroutine and subroutine not in SUBROUTINES:
+        raise InputError(
+            f"--subroutine {subroutine}: it must be {choices(SUBROUTINES)}"
+            f"{suggestion(subroutine, SUBROUTINES)}"
+        )
+    if subroutine and program != _ABAQUS:
+        raise InputError(f"--subroutine is for --to {_ABAQUS}; leave it out with --to {program}")
     if program in _LAWS:
         files = _law(case, program, settings, over)
     elif over:
@@ -41,8 +51,11 @@ def export(
     else:
         read = read_case(case, case_tables(), settings)
         geared = "drive" in read and "block" not in read
-        write: Callable[[Case, str], Files] = _teeth if geared else _block
-        files = write(read, program)
+        if subroutine and not geared:
+            raise InputError(
+                f"--subroutine {subroutine} is of a gearset's deck; {case} has none: leave it out"
+            )
+        files = _teeth(read, program, subroutine) if geared else _block(read, program)
     folder = output_folder(out if out is not None else Path("out") / program)
     written = [str(_written(folder / name, content)) for name, content in files.items()]
     if as_json:
@@ -66,11 +79,12 @@ def _block(case: Case, program: str) -> Files:
     return WRITERS[program](setup)
 
 
-def _teeth(case: Case, program: str) -> Files:
-    from asperity.drive.deck import WRITERS, TeethSetup
+def _teeth(case: Case, program: str, subroutine: str) -> Files:
+    from asperity.drive.deck import WRITERS, TeethSetup, abaqus_files
     from asperity.runs import Run
 
-    return WRITERS[program](TeethSetup.from_case(case, Run(notify=show.note)))
+    setup = TeethSetup.from_case(case, Run(notify=show.note))
+    return abaqus_files(setup, subroutine) if subroutine else WRITERS[program](setup)
 
 
 def _law(name: str, program: str, settings: Sequence[str], over: str) -> Files:

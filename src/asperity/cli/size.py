@@ -13,6 +13,7 @@ from asperity.commands import case_tables
 from asperity.commands.shown import check_shown, shown_as
 from asperity.files.store import output_folder, write_text
 from asperity.results.report import Heading
+from asperity.start.borne import with_bearings
 from asperity.start.duty import complete, duty
 from asperity.start.gear import proposals, ratio_of
 from asperity.start.kinds import kind_of
@@ -64,7 +65,7 @@ def _written(found: Proposals, asking: Case, out: Path, ratio: str) -> str:
     kind, names = kind_of("gear"), found.write(folder, pictures="")
     for place, proposal in enumerate(found.found, 1):
         kept = {k: v for k, v in values["gearset"].items() if k not in OTHER_FORMS}
-        mine = {**values, "gearset": {**kept, **proposal.keys}}
+        mine = {**with_bearings(values, proposal.bearings), "gearset": {**kept, **proposal.keys}}
         tables = (*kind.tables, *(name for name in mine if name not in kind.tables))
         text = case_text(f"Proposal {place}", mine, case_tables(), tables)
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)

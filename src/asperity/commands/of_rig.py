@@ -70,6 +70,9 @@ RIG_COMMANDS = (
                 "join", "Another file of the same recording; again for each.", "FILE", many=True
             ),
             *_COLUMNS,
+            Option(
+                "start", "When it began, where the file does not say: 2026-05-01 14:30.", "DATE"
+            ),
         ),
         needs=("rig", "steel_disc", "bronze_disc", "drives", "channels"),
         case="CONFIG",

@@ -197,6 +197,11 @@ class DriveResult(Drawn):
         return self.problem.geometry
 
     @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
+
+    @property
     @labelled("", "", "of the powers, what is missing over what is put in", swept=True)
     def closure(self) -> float:
         """Residual of the power ledger."""

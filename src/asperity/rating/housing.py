@@ -15,6 +15,7 @@ from asperity.units import Quantity
 HEAT = {"iron": 460.0, "aluminium": 900.0, "bronze": 380.0, "oil": 1900.0}
 """Specific heat capacities, J/(kg K), from memory; iron stands for steel too."""
 
+
 HEAT_SOURCE = Source("textbooks", "from memory", "heat capacities, typical")
 
 Area = Annotated[float, Quantity("m**2", what="an area", example="0.4 m**2", gt=0, le=1e4)]

@@ -47,7 +47,7 @@ US: dict[str, Shown] = {
     "N": Shown("lbf", 1.0 / _LBF),
     "kN": Shown("lbf", 1e3 / _LBF),
     "N/mm": Shown("lbf/in", _IN / _LBF),
-    "N m": Shown("lbf in", 1e3 / (_LBF * _IN)),
+    "N m": Shown("lbf\u00b7in", 1e3 / (_LBF * _IN)),
     "W": Shown("hp", 1.0 / _HP),
     "kW": Shown("hp", 1e3 / _HP),
     "Pa": Shown("psi", 1.0 / _PSI),

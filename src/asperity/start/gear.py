@@ -1,6 +1,5 @@
 """A gearset's case from ratio, torque and speed alone."""
 
-import dataclasses
 import functools
 import math
 from collections.abc import Collection, Mapping
@@ -16,6 +15,7 @@ from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.spectrum import Spectrum
+from asperity.start.borne import borne_by
 from asperity.start.kinds import KINDS, Values
 from asperity.studies.proposals import propose
 from asperity.studies.proposed import Proposals
@@ -94,9 +94,9 @@ def proposals(
     kept = {key: value for key, value in values["gearset"].items() if key not in _HELD}
     held = _held({key: value for key, value in values["gearset"].items() if key in _HELD})
     gearset = _table(Gearset, kept | _STAND_IN)
-    operation = _operation(values)
+    operation = operation_of(values)
     options = _table(RatingOptions, values.get("rating", {}))
-    found = propose(
+    return propose(
         _ratio(ratio, asked),
         gearset,
         operation,
@@ -104,20 +104,12 @@ def proposals(
         rank=rank,
         exact=exact,
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
+        borne=borne_by(values, kept, operation, options, asked),
         details=functools.partial(_details, kept, values.get(Tolerances.table)),
         held=held,
         locks=locks,
         requirements=asked,
     )
-    shafts = [f"[{name}]" for name in ("worm_shaft", "wheel_shaft") if name in values]
-    if not shafts:
-        return found
-    # What shafts and bearings bear follows from where they stand, which a proposal moves.
-    said = (
-        f"{' and '.join(shafts)} of the case are not among what holds here: asperity rate judges "
-        "them with each proposal that --out writes"
-    )
-    return dataclasses.replace(found, notes=(said, *found.notes))
 
 
 def _ratio(given: float | None, asked: Requirements) -> float:
@@ -132,8 +124,8 @@ def _ratio(given: float | None, asked: Requirements) -> float:
     return given
 
 
-def _operation(values: Values) -> Operation:
-    """Return how it is run, with its load spectrum and housing."""
+def operation_of(values: Values) -> Operation:
+    """Return how it is run, with its load spectrum and housing; raises InputError."""
     run: Operation = _table(Operation, values["operation"])
     tables = {
         model.table: _table(model, values[model.table])

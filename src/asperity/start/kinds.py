@@ -260,5 +260,6 @@ RATIO = "40"
 def kind_of(name: str) -> Kind:
     """Return a kind by its name; raises InputError where there is none."""
     if name not in KINDS:
-        raise InputError(f"{name} is not a kind of case file{nearest(name, (*KINDS, 'bearing'))}")
+        known = *KINDS, "bearing", "plastic"
+        raise InputError(f"{name} is not a kind of case file{nearest(name, known)}")
     return KINDS[name]

@@ -89,7 +89,7 @@ def fric_subroutine(model: Model, *, before: float = 0.0, side: int = -1) -> Fri
     parts.append(_wave(model))
     if moves_base:
         parts.append(_motion(model, before))
-    heading = "".join(_comment(_heading(model, properties, moves_base)))
+    heading = "".join(commented(_heading(model, properties, moves_base)))
     return FricSubroutine(heading + "".join(parts), properties, STATE_VARIABLES, moves_base)
 
 
@@ -101,7 +101,7 @@ def needs_disp(model: Model) -> bool:
 def disp_subroutine(model: Model, *, before: float = 0.0) -> str:
     """Write DISP alone, for a base whose waveform is not a sine under friction Abaqus knows."""
     lines = ["User subroutine DISP for Abaqus/Standard, written by asperity: the base's motion."]
-    return "".join([*_comment(lines), _motion(model, before), _wave(model)])
+    return "".join([*commented(lines), _motion(model, before), _wave(model)])
 
 
 def base_amplitudes(model: Model) -> tuple[float, float]:
@@ -242,7 +242,8 @@ def _heading(model: Model, properties: tuple[float, ...], moves_base: bool) -> l
     return lines
 
 
-def _comment(lines: Iterable[str]) -> Iterable[str]:
+def commented(lines: Iterable[str]) -> Iterable[str]:
+    """Yield lines of comment, as wide as fixed-form Fortran has them."""
     for line in lines:
         hanging = " " * 5 if line.startswith("  ") else ""
         wrapped = textwrap.wrap(line, _WIDTH - 2, subsequent_indent=hanging) or [""]

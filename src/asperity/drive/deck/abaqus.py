@@ -13,9 +13,11 @@ import numpy as np
 
 from asperity.block.deck.abaqus import SUBROUTINES
 from asperity.block.deck.fric import FricSubroutine, fric_subroutine
+from asperity.drive.deck.appendix_e import appendix_e
 from asperity.drive.deck.setup import FLANK, WHEEL, WORM, TeethSetup
 from asperity.drive.deck.shaken import SHAKEN, shaken_lines
 from asperity.drive.teeth.sector import RIM
+from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.mesh.inp import mesh_lines, numbers
 from asperity.slider.model import Model
@@ -26,12 +28,35 @@ _PER_LINE = 8
 _INCREMENTS = (8, 4)
 
 
-def abaqus_files(setup: TeethSetup) -> dict[str, str]:
-    """Return the files an Abaqus user needs, by name: the deck and its user subroutine, if any."""
+def abaqus_files(setup: TeethSetup, subroutine: str = "") -> dict[str, str]:
+    """Return the files an Abaqus user needs, by name: the deck and its user subroutine, if any.
+
+    Parameters
+    ----------
+    setup : TeethSetup
+        What is written.
+    subroutine : {"", "appendix-e"}
+        The subroutine: for our law, or that of the thesis's Appendix E, which is not sound.
+
+    Raises
+    ------
+    InputError
+        Appendix E is asked for, and friction is not Dahl's.
+    """
     friction = setup.problem.friction
     fric = None
+    if subroutine and friction.model != "dahl":
+        raise InputError(
+            f"friction.model is '{friction.model}'; the subroutine of Appendix E is of 'dahl': "
+            "give that"
+        )
     if friction.model == "dahl":
-        fric = fric_subroutine(_sliding(setup, friction))
+        sliding = _sliding(setup, friction)
+        if subroutine:
+            limit = sliding.friction.deflection_limit(sliding.slider.normal_force)
+            fric = appendix_e(sliding.friction.mu, friction.exponent, limit)
+        else:
+            fric = fric_subroutine(sliding)
     files = {DECK: "\n".join([*_deck(setup, fric), ""])}
     if setup.shaken is not None:
         moved = shaken_lines(setup, model_lines(setup, fric, SHAKEN))

@@ -75,6 +75,11 @@ class StaticResult(Drawn):
         return self.problem.geometry
 
     @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
+
+    @property
     @labelled("eta", "", "efficiency of the mesh")
     def efficiency(self) -> float:
         """Work of the wheel over that of the worm."""

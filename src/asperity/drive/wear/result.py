@@ -89,6 +89,11 @@ class WheelWorn(Drawn):
         return self.problem.geometry
 
     @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
+
+    @property
     def inputs(self) -> Mapping[str, Any]:
         """The values of the problem's tables in SI, by ``table.key``."""
         return inputs(self.problem)

@@ -69,6 +69,7 @@ def rated_efficiency(given: Inputs, teeth: Values | None = None) -> Values:
 
 def _teeth(given: Inputs) -> Values:
     wheel, operation = given.gearset.wheel_material, given.operation
+    wheel.require_covered("ISO/TR 14521")
     v: Values = {}
     v["sliding_velocity_m_s"] = friction.sliding_velocity(
         given.worm_pitch_diameter, given.worm_speed, given.lead_angle

@@ -12,6 +12,7 @@ from asperity.rating.housing import Housing
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import balance
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
+from asperity.rating.iso14521.housed import uncounted
 from asperity.rating.iso14521.limits import implausible, violations
 from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
 from asperity.rating.result import Rating
@@ -131,7 +132,9 @@ _MOST_BEYOND = 30.0  # W/(m2 K)
 
 def _of_heat(given: Inputs, values: Values) -> Iterator[str]:
     """Say where the sump's temperature by the standard and the heat balance contradict."""
-    housing, spectrum = given.operation.housing, given.operation.spectrum
+    if told := uncounted(given):
+        yield f"heat: {told}"
+    housing = given.operation.housing
     if housing is None:
         return
     if values.get("k_S_W_m2K", 0.0) > _MOST_BEYOND:
@@ -139,11 +142,6 @@ def _of_heat(given: Inputs, values: Values) -> Iterator[str]:
             f"heat: the sump's formula of ISO/TR 14521, which knows no losses, would have the "
             f"housing give off {values['k_S_W_m2K']:.0f} W/(m2 K); more than {_MOST_BEYOND:g} "
             "takes blown air: wear and film go by that formula, temperature by the balance"
-        )
-    if housing.capacity is None and spectrum is not None and spectrum.how.kind != "S1":
-        yield (
-            f"heat: spectrum.duty is {spectrum.duty!r}, but housing.heat_capacity is missing, so "
-            "that the housing is taken to be as warm as it gets all the time"
         )
 
 
@@ -220,7 +218,7 @@ def _equations(given: Inputs) -> dict[str, str]:
 
 def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
     """Return the equations of a housing's heat, by key."""
-    how = "S1" if given.operation.spectrum is None else given.operation.spectrum.how.kind
+    how = given.how.kind
     timed = housing.capacity is not None and how != "S1"
     equations = {"safety_temperature": "theta_Slim/theta_h"}
     if timed:

@@ -94,16 +94,17 @@ def pressure(dataset: "xr.Dataset") -> "Figure":
 
 
 def normal_laws(dataset: "xr.Dataset") -> "Figure":
-    """Draw pressure over overclosure above, and its slope below."""
+    """Draw pressure over overclosure above, and its slope below, scaled by the law's far end."""
     figure, (upper, lower) = panels(2, height=5.6)
-    over = 1e6 * dataset["overclosure"].values
+    end, stiffness = float(dataset["end"]), float(dataset["slope"].max())
+    over = dataset["overclosure"].values / end
     for index, law in enumerate(str(one) for one in dataset["law"].values):
         own = dataset.sel(law=law)
-        line(upper, index, over, 1e-9 * own["pressure"], law)
-        line(lower, index, over, 1e-15 * own["slope"], law)
-    for axes, label in ((upper, "pressure (GPa)"), (lower, "stiffness (GPa/µm)")):
+        line(upper, index, over, own["pressure"] / (stiffness * end), law)
+        line(lower, index, over, own["slope"] / stiffness, law)
+    for axes, label in ((upper, "pressure, scaled"), (lower, "stiffness over the final one")):
         for edge in ("start", "end"):
-            axes.axvline(1e6 * float(dataset[edge]), color=BLACK, linewidth=0.8, dashes=DOTTED)
-        axes.set(xlabel="overclosure (µm)", ylabel=label, xmargin=0.0)
+            axes.axvline(float(dataset[edge]) / end, color=BLACK, linewidth=0.8, dashes=DOTTED)
+        axes.set(xlabel="overclosure over that of the final stiffness", ylabel=label, xmargin=0.0)
     legend(upper, loc="upper left")
     return figure

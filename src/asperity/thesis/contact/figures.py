@@ -22,7 +22,12 @@ from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.sliding import drawings as drawings_sliding
 from asperity.thesis.sliding.bodies import PERIODIC, Sweep
 from asperity.thesis.sliding.claims import PLOTTED
-from asperity.thesis.sliding.figures import CLOSED_FORMS, side_by_side, two_cycles
+from asperity.thesis.sliding.figures import (
+    CLOSED_FORMS,
+    beginning,
+    side_by_side,
+    two_cycles,
+)
 
 _DENSE = "0.1:20:0.1"
 _EDGE = 5e-3  # m, of an element of the shipped block
@@ -129,7 +134,8 @@ def _normal_laws() -> Computed:
 def _drive(case: str, *, full: bool = False) -> Computed:
     block, body = marched_and_slid(case, full)
     histories = [one.to_dataset()[["drive_force"]] for one in (body.result, block.marched())]
-    return side_by_side(_NAMES, histories, body.result.static_drive_force), [body, block]
+    dataset = side_by_side(_NAMES, histories, body.result.static_drive_force)
+    return beginning(dataset, body.model), [body, block]
 
 
 @figure("5.7", drawings_sliding.friction_over_cycles, LONGITUDINAL, ["x"])

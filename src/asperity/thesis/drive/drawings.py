@@ -152,6 +152,11 @@ def advantage(dataset: "xr.Dataset") -> "Figure":
     other.plot(20.0, float(dataset["thesis_advantage"]), "*", color=VERMILION, markersize=13)
     other.set_ylabel(r"mechanical advantage $M_a$", color=GREEN)
     other.set_ylim(0.0, None)
+    low, high = dataset["thesis_efficiency"].values
+    left.fill_between(
+        [0.1, 5.0], low, high, color=VERMILION, alpha=0.3, linewidth=0.0,
+        label=r"$\eta_{sys}$ of the thesis",
+    )  # fmt: skip
     legend_above(left, 2)
     left.set_title("(a)", loc="left")
     for name, colour in (("across", BLUE), ("along", VERMILION)):
@@ -160,9 +165,8 @@ def advantage(dataset: "xr.Dataset") -> "Figure":
             float(dataset["measured"].sel(test=name)), color=colour, dashes=DOTTED,
             label=f"least of the disc tests, {name}",
         )  # fmt: skip
-    right.set(
-        xlabel="velocity ratio $k_v$", ylabel=r"$T_{sv}/T_{ss}$", xlim=(0, 20), ylim=(0, 1.05)
-    )
-    legend(right, loc="upper right")
+    _over_k(right, r"$T_{sv}/T_{ss}$")
+    right.set(xlabel="velocity ratio $k_v$", xlim=left.get_xlim(), ylim=(0, 1.05))
+    legend(right, loc="center left")
     right.set_title("(b)", loc="left")
     return figure

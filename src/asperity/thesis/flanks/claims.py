@@ -15,7 +15,7 @@ _ROWS, _COLUMNS = 81, 121
 _NO_TILT = "hob.tilt=0 deg"
 _IDENTICAL = ("hob.oversize=1", _NO_TILT)
 HOBS = {"identical": _IDENTICAL, "oversized": (_NO_TILT,), "oversized, tilted": ()}
-_ASKEW = 0.1  # deg
+ASKEW = 0.1  # deg
 _EDGE, _MIDDLE = 0.9, 1.0 / 3.0
 _HERE = f"Gearset 3 with a centre distance of 2.9 in; dye {1e3 * MARKING:g} um thick, unloaded."
 
@@ -76,7 +76,7 @@ def _misalignment() -> Finding:
     gears = {
         name: [
             Gear(_CASE, (*hob, f"mount.shaft_angle_error={error:g} deg"))
-            for error in (-_ASKEW, _ASKEW)
+            for error in (-ASKEW, ASKEW)
         ]
         for name, hob in HOBS.items()
     }
@@ -91,9 +91,8 @@ def _misalignment() -> Finding:
         "the mark moves by "
         + ", ".join(f"{move:.2f} ({name})" for name, move in moves.items())
         + " of half the face width",
-        f"While the shaft angle goes from -{_ASKEW:g} to {_ASKEW:g} deg. What the thesis adds, "
-        f"that "
-        "contact in the middle lowers the pressure, is claim 2.7.",
+        f"While the shaft angle goes from -{ASKEW:g} to {ASKEW:g} deg. What the thesis adds of "
+        "the pressure is claim 2.7.",
         {f"move_{name}": move for name, move in moves.items()},
         [gear for both in gears.values() for gear in both],
         assumed=_HERE,

@@ -7,7 +7,7 @@ import numpy as np
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.thesis.exhibits import claim
-from asperity.thesis.flanks.claims import HOBS
+from asperity.thesis.flanks.claims import ASKEW, HOBS
 from asperity.thesis.flanks.figures import LOADS
 from asperity.thesis.flanks.meshing import Gear, meshing, pair_of
 from asperity.thesis.products import Finding
@@ -21,27 +21,41 @@ _SHAFT_DIAMETER, _SHAFT_LENGTH = 17.0, 150.0
 
 @claim("2.7")
 def _pressure() -> Finding:
-    pressures = {
-        name: max(
-            float(lines.pressure[lines.carrying].max())
-            for lines in meshing(Gear(_CASE, hob)).loaded(_ANGLES)
-        )
+    errors = (-ASKEW, 0.0, ASKEW)
+    gears = {
+        name: [Gear(_CASE, (*hob, f"mount.shaft_angle_error={error:g} deg")) for error in errors]
         for name, hob in HOBS.items()
     }
+    pressures = {name: [_greatest(gear) for gear in each] for name, each in gears.items()}
+    worst = {name: max(each) for name, each in pressures.items()}
+    true = ", ".join(f"{each[1]:.0f} ({name})" for name, each in pressures.items())
     return Finding.judged(
         {
-            "“Centre contact also encourages reduced contact pressure”": pressures["identical"]
-            > max(value for name, value in pressures.items() if name != "identical"),
+            "“Centre contact also encourages reduced contact pressure”, against contact at an edge":
+            worst["identical"] > max(p for name, p in worst.items() if name != "identical"),
         },
-        ", ".join(f"{pressure:.0f} MPa ({name})" for name, pressure in pressures.items()),
-        "An oversized hob makes of long lines of contact shorter ones in the middle, and what is "
-        "shorter is pressed harder: the more centred, the higher. That holds of a true shaft "
-        "angle; "
-        "of one that is askew the identical hob bears at an edge, and lubrication is not in it. "
-        "Greatest Hertz pressure on the lines of contact at rated torque.",
-        {f"pressure_{name}_MPa": p for name, p in pressures.items()},
-        [Gear(_CASE, hob) for hob in HOBS.values()],
+        ", ".join(f"{pressure:.0f} MPa ({name})" for name, pressure in worst.items())
+        + f" at most while the shaft angle errs by {ASKEW:g} deg",
+        "An identical hob bears at an edge where the shaft angle errs one way, and is pressed "
+        "harder there than an oversized one in the middle. Where the angle is true it is the other "
+        f"way round, {true} MPa: of long lines of contact an oversized hob makes shorter ones, and "
+        "what is shorter is pressed harder. Where it errs the other way the identical hob has "
+        f"{pressures['identical'][2]:.0f} MPa. Greatest Hertz pressure on the lines of contact at "
+        "rated torque; lubrication is not in it.",
+        {
+            f"pressure_{name}_{where}_MPa": p
+            for name, each in pressures.items()
+            for where, p in zip(("askew", "true", "askew_the_other_way"), each, strict=True)
+        },
+        [gear for each in gears.values() for gear in each],
         assumed="Gearset 3 as its flanks are checked; one stiffness per length of line.",
+    )  # fmt: skip
+
+
+def _greatest(gear: Gear) -> float:
+    """The greatest pressure on the lines of contact of a gearset, MPa."""
+    return max(
+        float(lines.pressure[lines.carrying].max()) for lines in meshing(gear).loaded(_ANGLES)
     )
 
 
@@ -82,7 +96,8 @@ def _lighter() -> Finding:
         f"within them {whole:.2f} kg",
         "Of the worm its shaft and half the wheel's diameter of threads full to their tips; of the "
         "wheel the ring of teeth and a plain steel disc as thick as two shafts within. The thesis "
-        "gives no mass: the disc, which is ours, decides, for the ring alone is the lighter.",
+        "gives no mass, and the ring alone is the lighter; a hub and web of "
+        f"{(worm - rim) / (whole - rim):.0%} of that disc would do.",
         {"worm_at_most_kg": worm, "rim_kg": rim, "wheel_kg": whole},
         ["volumes of the flanks of gearset-3b"],
         assumed=f"Densities of {_STEEL:g} and {_BRONZE:g} kg/m3, and the disc.",

@@ -8,6 +8,7 @@ from asperity.gearset import Gearset
 from asperity.rating import Operation, Rated, RatingOptions, rate_case
 from asperity.rating.tables import TABLES as RATING_TABLES
 from asperity.studies.comparison import Comparison
+from asperity.studies.design import Bounds
 from asperity.studies.methods import compare_case
 from asperity.studies.optimise import Optimum, optimise
 from asperity.studies.reported import Method, reported_methods
@@ -68,11 +69,18 @@ class RatedGear(Shipped):
     @cached_property
     def changes(self) -> dict[str, float]:
         """What becomes of some of its numbers at the optimum, as a share of each."""
-        before, after = self.optimum.before, self.optimum.after
-        return {
-            symbol: number(after, *place) / number(before, *place) - 1.0
-            for symbol, place in _WATCHED.items()
-        }
+        return _changes(self.optimum)
+
+    def changes_within(self, bounds: Bounds) -> dict[str, float]:
+        """The same at the optimum within other bounds."""
+        return _changes(optimise(*self.tables(), bounds))
+
+
+def _changes(optimum: Optimum) -> dict[str, float]:
+    return {
+        symbol: number(optimum.after, *place) / number(optimum.before, *place) - 1.0
+        for symbol, place in _WATCHED.items()
+    }
 
 
 def quoted_methods() -> tuple[Method, ...]:

@@ -122,7 +122,7 @@ def _vectors(upper: "Axes", lower: "Axes", dataset: "xr.Dataset") -> None:
         "", (1e3 * drive, 0.0), (0.0, 0.0),
         arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 2.0, "shrinkB": 0},
     )  # fmt: skip
-    upper.annotate("$v_d$", (0.5e3 * drive, 0.0), (0, 6), textcoords="offset points", ha="center")
+    upper.annotate("$v_d$", (1e3 * drive, 0.0), (6, 0), textcoords="offset points", va="center")
     mean = float(dataset["mean_friction"])
     lower.annotate(
         "", (-mean, 0.0), (0.0, 0.0),
@@ -190,6 +190,7 @@ def drive_over_time(dataset: "xr.Dataset") -> "Figure":
         tail = time >= time[-1] - _ZOOM
         line(upper, index, time, force, _SERIES.get(name, name))
         line(lower, index, (time[tail] - time[-1] + _ZOOM) * 1e3, force[tail], name)
+    upper.axvline(float(dataset["vibration_start"]), color=BLACK, linewidth=0.8)
     full = float(dataset["full_force"])
     limit(upper, full)
     upper.annotate(

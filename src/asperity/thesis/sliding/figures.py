@@ -46,6 +46,14 @@ def side_by_side(
     return joined
 
 
+def beginning(dataset: "xr.Dataset", model: Model) -> "xr.Dataset":
+    """Histories with the moment from which the base vibrates."""
+    labels = {"units": "s", "long_name": "time from which the base vibrates, t_v"}
+    start = model.vibration.start if model.vibration else 0.0
+    dataset["vibration_start"] = ((), start, labels)
+    return dataset
+
+
 def _solved(names: Sequence[str], bodies: Sequence[Body], keep: str) -> "xr.Dataset":
     histories = [body.result.to_dataset()[[keep]] for body in bodies]
     return side_by_side(names, histories, bodies[0].result.static_drive_force)
@@ -167,7 +175,7 @@ def _schemes(case: str, ratio: str) -> list[Body]:
 @figure("4.21", drawings.drive_over_time, "table-4.4", "20")
 def _drive_over_time(case: str, ratio: str) -> Computed:
     bodies = _schemes(case, ratio)
-    return _solved(_SCHEMES, bodies, "drive_force"), bodies
+    return beginning(_solved(_SCHEMES, bodies, "drive_force"), bodies[0].model), bodies
 
 
 @figure("4.19", drawings.friction_over_cycles, "table-4.3", "6", ["x"])

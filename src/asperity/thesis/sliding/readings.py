@@ -112,14 +112,17 @@ def _two_directions() -> Finding:
             "F_y matches, or is its mirror image": min(across, mirrored) < _SAME * scale,
         },
         f"F_x apart by {along:.0e} N, F_y by {mirrored:.0e} N but for its sign",
-        "The curves that are compared are lost (Figure 4.22), and which way the older model's y "
-        "points with them. If it moves the base towards +y first, a direction of "
+        "A base that moves across alone leaves nothing to (42), so that (38) to (59) are (22) to "
+        "(37): an identity, which could not have come out otherwise. The curves of Figure 4.22 are "
+        "lost, and which way the older model's y points with them. If it moves the base towards +y "
+        "first, a direction of "
         f"{angles[0]:g} deg, which Appendix B gives for the same picture, then the "
         f"{angles[1]:g} deg of Table 4.4 turn the sign of F_y and nothing else; a difference of "
         f"convention. Ratios do not tell the two apart. At k = {k:g}, periodic state.",
         {"friction_x_difference_N": along, "friction_y_difference_N": across,
          "friction_y_sum_N": mirrored},
         bodies,
+        verdict=ARITHMETIC,
     )  # fmt: skip
 
 

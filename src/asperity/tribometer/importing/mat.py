@@ -12,6 +12,7 @@ import numpy as np
 from asperity.errors import InputError, plain
 from asperity.files import store
 from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.dates import begun_by_count
 from asperity.tribometer.importing.heads import Told
 
 _INTERVAL = "Tinterval"
@@ -80,9 +81,11 @@ def read_mat(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
     columns = _split(columns, None if times is None else times.size)
     if times is not None and any(one.size > times.size for one in columns.values()):
         raise InputError(f"{name}: its times are fewer than the samples of a channel")
+    start = _start(found, times)
     return Columns(
         tuple(columns), ("V",) * len(columns), tuple(columns.values()), interval=step, times=times,
-        notes=(_NOTE,), program="MATLAB", start=_start(found, times),
+        notes=(_NOTE,), program="MATLAB", start=start,
+        began=begun_by_count(start),
     )  # fmt: skip
 
 

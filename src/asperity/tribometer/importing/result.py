@@ -1,5 +1,6 @@
 """The answer of ``asperity rig import``."""
 
+import datetime
 import os
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,8 @@ class Imported(Result):
     ----------
     sampled : Sampled
         Its counts.
+    began : datetime
+        When it began.
     configuration : str
         Of the rig, as JSON.
     events : tuple of Event
@@ -31,6 +34,7 @@ class Imported(Result):
     stem = "import"
 
     sampled: Sampled
+    began: datetime.datetime
     configuration: str
     events: tuple[Event, ...]
     simulated: bool = False
@@ -49,7 +53,10 @@ class Imported(Result):
             {"signal": one.signal, "units": one.units, "scale": one.scale}
             for one in self.sampled.sources
         ]
-        told = {"channels": channels, "findings": list(self.findings)}
+        told = {
+            "start": self.began.isoformat(timespec="seconds"), "channels": channels,
+            "findings": list(self.findings),
+        }  # fmt: skip
         return super().to_json() | told
 
     def tables(self) -> tuple[Table, ...]:
@@ -72,7 +79,7 @@ class Imported(Result):
         one = self.sampled
         made = Recorder(
             path, one.sources, one.interval, configuration=self.configuration, block=_BLOCK,
-            simulated=self.simulated,
+            simulated=self.simulated, start=self.began,
         )  # fmt: skip
         with made:
             for event in self.events:

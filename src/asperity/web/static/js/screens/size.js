@@ -47,6 +47,7 @@ function smallest(proposals) {
 
 const limit = (path) => {
   const [standard, key] = path.split(".");
+  if (!key) return path;
   return `${STANDARDS[standard]}: ${key.replace("safety_", "")}`;
 };
 
