@@ -36,8 +36,8 @@ def as_told(result: Result) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``sentences`` above the tables; and ``tables``, each with ``title``, ``columns`` (``heading``,
-        whether ``right`` and ``typeset``), ``rows`` of texts and ``remarks`` below.
+        ``sentences`` above the tables; and ``tables``, each with ``title``, ``columns``
+        (``heading``, whether ``right`` and ``typeset``), ``rows`` of texts and ``remarks`` below.
     """
     own = () if result.heading() == result.title else (result.heading(),)
     return {
