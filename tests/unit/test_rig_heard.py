@@ -56,7 +56,7 @@ TOLD = {
     "samples missing in the drive": "drive_voltage has samples missing",
     "zeros of torque and speed off": "zero of torque_steel: 0.0",
     "zero of the speed far off": "zero of speed_steel",
-    "current told half as large": "current_steel does not fit its motor",
+    "current told half as large": "current_steel does not fit its torque",
 }
 
 
