@@ -237,7 +237,8 @@ def check(name: str, value: Real, symbol: Symbol) -> Real:
             mask.refuse(True, sentence)
         return np.float64(np.nan)
     mask.refuse(outside, f"{name} is not allowed; {symbol.allowed}")
-    return np.where(outside, np.nan, value)
+    # The same array for the same, so that what rests on it is known again.
+    return mask.once(lambda: np.where(outside, np.nan, value), (value,), lowest, highest)
 
 
 def real(name: str, value: Any) -> Any:
