@@ -227,6 +227,21 @@ class Spectrum(Table):
             {key: said for key, said in left_out.items() if key not in self.model_fields_set}
         )
 
+    def require_beside(self, oil_temperature: float | None) -> None:
+        """Refuse a way to find the sump's temperature beside that temperature; raises InputError.
+
+        Parameters
+        ----------
+        oil_temperature : float or None
+            Of the operation, K.
+        """
+        if oil_temperature is not None and "oil_temperature" in self.model_fields_set:
+            raise InputError(
+                f"spectrum.oil_temperature is {self.oil_temperature!r}, and "
+                f"operation.oil_temperature {oil_temperature - 273.15:.4g} degC, which is that of "
+                "all steps; keep one of them"
+            )
+
     def steps(self, rated_torque: float | None) -> tuple[LoadStep, ...]:
         """Return the steps, those of a class by the rated torque of the wheel, N m.
 
