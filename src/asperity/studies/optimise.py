@@ -356,7 +356,7 @@ def _with_shafts(best: Optimum, rows_of: Callable[[Gearset], tuple[Row, ...]] | 
         return best
 
     def judged(rated: Rated) -> Rated:
-        return dataclasses.replace(rated, rows=rows_of(rated.gearset))
+        return dataclasses.replace(rated, rows=(*rated.rows, *rows_of(rated.gearset)))
 
     made = None if best.made is None else judged(best.made)
     before, after = judged(best.before), judged(best.after)
