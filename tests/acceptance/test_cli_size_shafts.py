@@ -138,6 +138,15 @@ def duty_without_shafts():
     return values
 
 
+def test_what_is_not_given_of_shafts_is_told_with_the_proposals():
+    values = begun()
+    assert not any("not given" in note for note in proposals(values, RATIO).notes)
+    values.pop("wheel_shaft")
+    values["worm_shaft"].pop("material")
+    said = "not given: wheel shaft, steel of the worm shaft"
+    assert said in proposals(values, RATIO).notes
+
+
 def test_a_margin_that_is_asked_for_counts_for_shafts_too():
     values = begun(dynamic_rating="4 kN")
     free = proposals(values, RATIO).found[0]
