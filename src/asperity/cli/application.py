@@ -12,6 +12,7 @@ import typer
 
 from asperity.cli import begin, outcome
 from asperity.cli.helped import as_written
+from asperity.cli.looking import looking
 from asperity.cli.made import made
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
 from asperity.cli.registered import (
@@ -342,7 +343,8 @@ def run(arguments: list[str] | None = None) -> int:
     outcome.hold_streams()
     # What makes the tables of case files looks through all installed packages for its plugins.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
-    command: Any = made(app, sys.argv[1:] if arguments is None else arguments)
+    arguments = looking(sys.argv[1:] if arguments is None else arguments)
+    command: Any = made(app, arguments)
     as_written(command)
     # Left without a value, the option for help would load all of pydantic to convert none.
     no_help: dict[str, Any] = {"help": False}

@@ -4,9 +4,9 @@ import contextlib
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
-from asperity.cli.outcome import tell, unwritten
+from asperity.cli.outcome import StandardError, tell, unwritten
 from asperity.errors import StorageError
 
 if TYPE_CHECKING:
@@ -91,9 +91,11 @@ def progress_bar(what: str = "points") -> Iterator[Callable[[int, int], None]]:
 
     from asperity.runs.asking import shown
 
+    # The same to rich as a file; what it shows last may find no terminal any more.
+    standard_error = cast(TextIO, StandardError())
     columns = BarColumn(), MofNCompleteColumn(), what, TimeRemainingColumn()
     with (
-        Progress(*columns, console=Console(stderr=True)) as progress,
+        Progress(*columns, console=Console(file=standard_error)) as progress,
         shown(lambda: _off(progress), progress.start),
     ):
         bar = progress.add_task("", total=None)

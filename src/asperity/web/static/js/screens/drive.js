@@ -4,6 +4,7 @@ import { useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
 import { span } from "../colours.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
+import { Further } from "../further.js";
 import { Gears, Way } from "../gears.js";
 import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
@@ -15,7 +16,7 @@ import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { firstError, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -157,9 +158,11 @@ export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: {} } : null;
   const shaken = useJob("drive", body, "", true);
-  const loaded = useJob("drive", body && { ...body, options: { static: true } }, "-static", true);
-  const ways = useJob("directions", body, "", true);
-  const held = useJob("locking", body, "", true);
+  // The answer and its picture come first, what stands below them after that.
+  const below = useAfter(Boolean(shaken.data || shaken.error || shaken.job)) ? body : null;
+  const loaded = useJob("drive", below && { ...below, options: { static: true } }, "-static", true);
+  const ways = useJob("directions", below, "", true);
+  const held = useJob("locking", below, "", true);
   const { geometry } = useLive("rate", body && { case: name, settings }, 200).data?.answer ?? {};
   const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const mode = useValue("vibration.mode").text;
@@ -199,6 +202,7 @@ export function view() {
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
           says="A minute or several: it is marched at several amplitudes.">
         ${held.data ? html`<${Locking} answer=${held.data.answer} found=${holding} data=${creep} />` : null}<//>
+      <${Further} name=${name} settings=${settings} />
     </section></div>
   <//>`;
 }

@@ -167,7 +167,7 @@ function TradeOff({ answer }) {
       series=${[
         { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
         single(designs[0], 1), single(designs[1], 2)]} />
-    <p class="says">A click on the curve opens that gearset.</p>
+    <p class="says to-press">A click on the curve opens that gearset.</p>
     <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
       ["open", take], ["design", ({ says }) => says],
       ["permissible torque (N m)", ({ torque }) => digits(torque, 4), "right"],
@@ -209,7 +209,7 @@ export function view() {
   const { params } = route.value;
   const { rest, asked, through, parts, loads } = useRest();
   const options = Object.fromEntries(ASKED.map(([key, , usual]) =>
-    [key, params[key] ?? asked?.[key] ?? usual]));
+    [key, params[key] || asked?.[key] || usual]));
   const rank = params.rank ?? "size";
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
   const body = name ? { case: name, settings } : null;
