@@ -220,3 +220,24 @@ def test_the_smallest_bearing_of_the_shelf_that_does_stands_where_none_is_named(
     assert code == 2
     assert "worm_shaft.bearing at 30 mm names none, and of the 1 of data files none has" in errors
     assert len(errors.strip().splitlines()) == 1
+
+
+def test_optimise_tells_what_shafts_and_bearings_come_to_with_its_design(asperity, tmp_path):
+    case = ("actuator-shafts", "--set", "worm_shaft.peak=20")
+    code, output, errors = asperity("optimise", *case, "--free", "worm_roughness", "--json")
+    assert code == 0, errors
+    told = json.loads(output)
+    code, output, errors = asperity("rate", *case, "--json")
+    assert told["rows"]["given"] == json.loads(output)["verdict"]["rows"]
+    settings = [word for setting in told["made_settings"] for word in ("--set", setting)]
+    code, output, errors = asperity("rate", *case, *settings, "--json")
+    assert code == 0, errors
+    made = json.loads(output)["verdict"]["rows"]
+    assert [row["name"] for row in told["rows"]["made"]] == [row["name"] for row in made]
+    for own, rated in zip(told["rows"]["made"], made, strict=True):
+        key = "life_h" if "life_h" in own else "safety"
+        assert own[key] == pytest.approx(rated[key], rel=1e-9)
+    failing = [row["name"] for row in made if not row["holds"]]
+    assert failing
+    for name in failing:
+        assert any(note.startswith(name) and "does not hold" in note for note in told["notes"])

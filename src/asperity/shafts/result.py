@@ -185,7 +185,13 @@ class ShaftStudy(Drawn):
         return self.given.gearset.hand
 
     def seen(self) -> "Views":
-        """Return both views of the gearset with its shafts, each as SVG with its caption."""
+        """Return both views of the gearset with its shafts, each as SVG with its caption.
+
+        Returns
+        -------
+        along, through : tuple of str
+            Along the wheel's axis, and through it.
+        """
         from asperity.shafts.drawing import views_of
         from asperity.shafts.shape import shape_of
 
@@ -198,7 +204,22 @@ class ShaftStudy(Drawn):
     def sheets(
         self, cells: "Cells", given: "Inputs", iso: "Values"
     ) -> Mapping[str, list[tuple[Any, ...]]]:
-        """Return the rows of a sheet for each shaft, its numbers found from traced inputs."""
+        """Return the rows of a sheet for each shaft, its numbers found from traced inputs.
+
+        Parameters
+        ----------
+        cells : Cells
+            Of the workbook.
+        given : Inputs
+            The gearset and its operation, whose numbers may be cells.
+        iso : mapping of str to object
+            What ISO/TR 14521 finds from them.
+
+        Returns
+        -------
+        mapping of str to list of tuple
+            By the name of the sheet.
+        """
         from asperity.shafts.workbook import sheets_of
 
         options = next(iter(self.found.values())).options

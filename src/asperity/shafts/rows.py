@@ -45,6 +45,8 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
             by.append(f"{torque:g} N m {100.0 * worst.damage[most]:.0f} %")
         if worst.a_iso is not None:
             by.append(f"a_ISO {worst.a_iso:.2g}")
+        if any(f"bearing {end} " in note for note in found.model.misseated):
+            by.append("cannot sit there")
         yield Row(f"{name} bearing {end}", "ISO 281", worst.told, asked, "h", ", ".join(by))
 
 

@@ -224,7 +224,7 @@ def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
 def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
     parted = given.parted()
     spectrum = given.operation.spectrum
-    if spectrum is not None and spectrum.oil_temperature == "mean" and len(given.duty) > 1:
+    if spectrum is not None and spectrum.oil == "mean" and len(given.duty) > 1:
         hours = given.total(part.life for part in parted)
         sumps = (part.life * sump_of(part) for part in parted)
         mean = given.total(sumps) / hours

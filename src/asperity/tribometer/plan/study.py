@@ -13,6 +13,7 @@ from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.result import PlanResult
 from asperity.tribometer.twin.chain import peak_current
 from asperity.tribometer.twin.plant import Plant
+from asperity.tribometer.twin.plants import plant_of
 
 # Velocity ratios from which a friction law is identified best.
 _TELLING = 1.5, 4.0
@@ -47,7 +48,7 @@ def prepare(case: Case) -> PlanProblem:
     """Lay out a plan; refuses one beyond its limits."""
     limits = case.get(Limits, Limits())
     plan = case.require(Plan)
-    plant = Plant.from_case(case) if Twin.table in case else None
+    plant = plant_of(case) if Twin.table in case else None
     return PlanProblem(plan, planned_files(plan, limits), plant, tuple(warnings(case)))
 
 
@@ -57,7 +58,7 @@ def warnings(case: Case) -> list[str]:
     found = _too_brief(case.require(Plan), given)
     if Twin.table in case:
         limits = case.get(Limits, Limits())
-        starting = Plant.from_case(case).starting_torque
+        starting = plant_of(case).starting_torque
         if limits.torque < starting:
             found.append(
                 f"limits.torque is {limits.torque:g} N m, below the {starting:.2g} N m of the "
