@@ -21,12 +21,17 @@ from asperity.slider.tables import TABLES
 SPAN, LEAST_PAIRS = 1.0, 5  # s that each solution is run for, and times at least
 MOST = {"with_over_without": 1.15}
 LUGRE = ("friction.model=lugre", "friction.static_mu=0.13", "friction.stribeck_velocity=1 mm/s")
+TRIANGLE = "vibration.waveform=triangle"
 BODIES = {
     "Dahl": ("table-4.3",),
     "Dahl, at an angle": ("table-4.4", "vibration.direction=45 deg"),
     "Coulomb, elastic drive": ("table-4.3", "friction.model=coulomb"),
     "LuGre": ("table-4.3", *LUGRE, "friction.max_deflection=68.75 nm"),
     "pressed": ("normal-pin",),
+    "Dahl, triangle": ("table-4.3", TRIANGLE),
+    "Dahl, at an angle, triangle": ("table-4.4", "vibration.direction=45 deg", TRIANGLE),
+    "LuGre, triangle": ("table-4.3", *LUGRE, "friction.max_deflection=68.75 nm", TRIANGLE),
+    "pressed, triangle": ("normal-pin", TRIANGLE),
 }
 
 

@@ -66,7 +66,7 @@ LISTED = (
     ("films of teeth", "flanks.meshing.lubrication:SOURCES", "flanks.meshing.lubrication:SOURCES"),
     ("regimes of lubrication", "rating.regime:LIMITS", "rating.regime:LIMITS_SOURCE"),
     ("duties of valves", "rating.spectrum:_ENDURANCE", "rating.spectrum:VALVES"),
-    ("keys of DIN 6885", "flanks.export.cad.keyway:_SIZES", "flanks.export.cad.keyway:SOURCE"),
+    ("keys of DIN 6885", "gearset.keys:_SIZES", "gearset.keys:SOURCE"),
     ("sizes of rolling bearings", "shafts.dimensions:DIMENSIONS", "shafts.dimensions:ISO_15"),
     ("lives at 96 % and more", 4, "shafts.symbols:ISO_281_MEMORY"),
     ("scales of drawings", "results.svg:SCALES", "results.svg:SCALES_SOURCE"),

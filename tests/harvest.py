@@ -36,6 +36,7 @@ ROOMS = (
     "slide table-4.3 EARLY --out OUT",
     "sweep table-4.3 --over vibration.velocity_ratio=1,6 EARLY",
     "slide normal-pin",
+    "slide normal-pin --set vibration.waveform=triangle",
     "slide normal-pin EARLY --set solve.method=march",
     "flank gearset-3b --density coarse",
     "rig run rig-final RIG --out OUT",

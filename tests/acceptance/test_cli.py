@@ -86,7 +86,7 @@ def test_a_slide_writes_dataset_picture_and_scalars(asperity, tmp_path):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity("slide", "table-4.3", *SHORT, "--json", "--out", folder)
     assert code == 0
-    assert errors == f"written to {folder}: slide.json, slide.nc, slide.png\n"
+    assert errors == f"written to {folder}: slide.json, slide.nc, slide.png, report.html\n"
     assert json.loads((folder / "slide.json").read_text()) == one_object(output)
     assert (folder / "slide.png").read_bytes().startswith(b"\x89PNG")
     dataset = read_dataset(folder / "slide.nc")
@@ -175,7 +175,7 @@ def test_a_sweep_prints_one_object_and_writes_what_it_found(asperity, tmp_path):
         "--over", "vibration.velocity_ratio=1,2,6", "--over", "vibration.direction=0:90:45",
     )  # fmt: skip
     assert code == 0
-    assert errors == f"written to {tmp_path}: sweep.json, sweep.nc, sweep.png\n"
+    assert errors == f"written to {tmp_path}: sweep.json, sweep.nc, sweep.png, report.html\n"
     answer = one_object(output)
     assert answer["dims"] == ["vibration.velocity_ratio", "vibration.direction"]
     assert answer["coords"] == {

@@ -23,7 +23,9 @@ def test_the_command_names_the_loop_and_draws_it(asperity, tmp_path):
         "--over", over, "--out", tmp_path,
     )  # fmt: skip
     assert code == 0
-    assert errors == f"written to {tmp_path}: branches.json, branches.nc, branches.png\n"
+    assert (
+        errors == f"written to {tmp_path}: branches.json, branches.nc, branches.png, report.html\n"
+    )
     assert "two stable states between 0.3 um and 0.4 um" in output
     dataset = read_dataset(tmp_path / "branches.nc")
     assert dataset["ratio"].dims == ("way", "value")

@@ -1,10 +1,12 @@
 """A duty as a case file of its own, sized; the shelf of hobs, masses and backlash of proposals."""
 
+import io
 import json
 
 import pytest
 
 from asperity.casefile import read_case
+from asperity.cli.new import new
 from asperity.commands import case_tables
 from asperity.gearset import Gearset
 from asperity.gearset.masses import masses
@@ -118,6 +120,76 @@ def test_without_case_or_torque_it_is_asked_for(asperity, tmp_path):
     code, _, errors = asperity("size", "--ratio", "40", cwd=tmp_path)
     assert code == 2
     assert "operation.output_torque is missing; give it, as --output-torque" in errors
+
+
+REFUSED = [
+    (("spectrum.step=300 N m, 1400 rpm, 5 h", "operation.output_torque=250 N m"),
+     "spectrum.step has a part with 300 N m"),
+    (("requirements.centre_distance=20 mm",), "[requirements] asks for centre distance at most"),
+    (("requirements.hobs=own",), "no data file has a hob"),
+    (("requirements.bearings=own",), "no data file has a bearing"),
+    (("requirements.ratio=99", "requirements.self_locking=avoided"), "self-locking avoided"),
+    (("gearset.pressure_angle=44 deg",), "every thread for a ratio of"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("settings", "said"), REFUSED, ids=[said for _, said in REFUSED])
+def test_new_and_check_refuse_what_size_refuses_in_its_words(asperity, tmp_path, settings, said):
+    code, _, errors = asperity("new", "duty", "plain.toml", "--defaults", cwd=tmp_path)
+    assert code == 0, errors
+    given = [word for setting in settings for word in ("--set", setting)]
+    found = {}
+    for words in (
+        ("size", "plain.toml", "--uncut"), ("check", "plain.toml"),
+        ("new", "duty", "own.toml", "--defaults"),
+    ):  # fmt: skip
+        code, output, errors = asperity(*words, *given, cwd=tmp_path)
+        assert code == 2, words
+        # Check prints what it finds, and then how much that is.
+        found[words[0]] = output if words[0] == "check" else errors
+        assert said in found[words[0]]
+    assert not (tmp_path / "own.toml").exists()
+    assert found["check"].strip().endswith(found["new"].strip().partition(": ")[2][-60:])
+
+
+class Typed(io.StringIO):
+    """What somebody types at a terminal."""
+
+    def isatty(self):
+        return True
+
+
+def asked(monkeypatch, capsys, folder, *lines, settings=()):
+    """Begin a duty at a terminal; returns what is asked and told."""
+    monkeypatch.chdir(folder)
+    monkeypatch.setattr("sys.stdin", Typed("".join(f"{line}\n" for line in lines)))
+    new("duty", None, {}, settings, "", defaults=False, as_json=False)
+    return capsys.readouterr().err
+
+
+def test_a_load_above_the_rated_torque_is_asked_for_again(monkeypatch, capsys, tmp_path):
+    known = ("requirements.ratio=50", "requirements.ratio_tolerance=0.03",
+             "requirements.self_locking=any", "spectrum.duty=S1", "project.units=si",
+             "operation.output_torque=250 N m", "operation.worm_speed=1400 rpm",
+             "operation.lubricant=ISO VG 220 polyglycol")  # fmt: skip
+    lines = ("300 N m, 1400 rpm, 5 h", "200 N m, 1400 rpm, 5 h", *[""] * 9)
+    said = asked(monkeypatch, capsys, tmp_path, *lines, settings=known)
+    assert "spectrum.step has a part with 300 N m; none may exceed" in said
+    assert '"200 N m, 1400 rpm, 5 h"' in (tmp_path / "duty.toml").read_text("utf-8")
+
+
+def test_a_duty_asks_how_far_the_ratio_may_be_off_and_in_which_units(
+    monkeypatch, capsys, tmp_path, asperity
+):
+    lines = ("50", "0.5 %", "wanted", "2213 lb-in", "1400 rpm", "", "S3 15 %", "", "us")
+    said = asked(monkeypatch, capsys, tmp_path, *lines)
+    assert "by how much teeth may miss that ratio [3 %]" in said
+    assert "units that are shown: si or us [si]" in said
+    code, output, errors = asperity("size", "duty.toml", "--uncut", cwd=tmp_path)
+    assert code == 0, errors
+    assert "a (in)" in output
+    code, output, errors = asperity("size", "duty.toml", "--uncut", "--json", cwd=tmp_path)
+    assert {one["wheel_teeth"] for one in json.loads(output)["proposals"]} == {50}
 
 
 def test_only_hobs_of_the_shelf_are_proposed_and_each_is_named(asperity, tmp_path):

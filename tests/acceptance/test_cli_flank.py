@@ -14,7 +14,8 @@ from asperity.casefile.schema import keys_of
 from asperity.cli.main import main
 from asperity.errors import ConvergenceError
 from asperity.files.store import read_dataset
-from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
+from asperity.flanks.parameters import Disc, Hob, MeasuringOptions, Modification, Mount
+from asperity.gearset.blanks import Blanks
 from asperity.units import quantity_of, to_si
 
 PAGE = (Path(__file__).parents[2] / "docs" / "flanks.rst").read_text("utf-8")

@@ -191,6 +191,44 @@ def test_the_better_oil_and_wheel_give_what_choosing_them_does(asperity):
     ) in shown
 
 
+SLOW = """[gearset]
+starts = 2
+wheel_teeth = 40
+axial_module = "4 mm"
+diameter_factor = 10
+worm_material = "case-hardened steel"
+wheel_material = "CuSn12-C-GZ"
+[operation]
+worm_speed = "15 rpm"
+output_torque = "300 N m"
+lubricant = "ISO VG 460 mineral"
+"""
+
+
+def test_nothing_is_listed_as_best_that_a_standard_fails_by_which_it_holds(asperity, tmp_path):
+    path = tmp_path / "slow.toml"
+    path.write_text(SLOW, encoding="utf-8")
+
+    def rated(*settings):
+        return one_object(asperity("rate", str(path), *settings, "--json")[1])
+
+    before = rated()
+    assert before["verdict"]["first"] == "iso14521.safety_pitting"
+    assert before["verdict"]["holds"]["iso14521"]
+    listed = {one["key"]: one for one in before["verdict"]["alternatives"]}
+    # More of that safety each, but of others not enough.
+    for key, more in (
+        ("gearset.wheel_material", "CuAl10Fe5Ni5-C-GZ"),
+        ("operation.lubricant", "ISO VG 150 polyglycol"),
+    ):
+        other = rated("--set", f"{key}={more}")
+        assert other["iso14521"]["safety_pitting"] >= listed[key]["safety"]
+        assert other["verdict"]["holds"]["iso14521"] is False
+        best = rated("--set", f"{key}={listed[key]['value']}")
+        assert best["verdict"]["holds"]["iso14521"]
+        assert best["iso14521"]["safety_pitting"] == pytest.approx(listed[key]["safety"], rel=1e-12)
+
+
 def test_the_three_standards_word_a_failure_alike(asperity):
     heavy = ("--set", "operation.output_torque=900 N m")
     answer = one_object(asperity("rate", "gearset-3", *heavy, "--json")[1])

@@ -1,11 +1,10 @@
 """``asperity shafts``, ``rate`` with shafts, and data files of bearings, as a user runs them."""
 
-import importlib.util
 import json
-from pathlib import Path
 from typing import NamedTuple
 
 import pytest
+from apparatus import reports
 
 CASE = "actuator-shafts"
 
@@ -19,14 +18,6 @@ class Done(NamedTuple):
 @pytest.fixture
 def run(asperity):
     return lambda *words, **more: Done(*asperity(*words, **more))
-
-
-def helper(name):
-    """Load a file of tests beside this one for what it has to read files with."""
-    spec = importlib.util.spec_from_file_location(name, Path(__file__).parent / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def answer(run, *words):
@@ -46,7 +37,6 @@ def test_shafts_tells_what_each_part_comes_to(run):
 
 def test_every_number_of_the_tables_of_shafts_knows_its_place_in_the_json(run, tmp_path):
     assert run("shafts", CASE, "--out", str(tmp_path)).returncode == 0
-    reports = helper("test_report")
     page = reports.Page((tmp_path / "report.html").read_text("utf-8"))
     told = json.loads((tmp_path / "shafts.json").read_text("utf-8"))
     reports.check_numbers(page, told)
@@ -66,7 +56,7 @@ def test_every_number_of_shafts_is_one_object_of_json(run):
     assert found["holds"] is True
     assert {row["name"] for row in found["rows"]} == {
         "worm bearing A", "worm bearing B", "wheel bearing A", "wheel bearing B",
-        "worm shaft", "wheel shaft", "worm as a beam",
+        "bearings at rest", "worm shaft", "wheel shaft", "worm as a beam",
     }  # fmt: skip
     assert len(found["worm_shaft"]["cases"]) == 4
     assert found["worm_deflection_um"] < found["worm_deflection_with_shear_um"]
@@ -90,7 +80,7 @@ def test_rate_has_a_row_for_each_part_of_a_case_with_shafts(run):
     assert "ISO 281 worm bearing A   " in done.stdout
     assert "DIN 743 wheel shaft      " in done.stdout
     found = answer(run, "rate", CASE)
-    assert [row["holds"] for row in found["verdict"]["rows"]] == [True] * 7
+    assert [row["holds"] for row in found["verdict"]["rows"]] == [True] * 8
 
 
 def test_rate_says_nothing_of_shafts_that_a_case_does_not_have(run):
@@ -103,6 +93,34 @@ def test_a_part_that_does_not_hold_is_named(run):
     done = run("rate", CASE, "--set", "bearings.life='1e9 h'")
     assert "worm bearing A by ISO 281" in done.stdout
     assert "FAILS" in done.stdout
+
+
+def test_static_safety_is_judged_for_rollers_by_more_than_for_balls(run, tmp_path):
+    def at_rest(found):
+        return next(row for row in found["rows"] if row["standard"] == "ISO 76")
+
+    found = answer(run, "shafts", CASE)
+    own = at_rest(found)
+    least = min(
+        life["static_safety"]
+        for shaft in ("worm_shaft", "wheel_shaft")
+        for bearing in found[shaft]["bearings"]
+        for life in bearing["cases"].values()
+    )
+    assert (own["safety"], own["asked"], own["holds"]) == (least, 1.0, True)
+    assert own["by"].endswith("at 2.5 times the torque")
+    # Without the balls on the wheel's shaft the rollers of B come nearest.
+    text = run("cases", CASE).stdout.partition("[wheel_shaft]")[0]
+    file = tmp_path / "rollers.toml"
+    file.write_text(text.replace('static_rating = "36 kN"', 'static_rating = "9 kN"'), "utf-8")
+    own = at_rest(answer(run, "shafts", str(file)))
+    assert own["asked"] == 1.5
+    assert own["by"].startswith("worm bearing B")
+
+
+def test_a_bearing_that_does_not_bear_at_rest_fails_the_gearbox(run):
+    failing = run("rate", CASE, "--set", "bearings.static_safety=6").stdout
+    assert "does not hold: bearings at rest by ISO 76" in failing
 
 
 def test_a_wheel_shaft_alone_is_enough(run, tmp_path):

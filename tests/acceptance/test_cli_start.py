@@ -92,3 +92,15 @@ def test_a_command_that_is_made_alone_helps_as_among_all():
 @pytest.mark.parametrize("words", [[], ["--help"], ["rat"], ["--nothing", "rate"], ["--", "rate"]])
 def test_where_no_command_is_named_all_are_made(words):
     assert {"rate", "cases", "rig", "thesis"} <= set(made(app, words).commands)
+
+
+def test_a_data_file_of_plastics_is_begun_and_listed(asperity, tmp_path):
+    file = str(tmp_path / "pom.toml")
+    assert asperity("new", "plastic", file)[0] == 0
+    assert "my POM" in asperity("--materials", file, "materials")[1]
+    code, _, errors = asperity("new", "plastic", file)
+    assert code == 2
+    assert "is there already" in errors
+    code, _, errors = asperity("new", "plastic", str(tmp_path / "other.toml"), "--ratio", "4")
+    assert code == 2
+    assert "a data file of plastics has none" in errors

@@ -21,7 +21,7 @@ def test_static_friction_stands_beside_its_closed_form_and_the_load_it_is_of(asp
     folder = tmp_path / "out"
     code, output, errors = asperity("static", "table-4.3", *NORMAL, "--json", "--out", folder)
     assert code == 0
-    assert errors == f"written to {folder}: static.json, static.nc, static.png\n"
+    assert errors == f"written to {folder}: static.json, static.nc, static.png, report.html\n"
     answer = json.loads(output)
     assert answer["static_force_N"] == pytest.approx(5.5 * answer["static_ratio"])
     assert answer["static_ratio"] == pytest.approx(answer["closed_form_ratio"], abs=1e-4)

@@ -24,7 +24,7 @@ def one_object(output):
 def test_a_study_prints_one_object_and_writes_dataset_picture_and_json(asperity, tmp_path, command):
     folder = tmp_path / "new" / "out"
     code, output, errors = asperity(command, "gearset-2", "--json", "--out", folder)
-    names = [f"{command}.{suffix}" for suffix in ("json", "nc", "png")]
+    names = [*(f"{command}.{suffix}" for suffix in ("json", "nc", "png")), "report.html"]
     assert (code, errors) == (0, f"written to {folder}: {', '.join(names)}\n")
     assert json.loads((folder / f"{command}.json").read_text()) == one_object(output)
     assert (folder / f"{command}.png").read_bytes().startswith(b"\x89PNG")

@@ -1,109 +1,12 @@
 """The report of ``--out``: its numbers, what a user wrote in it, and that it stands alone."""
 
-import decimal
-import functools
-import html.parser
 import json
 import math
-import operator
 import re
 
 import pytest
 from apparatus.grid import slow
-
-
-class Page(html.parser.HTMLParser):
-    """What is checked of a page: its numbers with their keys, its tags, and what they ask for.
-
-    And its sentences without these numbers.
-    """
-
-    def __init__(self, text):
-        super().__init__()
-        self.numbers, self.tags, self.asked, self.sentences = [], [], [], []
-        self._open, self._in_sentence = None, False
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        found = dict(attrs)
-        self.tags.append(tag)
-        self.asked += [found[key] for key in ("src", "href") if key in found]
-        if tag in ("p", "li"):
-            self.sentences.append("")
-            self._in_sentence = True
-        if tag == "data" or "data-value" in found:
-            value = found.get("value", found.get("data-value"))
-            times = float(found.get("data-times", 1.0))
-            self._open = [float(value), found.get("data-key"), "", times]
-
-    def handle_data(self, data):
-        if self._open is not None:
-            self._open[2] += data
-        elif self._in_sentence:
-            self.sentences[-1] += data
-
-    def handle_endtag(self, tag):
-        if tag in ("data", "tspan") and self._open is not None:
-            self.numbers.append(tuple(self._open))
-            self._open = None
-        if tag in ("p", "li"):
-            self._in_sentence = False
-
-
-def check_numbers(page, answer):
-    """Hold every number of a page against the JSON, by its key."""
-    for value, key, shown, times in page.numbers:
-        path = (int(part) if part.isdigit() else part for part in key.split("."))
-        assert functools.reduce(operator.getitem, path, answer) == value, key
-        # A sentence has fewer digits than a table: what is shown is rounded in its last one.
-        digits = decimal.Decimal(shown)
-        last = (digits if "." in shown else digits.normalize()).as_tuple().exponent
-        least = 0.51 * 10.0**last
-        assert float(shown) == pytest.approx(times * value, rel=6e-5, abs=least), (key, shown)
-
-
-NAMED = (
-    r"(ISO/TR|ISO/TS|ANSI/AGMA|AGMA|BS|ISO|DIN) "
-    r"[\d.]+(-[A-Z]?\d+)?(:\d+)?(, table \d+)?(, series \d+)?",
-    r"\b[A-Za-z]+_\w+",
-)
-"""Digits that are no numbers: names of standards, and symbols."""
-
-ANGLES = r"friction ([\d.]+) to ([\d.]+) deg"
-"""Of the frictions that JSON tells, the least and the greatest as angles."""
-
-
-def unmarked(page, answer):
-    """Return the sentences with digits that are not marked and do not stand in the JSON."""
-
-    def texts(part):
-        if isinstance(part, dict):
-            for key, value in part.items():
-                yield from texts(key)
-                yield from texts(value)
-        elif isinstance(part, list):
-            for value in part:
-                yield from texts(value)
-        elif isinstance(part, str):
-            yield part
-
-    # A word or a digit alone proves nothing.
-    known = sorted({text for text in texts(answer) if len(text) > 12}, key=len, reverse=True)
-    found = []
-    for sentence in page.sentences:
-        for angles in re.findall(ANGLES, sentence):
-            frictions = [one["friction"] for one in answer["self_locking"]["verdicts"]]
-            ends = (math.degrees(math.atan(end(frictions))) for end in (min, max))
-            assert angles == tuple(f"{end:.2g}" for end in ends)
-        rest = re.sub(ANGLES, "", sentence)
-        for text in known:
-            rest = rest.replace(text, "")
-        for pattern in NAMED:
-            rest = re.sub(pattern, "", rest)
-        if re.search(r"\d", rest):
-            found.append(rest)
-    return found
-
+from apparatus.reports import Page, check_numbers, unmarked
 
 EVIL = "<script>alert(1)</script>"
 NOT_CSS = 'Gears "& Co" </style>'
@@ -158,6 +61,25 @@ def test_other_reports_draw_the_gearset_and_say_the_numbers_of_the_json(
     assert unmarked(page, answer) == []
     # A link is asked for by whoever follows it.
     assert all(place.startswith("data:") or place == "gearset.glb" for place in page.asked)
+
+
+def test_a_body_has_a_report_too_with_its_picture_and_what_was_set(asperity, tmp_path):
+    set_so = "vibration.direction=37 deg"
+    code, _, errors = asperity("slide", "body-shaken-along", "--set", "solve.method=periodic",
+                               "--set", set_so, "--out", tmp_path)  # fmt: skip
+    assert code == 0, errors
+    text = (tmp_path / "report.html").read_text("utf-8")
+    page = Page(text)
+    assert len(page.numbers) > 10
+    check_numbers(page, json.loads((tmp_path / "slide.json").read_text("utf-8")))
+    assert f"--set {set_so}" in text
+    # First of all how much is left.
+    assert page.sentences[0] == "of  N without vibration  is left:  N"
+    first = [key for _, key, *_ in page.numbers[:3]]
+    assert first == ["static_drive_force_N", "ratio", "drive_force_N"]
+    assert "<b>Sliding body.</b>" in text
+    assert page.tags.count("img") == 1
+    assert all(place.startswith("data:") for place in page.asked)
 
 
 def test_a_report_asks_for_nothing(rated):

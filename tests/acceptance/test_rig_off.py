@@ -12,9 +12,13 @@ from apparatus.grid import slow
 from apparatus.standing_rig import Procedure, StandingRig, lines_of, waited_for
 
 from asperity.tribometer.guardian import guard, guardian, stop, switching
-from asperity.tribometer.guardian.asked import AskedPerson
+from asperity.tribometer.guardian.asked import AskedPerson, AskedScope
 from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.procedure import packer
 from asperity.tribometer.procedure.interlock import Interlock
+from asperity.tribometer.procedure.logger import Logger
+from asperity.tribometer.recording import joining
+from asperity.tribometer.recording.blocks import Blocks
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning"),
@@ -385,6 +389,44 @@ def test_a_start_over_what_was_left_on_switches_off_or_names(
     gone_on_with(begun, rig, tmp_path / "run", **looked)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", ["silent", "late", "very late", "stuck at a value"])
+@pytest.mark.parametrize("way", ["interrupted", "killed"])
+def test_at_a_start_it_is_named_within_a_second_and_nothing_waits_for_the_rest(
+    begun, rig, dials, tmp_path, fault, way
+):
+    dials.turn(opening=20.0)
+    lost = rig.lost()
+    set_fault(rig, "steel", fault)
+    # Of a run that has nothing written down yet.
+    procedure = begun()
+    first = waited_for(lambda: lines_of(tmp_path / "run", "off"))[0]
+    assert first["took_s"] <= NAMED + rig.lost() - lost
+    assert [one.partition(":")[0] for one in first["still_on"]] == [NAMES["steel"]]
+    # Said by whoever is not in the terminal's way.
+    waited_for(lambda: f"NOT READ BACK TO BE OFF: {NAMES['steel']}" in procedure.said)
+    asked = time.monotonic()
+    procedure.kill(signal.SIGINT if way == "interrupted" else signal.SIGKILL)
+    code = procedure.ended()
+    assert time.monotonic() - asked < 15.0
+    if way == "killed":
+        assert code == -signal.SIGKILL
+    elif fault != "late":
+        # As fast as an answer that comes too late.
+        assert code == 4
+        assert f"{NAMES['steel']}: " in procedure.said.rpartition("not everything")[2]
+    else:
+        assert code in (4, 130)
+    rig.sound()
+    rig.quiet()
+    procedure.gone()
+    assert lines_of(tmp_path / "run", "off")[0] == first
+    rig.hold(False)
+    again = begun()
+    assert again.ended() == 0, again.said
+    assert len(rigs.cells(tmp_path / "run")) == 2
+
+
 def journal_latched(folder):
     kinds = [line["kind"] for line in rigs.journal(folder)]
     return "latched" in kinds and "acknowledged" not in kinds[kinds.index("latched") :]
@@ -479,6 +521,48 @@ def test_a_person_may_take_longer_than_the_patience_of_hardware(dials, tmp_path)
         between = [line for line in lines if cells[0] < line["line"] < cells[1]]
         assert any("mode" in line for line in between if line["kind"] == "done")
         assert len(asked.read_text().splitlines()) > 4
+        assert not OUTPUTS & set(rig.on())
+    finally:
+        procedure.end()
+        rig.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hangs", [False, True])
+def test_what_takes_its_time_between_two_files_is_no_hang_and_a_hang_is(dials, tmp_path, hangs):
+    case = rigs.small_case(
+        'plan.frequencies=["250 Hz"]', 'plan.steel_supplies=["3 V","5.5 V"]',
+        f'guardian.patience="{LONG} s"', f'guardian.deadline="{LONG} s"',
+    )  # fmt: skip
+
+    def slow_disk_and_scope():
+        def slowly(act, seconds=2 * PATIENCE):
+            def done(*given, **named):
+                time.sleep(seconds)
+                return act(*given, **named)
+
+            return done
+
+        for verb in ("start", "stop"):
+            setattr(AskedScope, verb, slowly(getattr(AskedScope, verb)))
+        Blocks.sync, Blocks.close = slowly(Blocks.sync), slowly(Blocks.close)
+        joining._join, joining.compressed = slowly(joining._join), slowly(joining.compressed)
+        packer.compressed = joining.compressed
+        if hangs:
+            Logger.keep = slowly(Logger.keep, 4 * PATIENCE)
+
+    rig = StandingRig(case)
+    dials.turn(patience=PATIENCE)
+    procedure = Procedure(case, tmp_path / "run", rig, dials=dials, before=slow_disk_and_scope)
+    try:
+        assert procedure.ended() == (3 if hangs else 0), procedure.said
+        procedure.gone()
+        assert ("has said nothing for" in procedure.said) == hangs
+        if not hangs:
+            assert len(rigs.cells(tmp_path / "run")) == 2
+            files = sorted(file.name for file in (tmp_path / "run").glob("*.nc"))
+            assert files == ["file-01.nc", "file-02.nc"]
+            assert not list((tmp_path / "run").glob(".*.blocks"))
         assert not OUTPUTS & set(rig.on())
     finally:
         procedure.end()

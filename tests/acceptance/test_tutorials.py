@@ -56,7 +56,7 @@ def holds_report_drawing_and_solids_in_inches(folder):
     rated = json.loads((folder / "rated" / "rate.json").read_text("utf-8"))
     assert set(rated["verdict"]["holds"]) >= {"iso14521", "bs721", "agma6034"}
     report = (folder / "rated" / "report.html").read_text("utf-8")
-    assert "lbf in" in report
+    assert "lbf·in" in report
     drawing = ezdxf.readfile(folder / "drawn" / "gearset.dxf")
     assert not drawing.audit().errors
     assert len(drawing.modelspace().query("DIMENSION")) > 5

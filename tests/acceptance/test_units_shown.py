@@ -20,7 +20,7 @@ from asperity.results.words import Number, Sentence
 PINT = {
     "uin": "microinch", "in2": "inch**2", "in3": "inch**3", "1/in": "1/inch", "in/rad": "inch",
     "ft/min": "foot/minute", "in/s": "inch/second", "lbf": "pound_force", "psi": "psi",
-    "lbf/in": "pound_force/inch", "lbf in": "pound_force*inch", "hp": "horsepower",
+    "lbf/in": "pound_force/inch", "lbf·in": "pound_force*inch", "hp": "horsepower",
     "ksi": "kilopsi", "degF": "degF", "lb": "pound", "in": "inch", "ft2": "foot**2",
 }  # fmt: skip
 GIVEN = {
@@ -111,7 +111,7 @@ def test_screen_and_report_are_in_inches_and_json_is_in_si(asperity, tmp_path):
     assert re.search(r"losses 1\.929 hp of 6\.863 hp: teeth 1\.72 \+ idling", shown)
     assert json.loads((tmp_path / "rate.json").read_text()) == json.loads(si)
     page = (tmp_path / "report.html").read_text()
-    assert "lbf in" in page
+    assert "lbf·in" in page
     table = (tmp_path / "rate.csv").read_text().splitlines()
     rows = {(row["standard"], row["key"]): row for row in csv.DictReader(table)}
     own = rows["iso14521", "centre_distance_mm"]
@@ -146,3 +146,17 @@ def test_what_is_to_be_given_again_stays_as_it_is():
     text = 'rate it with --set "gearset.axial_module=1.75 mm", 25.4 mm wide'
     with shown_in("us"):
         assert shown_text(text) == 'rate it with --set "gearset.axial_module=1.75 mm", 1 in wide'
+
+
+def test_what_rounding_left_is_none_in_inches_as_it_is_in_millimetres():
+    left = Number("0.000", -1.66e-14, "measuring.backlash_normal_min_mm")
+    table = Table(
+        (Column("measuring"), Column("value", right=True), Column("unit")),
+        (("normal backlash, least", left, "mm"),),
+    )
+    with shown_in("us"):
+        ((_, value, unit),) = shown_table(table).rows
+    assert (float(value), unit) == (0.0, "in")
+    with shown_in("us"):
+        cold = shown_text(Sentence(Number("0", 1e-15, "iso14521.theta_S_degC"), " degC"))
+    assert cold == "32 degF"

@@ -6,6 +6,7 @@ import shlex
 import tomllib
 
 import pytest
+from apparatus import reports
 
 from asperity.commands import case_tables
 from asperity.files.shipped import shipped_cases
@@ -236,3 +237,25 @@ def test_what_is_wrong_is_told_in_one_line(page, verb, case, settings, status, w
     assert answer.status == status
     assert words in answer.error
     assert "\n" not in answer.error
+
+
+def test_a_report_of_what_is_answered_at_once_has_its_numbers_and_what_was_asked(page):
+    asked = {"ratio": "20", "output_torque": "200 N m", "worm_speed": "1450 rpm"}
+    body = {"options": asked, "settings": {"operation.life": "5000 h"}}
+    found = page.ask("POST", "/api/do/size", body).json["answer"]
+    text = page.ask("POST", "/api/do/size", body | {"report": True}).json["html"]
+    read = reports.Page(text)
+    assert not read.asked or all(place.startswith("data:") for place in read.asked)
+    for told in (f"{found['rated']} gearsets rated, {found['holding']} hold", *asked.values(),
+                 "5000 h"):  # fmt: skip
+        assert told in text
+    best = found["proposals"][0]
+    assert f">{100 * best['efficiency']:.1f}<" in text
+    claims = page.get("/api/thesis").json["claims"]
+    # What was not made here is told as it ships, and so it stands on paper.
+    assert claims
+    assert not any(one["kept"] for one in claims)
+    assert all(one["verdict"] for one in claims)
+    text = page.get("/api/thesis?report=yes").json["html"]
+    assert f"Of {len(claims)} claims" in text
+    assert text.count("<tr>") > len(claims)

@@ -144,12 +144,19 @@ def test_no_setting_option_or_argument_names_a_file_outside_the_folder(page, tmp
     outside.write_text("0,0\n1,1\n")
     (page.folder / "wave-link.csv").symlink_to(outside)
     shaken = {"vibration.waveform": "sampled"}
+    sized = {"options": {"ratio": "40", "output_torque": "500 N m", "worm_speed": "1450 rpm"}}
+
+    def tables(name):
+        return {"rating.bs721_tables": name}
+
     for name in (str(outside), "../wave.csv", "/etc/passwd", "wave-link.csv", "~/../../etc/passwd"):
         refused = [
             page.do("slide", "table-4.3", shaken | {"vibration.samples": name}),
             page.do("curve", "table-4.3", shaken | {"vibration.samples": name}),
             page.do("rate", "gearset-3", {"rating.bs721_tables": name}),
             page.do("methods", "gearset-3", also=[name]),
+            page.ask("POST", "/api/do/size", sized | {"settings": tables(name)}),
+            page.ask("POST", "/api/do/size", sized | {"settings": tables(json.dumps(name))}),
             page.job("sweep", "table-4.3", over=[f"vibration.samples={name}"]),
             page.job("sweep", "table-4.3", over=[f"vibration.samples=a.csv,{name}"]),
             page.job("rig report", arguments={"folder": name}),

@@ -12,7 +12,7 @@ import time
 import traceback
 import types
 
-from asperity.tribometer.guardian import backends, guard, guardian, in_time, process
+from asperity.tribometer.guardian import backends, guard, guardian, in_time, process, verdicts
 from asperity.tribometer.guardian.in_time import ScopeInTime
 
 _close = os.close  # which a test may replace
@@ -136,11 +136,11 @@ def _dialled(dials):
     class Dialled(guardian.Guardian):
         def __init__(self, *given, **named):
             super().__init__(*given, **named)
-            self._switching._limit = dials.limit
+            self._switching.limit = dials.limit
 
         _patience = property(lambda self: dials.patience, lambda self, _: None)
         _deadline = property(lambda self: dials.deadline, lambda self, _: None)
 
     guardian.Guardian = Dialled
-    guardian._OPENING = dials.opening
+    verdicts.OPENING = dials.opening
     process._clock = OwnTime().now

@@ -18,8 +18,8 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.casefile import read_case
 from asperity.tribometer.recording import Recorder, Source
+from asperity.tribometer.recording.joining import Counts
 from asperity.tribometer.recording.layout import BEYOND, LARGEST
-from asperity.tribometer.recording.recorder import Counts
 from asperity.tribometer.tables import TABLES
 
 _HOUR = 3600.0

@@ -145,6 +145,34 @@ def test_a_proposal_is_rated_at_its_own_torque_through_the_travel(seen, server):
     expect(box).to_have_value("100 N m")
 
 
+def test_sizing_counts_the_load_spectrum_of_the_case(seen, server):
+    page = seen.open("size", case="actuator-duty")
+    expect(page.get_by_role("region", name="proposals")).to_be_visible()
+    # What its loads belong to is the case's own.
+    for label, text in (("ratio", "50"), ("torque of the wheel", "250 N m"),
+                        ("speed of the worm", "1400 rpm")):  # fmt: skip
+        expect(page.get_by_label(label, exact=True).first).to_have_value(text)
+    steps = page.get_by_label("steps", exact=True)
+    expect(steps).to_have_value("500 h, 250 N m; 1500 h, 150 N m; 3000 h, 60 N m, 700 rpm")
+    settled(page)
+    words = copied(page)
+    assert any(word.startswith("spectrum.step=") for word in words)
+    margins = page.locator("[aria-label=proposals] td:nth-child(9)")
+    found = answered(words, server.folder)["proposals"]
+    expect(margins.first).to_have_text(f"{found[0]['margin']:.3g}")
+    # A load that strength is not judged by is refused, with what mends it.
+    steps.fill("500 h, 300 N m; 1500 h, 150 N m")
+    steps.press("Enter")
+    expect(page.get_by_role("alert").first).to_contain_text("none may exceed")
+    page.get_by_label("torque of the wheel", exact=True).first.fill("300 N m")
+    page.get_by_label("torque of the wheel", exact=True).first.press("Enter")
+    settled(page)
+    expect(page.get_by_text("load spectrum: 2 steps")).to_be_visible()
+    assert answered(copied(page), server.folder)["proposals"][0]["margin"] < found[0]["margin"]
+    # It is the whole of them, and no column stands beside the panel.
+    assert page.evaluate("document.documentElement.scrollWidth") <= 1400
+
+
 def test_a_lever_is_tried_by_a_click(gear):
     before = shown(gear, "iso14521.safety_deflection")
     gear.get_by_role("button", name="try 1 % more diameter factor").click()

@@ -7,10 +7,10 @@ from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.cad.brep import solid
 from asperity.flanks.export.cad.keyway import cut_volume, key_of, keyed, require_keys
 from asperity.flanks.export.worm import whole_worm
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.study.flank import prepare_gearset, study
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
+from asperity.gearset.blanks import Blanks
 
 GIVEN = {
     "starts": 2, "wheel_teeth": 30, "centre_distance": "50 mm", "axial_module": "2.5 mm",

@@ -16,14 +16,15 @@ from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.cad.brep import solid
 from asperity.flanks.export.cad.solids import Solids
 from asperity.flanks.export.tooth import WHEEL_FLANK_ERROR, wheel_body
-from asperity.flanks.export.turned import merged, rim_radius, shaft_sections, volume, wheel_section
+from asperity.flanks.export.turned import merged, shaft_sections, volume
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.analysis import analyse
-from asperity.flanks.parameters import Blanks, Hob, Mount
+from asperity.flanks.parameters import Hob, Mount
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
+from asperity.gearset.blanks import Blanks, rim_radius, wheel_section
 
 pytestmark = pytest.mark.slow
 

@@ -81,7 +81,8 @@ def test_whatever_the_tables_hold_there_is_an_answer_or_one_line(given):
         for entry in rating:
             assert not (isinstance(entry.value, float) and math.isnan(entry.value)), entry
     for row in found.endurance:
-        assert math.isfinite(row.hours)
+        assert math.isfinite(row.lasting)
+        assert row.hours is None or row.lasting <= row.hours < math.inf
 
 
 def test_the_campaign_draws_spectra_that_are_rated_as_well_as_refused():

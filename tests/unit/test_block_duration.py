@@ -139,6 +139,7 @@ def test_it_is_the_block_that_was_given_the_duration_at_once():
 
 
 @pytest.mark.slow
+@pytest.mark.campaign
 @pytest.mark.parametrize("shaken", [(), (STILL,)])
 def test_it_goes_on_to_sixteen_times_the_usual_duration_and_says_that_it_has_not_settled(
     shaken, monkeypatch
@@ -161,6 +162,7 @@ def test_it_goes_on_to_sixteen_times_the_usual_duration_and_says_that_it_has_not
 
 # At the end of what it was marched for at first, 8100 increments, and after it.
 @pytest.mark.slow
+@pytest.mark.campaign
 @pytest.mark.parametrize(
     ("stop", "shaken"),
     [(8100, ()), (9000, ()), (8101, (STILL, "slider.drive_velocity=0.05 mm/s"))],

@@ -29,7 +29,7 @@ from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
-from asperity.drive.static.solve import StaticModel
+from asperity.drive.static.solve import StaticModel, condensed
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.teeth.contact import CONTACT_STIFFNESS, TeethContact
 from asperity.drive.teeth.placing import place_worm
@@ -39,6 +39,41 @@ from asperity.runs import Run
 
 STEP = 0.5e-6
 GIVEN = Reduction(9.8e-3, ((22.0, 80e-6), (366.0, 550e-6)), 2.6e-9)
+
+FORTY_TO_ONE = """
+[gearset]
+starts = 1
+wheel_teeth = 40
+centre_distance = "100 mm"
+axial_module = "4 mm"
+diameter_factor = 9.0
+worm_material = "case-hardened steel"
+wheel_material = "CuSn12Ni2-C-GZ"
+flank = "ZC"
+[mount]
+backlash = "0.2 mm"
+axial_offset = "-20 um"
+[operation]
+worm_speed = "1500 rpm"
+output_torque = "300 N m"
+life = "25000 h"
+lubricant = "ISO VG 220 polyglycol"
+[friction]
+model = "dahl"
+mu = 0.05
+max_deflection = "70 nm"
+[vibration]
+mode = "torsional"
+frequency = "20 kHz"
+displacement_amplitude = "10 um"
+[drive]
+load_inertia = "0.01 kg m**2"
+worm_inertia = "1e-5 kg m**2"
+worm_mass = "0.5 kg"
+contact_damping = "0.01 s/m"
+[shaft]
+torsional_stiffness = "4000 N m/rad"
+"""
 
 
 @functools.cache
@@ -172,6 +207,7 @@ def test_what_the_teeth_are_given_is_lost_or_stored(amplitude, limit):
     assert outs[:, AT.residual].max() < 1e-6
 
 
+@pytest.mark.slow
 def test_a_wheel_that_runs_ahead_bears_on_its_other_flank():
     model = model_of()
     play = 0.28e-3 / (model.point.normal_z * model.point.arm)
@@ -191,6 +227,7 @@ def test_a_wheel_that_runs_ahead_bears_on_its_other_flank():
     assert (outs[free, AT.stored] == 0.0).all()
 
 
+@pytest.mark.slow
 def test_teeth_are_handed_over_at_a_pitch():
     model = model_of("drive.flanks=driving")
     q, v = moved(model, 3, swung(0.0))
@@ -357,6 +394,7 @@ def test_a_march_of_teeth_goes_on_to_the_bit_from_where_it_was_left():
     assert other.committed.tobytes() == whole.committed.tobytes()
 
 
+@pytest.mark.slow
 def test_an_open_tooth_tells_how_fast_it_comes_near_before_it_touches():
     model = model_of()
     play = 0.5 * 0.28e-3 / (model.point.normal_z * model.point.arm)
@@ -397,3 +435,20 @@ def test_a_small_matrix_is_inverted_and_one_without_inverse_refused():
     matrix[3] = 2.0 * matrix[5]
     assert not invert(matrix.ravel(), 7, order)
     assert not invert(np.full(4, np.nan), 2, order)
+
+
+def test_a_worm_meets_teeth_where_the_next_set_of_them_begins(tmp_path):
+    """Half a pitch from a tooth the next set began in the middle of the search."""
+    case = tmp_path / "gear.toml"
+    case.write_text(FORTY_TO_ONE)
+    problem = DriveProblem.from_case(read_case(case, case_tables(), ("drive.teeth=1",)))
+    contact = TeethContact(condensed(problem, Run()), 0.0)
+    stand = contact.stand
+    for turn in (0.5, 1.5, 0.4999, 0.2):
+        beta = stand.ratio * stand.pitch * turn
+        for along in np.linspace(-30e-6, 30e-6, 11):
+            shift = np.array([0.0, 0.0, along])
+            phi = contact.touching_angle(beta, shift)
+            assert abs(contact.least_gap(beta, phi, shift)) <= 1e-10
+            # It is the place at which they begin to touch.
+            assert contact.least_gap(beta, phi + contact.side * 1e-6, shift) > 0.0

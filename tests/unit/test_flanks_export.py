@@ -18,13 +18,14 @@ from asperity.flanks.export.space import views
 from asperity.flanks.export.space.scene import gearset_scene, write_gearset
 from asperity.flanks.export.tooth import SHOWN as TOOTH_SHOWN
 from asperity.flanks.export.tooth import tooth_body, wheel_body
-from asperity.flanks.export.turned import merged, shaft_sections, volume, wheel_section
+from asperity.flanks.export.turned import merged, shaft_sections, volume
 from asperity.flanks.export.worm import SHOWN, whole_worm, worm_body
 from asperity.flanks.mesh.tooth import tooth
-from asperity.flanks.parameters import Blanks, Hob
+from asperity.flanks.parameters import Hob
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
+from asperity.gearset.blanks import Blanks, wheel_section
 from asperity.mesh.glb import Node, write_glb
 from asperity.mesh.stl import write_stl
 

@@ -100,6 +100,16 @@ def test_the_law_is_odd_in_the_velocity(law):
     assert law(0.0) == pytest.approx(0.0, abs=1e-12)
 
 
+def test_one_velocity_has_the_force_that_it_has_among_others(law):
+    # Another way there, without arrays, by the same operations.
+    speeds = np.random.default_rng(5).normal(0.0, 1.5 * law.velocity[-1], 300)
+    speeds = np.concatenate([speeds, law.velocity, 1e-3 * law.velocity])
+    assert [law(speed) for speed in speeds.tolist()] == law(speeds).tolist()
+    assert law(1) == law(1.0)
+    with pytest.raises(InputError, match="not finite"):
+        law(math.nan)
+
+
 def test_the_law_of_a_sampled_wave_turns_with_the_base(tmp_path):
     # F(-v) is -F(v) under a vibration turned by half a turn; this wave shows the difference.
     turn = np.linspace(0.0, 2.0 * math.pi, 61)

@@ -8,9 +8,10 @@ from asperity.casefile.project import Project
 from asperity.commands.listed import COMMANDS
 from asperity.commands.shown import shown_as
 from asperity.errors import InputError
+from asperity.python import size
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
-from asperity.results.system import shown_in, shown_table
+from asperity.results.system import shown_in, shown_table, shown_text
 from asperity.results.table import Table
 from asperity.results.terminal import rendered
 from asperity.results.words import Number, Sentence
@@ -96,6 +97,47 @@ def test_the_german_screen_and_report_of_a_rating_leave_nothing_english(given):
     assert result.brief() != screen
 
 
+SIZED = [
+    {"ratio": 40, "output_torque": "300 N m", "worm_speed": "1500 rpm",
+     "settings": ("operation.service=valve", "tolerances.fit=C")},
+    {"case": "actuator-shafts", "ratio": 50, "settings": (
+        "bearings.static_safety=9", "requirements.self_locking=wanted",
+        "requirements.locking_margin=1.01", "requirements.centre_distance=300 mm",
+        "requirements.wheel_diameter=500 mm", "requirements.safety=1.2")},
+    {"ratio": 15, "output_torque": "36600 N m", "worm_speed": "1440 rpm", "rank": "margin",
+     "settings": ("requirements.hobs=standard", "requirements.ratio_tolerance=0.1")},
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("given", SIZED, ids=["valve", "shafts", "margin"])
+def test_german_proposals_leave_nothing_english(given):
+    german = catalogue_of("de")
+    german.missing.clear()
+    with spoken(german):
+        text = rendered(size(**given, cut=False).tables())
+    assert german.missing == set()
+    assert "nachgerechnet" in text
+
+
+@pytest.mark.parametrize(
+    ("command", "case"),
+    [("rexs", "actuator-duty"), ("rexs", "actuator-shafts"), ("shafts", "actuator-shafts"),
+     ("sensitivity", "actuator-duty"), ("sensitivity", "gearset-3"),
+     pytest.param("optimise", "gearset-3", marks=pytest.mark.slow),
+     pytest.param("optimise", "actuator-duty", marks=pytest.mark.slow),
+     pytest.param("flank", "gearset-3", marks=pytest.mark.slow)],
+)  # fmt: skip
+def test_german_tables_of_a_designers_commands_leave_nothing_english(command, case):
+    read, result = answer_of(case, command=command)
+    german = catalogue_of("de")
+    german.missing.clear()
+    with spoken(german):
+        for text in (result.heading(), *result.headline()):
+            shown_text(text)
+        rendered(result.tables())
+    assert german.missing <= {read["gearset"].name}
+
+
 @pytest.mark.parametrize("given", CASES, ids=" ".join)
 def test_a_german_report_has_the_numbers_of_the_english_one(given):
     _, result = answer_of(*given)
@@ -110,7 +152,7 @@ def test_a_german_report_has_the_numbers_of_the_english_one(given):
 
 def test_inches_are_the_same_in_both_languages():
     _, result = answer_of("actuator-duty")
-    number = re.compile(r"\d+(?:[.,]\d+)?(?: (?:hp|lbf in|degF))?")
+    number = re.compile(r"\d+(?:[.,]\d+)?(?: (?:hp|lbf·in|degF))?")
     with shown_in("us"):
         english = number.findall(result.brief())
         with spoken(catalogue_of("de")):

@@ -1,6 +1,9 @@
 """What the first screen says of loads, oil, life and starting, and of what others add to it."""
 
 import dataclasses
+import math
+
+import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -18,7 +21,8 @@ def test_the_screen_of_an_actuator_tells_its_loads_oil_life_and_start():
     assert found.heading() == "actuator: 3 loads in 5000 h, S3 15 % of 10 min"
     for said in (
         "of all wear by ISO/TR 14521: 150 N m 42 %, 60 N m 36 %, 250 N m 23 %",
-        "life 155,917 h of 5,000 asked, until wear by ISO/TR 14521",
+        "life 141,743 h of 5,000 asked until S_W is 1.1 (155,917 h until 1): wear by\n",
+        "this at 250 N m, 1400 rpm; over the duty 55.6 %, mean loss 205.8 W, 1029 kWh",
         "AGMA 6034 has no load spectra: the load nearest to its limit, times a service",
         "oil 32 degC by heat balance, 63 by ISO's formula (S1); idling 139 W by formula",
         "starts at 33 % of the teeth, motor 16.6 N m (friction at rest of AGMA 6034)",
@@ -53,3 +57,61 @@ def test_rows_of_others_stand_below_the_safeties_and_fail_the_gearbox():
     assert [row["holds"] for row in told] == [True, False]
     assert told[0]["life_h"] == 337e3
     assert "does not hold:" not in dataclasses.replace(found, rows=rows[:1]).brief()
+
+
+def test_a_duty_cycle_has_the_lines_of_the_spectrum_that_is_the_same():
+    text = "250 N m, 1400 rpm, 500 h; 150 N m, 1400 rpm, 1500 h; 60 N m, 700 rpm, 3000 h"
+    short = rate_case(read_case("gearset-3", case_tables(), [f"operation.duty_cycle={text}"]))
+    whole = rate_case(read_case("gearset-3", case_tables(), [f"spectrum.step={text}"]))
+    # What is assumed of the oil's temperature is a key of the spectrum.
+    assert short.brief().splitlines()[:-1] == whole.brief().splitlines()[:-1]
+    assert short.heading() == whole.heading() == "gearset 3: 3 loads in 5000 h"
+    told, other = short.to_json(), whole.to_json()
+    for key in ("duty_cycle", "duty_mean", "endurance", "starting"):
+        assert told[key] == other[key], key
+    assert len(short.tables()) == len(whole.tables())
+
+
+@pytest.mark.parametrize("duty", ["S3 15 %", "S2 15 min"])
+def test_a_duty_that_cannot_count_is_told_with_the_verdict(duty):
+    told = f"{duty} does not count yet, temperature is judged as of S1: give [housing] with"
+    case = read_case("actuator-duty", case_tables(), [f"spectrum.duty={duty}"])
+    whole = rate_case(case)
+    assert "does not count" not in whole.brief()
+    case.raw.pop("housing")
+    case = case.replace(())
+    found = rate_case(case)
+    assert told in " ".join(found.brief().split())
+    assert told in " ".join(repr(found.verdict).split())
+    assert any(told in note for note in found.iso14521.notes)
+    assert "does not count" in found.to_html()
+    given = rate_case(case.replace(["operation.oil_temperature=60 degC"]))
+    assert "does not count" not in given.brief()
+    assert "does not count" not in rate_case(case.replace(["spectrum.duty=S1"])).brief()
+
+
+def test_losses_and_energy_are_those_of_the_loads_in_their_hours():
+    found = actuator()
+    mean = found.to_json()["duty_mean"]
+    parts = found.to_json()["duty_cycle"]
+    hours = [part["hours_h"] for part in parts]
+    lost = sum(h * part["loss_W"] for h, part in zip(hours, parts, strict=True))
+    speeds = [part["worm_speed_rpm"] * math.pi / 30.0 / 50.0 for part in parts]
+    out = sum(
+        h * part["output_torque_Nm"] * speed
+        for h, part, speed in zip(hours, parts, speeds, strict=True)
+    )
+    assert mean["loss_W"] == pytest.approx(lost / 5000.0, rel=1e-12)
+    assert mean["loss_W"] == pytest.approx(found.iso14521["loss_mean_W"], rel=1e-12)
+    assert mean["lost_energy_kWh"] == pytest.approx(lost / 1000.0, rel=1e-12)
+    assert mean["output_power_W"] == pytest.approx(out / 5000.0, rel=1e-12)
+    assert mean["efficiency"] == pytest.approx(out / (out + lost), rel=1e-12)
+    other = actuator("spectrum.step=60 N m, 700 rpm, 10 h").brief()
+    assert "this at the rated 250 N m, 1400 rpm, no load of the duty; over the duty" in other
+    alone = actuator("spectrum.step=60 N m, 700 rpm, 10 h, load drives").to_json()["duty_mean"]
+    assert alone["efficiency"] is None
+
+
+def test_of_wear_without_an_answer_no_shares_are_told():
+    text = actuator("spectrum.step=200 N m, 1e6 rpm, 6 h").brief()
+    assert "of all wear" not in text

@@ -4,6 +4,7 @@ import concurrent.futures as cf
 import json
 import os
 import queue
+import re
 import select
 import threading
 import time
@@ -12,7 +13,7 @@ import pytest
 
 from asperity.errors import InputError, StorageError
 from asperity.tribometer.guardian import guardian as guardians
-from asperity.tribometer.guardian import switching
+from asperity.tribometer.guardian import stop, switching, verdicts
 from asperity.tribometer.guardian.guardian import Guardian
 from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
@@ -79,7 +80,8 @@ class Made:
     """A guardian in a thread, and the procedure's end of its line."""
 
     def __init__(
-        self, *, absent=(), by_hand=(), patience=60.0, deadline=20.0, limit=20.0, relay=None
+        self, *, absent=(), by_hand=(), patience=60.0, deadline=20.0, limit=20.0, relay=None,
+        folder=None,
     ):  # fmt: skip
         self.told, self.said = [], []
         self.fakes = {key: Fake(key, self.told) for key in (*KEYS, LISTENER)}
@@ -90,8 +92,9 @@ class Made:
         self.guardian = Guardian(
             [self._device(key, key in absent) for key in self.fakes], by_hand, wire,
             patience=patience, deadline=deadline, say=self.said.append, relay=relay,
+            folder=folder,
         )  # fmt: skip
-        self.guardian._switching._limit = limit
+        self.guardian._switching.limit = limit
         self.heard = queue.Queue()
         self.code = None
         threading.Thread(target=self._hear, args=(wire,), daemon=True).start()
@@ -185,6 +188,109 @@ def test_an_absent_instrument_keeps_no_other_on_and_is_named(made):
     assert one.leave() == 4
 
 
+def written(folder):
+    file = folder / NAME
+    text = file.read_text() if file.exists() else ""
+    return [json.loads(line) for line in text.splitlines() if line.endswith("}")]
+
+
+def until(what):
+    last = time.monotonic() + 60.0
+    while not (found := what()):
+        assert time.monotonic() < last, "nothing came"
+        time.sleep(0.01)
+    return found
+
+
+@pytest.mark.parametrize("fault", ["blocked", "garbling", "stuck on"])
+def test_at_a_start_what_is_not_read_back_is_named_at_once_and_tried_on(made, tmp_path, fault):
+    dog = Watchdog()
+    one = made(limit=0.4, folder=tmp_path, relay=dog)
+    one.fakes["steel"].fault = fault
+    one._thread.start()
+    (line,) = until(lambda: written(tmp_path))
+    # Long before the start is over, and whether or not anybody has asked for a journal.
+    assert (line["kind"], line["why"]) == ("off", "start")
+    assert 0.4 <= line["took_s"] < 5.0
+    assert [name.partition(":")[0] for name in line["still_on"]] == ["steel"]
+    assert set(line["read_back"]) == {"vibration", "amplifier", "bronze"}
+    assert "NOT READ BACK TO BE OFF: steel" in one.said[0]
+    assert "tried for 20 s" in one.said[0]
+    # Cut off, what is only slow would not answer.
+    assert dog.opened == (fault == "stuck on")
+    one.fakes["steel"].fault = ""
+    one.fakes["steel"].stands.set()
+    found = one.ask("guardian", "started")["gave"]
+    assert "still_on" not in found
+    # Without power nothing is to be begun.
+    assert ("has cut the power" in found.get("trouble", "")) == (fault == "stuck on")
+    until(lambda: "still_on" not in written(tmp_path)[-1])
+    assert re.fullmatch(r"read back to be off [\d.]+ s after the start: steel", one.said[1])
+    assert len(one.said) == 2
+    one.ask("guardian", "goodbye")
+    assert one.leave() == 0
+
+
+def test_where_all_is_read_back_at_a_start_nothing_is_said_or_written(made, tmp_path):
+    one = made(limit=0.4, folder=tmp_path)
+    # The oscilloscope is opened more slowly than all is read back.
+    one.fakes[LISTENER].fault = "late"
+    one.begin()
+    assert (one.said, written(tmp_path)) == ([], [])
+
+
+@pytest.mark.parametrize("way", ["signal", "stop", "the button", "killed"])
+def test_a_start_that_tries_on_ends_at_once_when_it_is_to(made, tmp_path, monkeypatch, way):
+    monkeypatch.setattr(guardians, "_ATTEMPTS", 0)
+    one = made(limit=0.4, folder=tmp_path)
+    one.fakes["steel"].fault = "blocked"
+    one._thread.start()
+    one.wire.send({"to": "guardian", "do": "started", "with": [], "n": 7})
+    until(lambda: one.said)
+    begun = time.monotonic()
+    if way == "signal":
+        one.guardian.signal(2)
+    if way == "stop":
+        one.guardian.stop()
+    if way == "the button":
+        stop.press(tmp_path)
+    if way == "killed":
+        assert one.leave() == 4
+    else:
+        answer = one.heard.get(timeout=60.0)
+        while answer.get("n") != 7:
+            answer = one.heard.get(timeout=60.0)
+        assert answer["gave"]["still_on"] == ["steel: it has not answered"]
+    # Twenty seconds are what it would have tried.
+    assert time.monotonic() - begun < 15.0
+    assert all(line["still_on"] for line in written(tmp_path))
+    assert [line["kind"] for line in written(tmp_path)][-1] == "off"
+
+
+def test_a_start_waits_for_what_is_late_though_the_ear_is_silent(made, monkeypatch):
+    monkeypatch.setattr(switching, "LISTENING", 0.2)
+    one = made(limit=0.1)
+    one.fakes[LISTENER].fault = one.fakes["steel"].fault = "blocked"
+    threading.Timer(1.0, one.fakes["steel"].stands.set).start()
+    found = one.begin()["gave"]
+    assert "still_on" not in found
+    assert "its signal is not heard" in found["read_back"]["vibration"]
+
+
+def test_what_is_found_when_the_journal_is_closed_already_is_in_it(tmp_path):
+    writing = Writing(lambda _: None)
+    asked = {"to": "journal", "do": "open", "with": [str(tmp_path)]}
+    writing.asked(asked).result(60.0)
+    # Held already, it is not waited for.
+    assert writing.asked(asked).result(60.0) == []
+    writing.asked({"to": "journal", "do": "close", "with": [False]}).result(60.0)
+    stuck = off.Off("steel", False, "its output's state is on")
+    for found in ((stuck,), ()):
+        writing.verdict(Verdict("the end", 0.0, 0.1, found))
+    writing.all_written().result(60.0)
+    assert [line.get("still_on", []) for line in written(tmp_path)] == [[str(stuck)], []]
+
+
 @pytest.mark.parametrize("way", ["signal", "end", "hangs", "another's fault", "fault of ours"])
 def test_whatever_ends_it_everything_is_off(made, way):
     one = made(patience=0.5 if way == "hangs" else 60.0)
@@ -260,6 +366,19 @@ def test_what_a_person_switches_is_named_whenever_nobody_was_asked(made, way):
     assert not any("at last" in line for line in one.said)
 
 
+def test_a_supply_that_is_on_is_looked_at_unasked(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_POLLED", 0.05)
+    one = made()
+    one.begin()
+    one.ask("steel", "on")
+    looked = one.told.count
+    until(lambda: looked(("steel", "reading")) > 3)
+    # What is off is nobody's concern, and of what answers no more somebody hears at once.
+    assert looked(("bronze", "reading")) == 1
+    one.fakes["steel"].fault = "garbling"
+    assert one.hears("tripped")["tripped"] == "steel answers half"
+
+
 def test_where_nothing_is_owned_nothing_is_said_to_be_off():
     found = switching.Switching([], ("lamp", "fan")).off(
         "signal SIGTERM", time.monotonic(), listen=False, unasked="nobody was asked"
@@ -270,7 +389,7 @@ def test_where_nothing_is_owned_nothing_is_said_to_be_off():
 
 def test_the_time_that_is_said_is_from_the_first_event_to_the_last_answer(made, monkeypatch):
     monkeypatch.setattr(guardians, "_AGAIN", 0.1)
-    monkeypatch.setattr(guardians, "_ATTEMPT", 0.1)
+    monkeypatch.setattr(verdicts, "_ATTEMPT", 0.1)
     one = made(limit=0.2)
     one.begin()
     one.on()
@@ -281,9 +400,9 @@ def test_the_time_that_is_said_is_from_the_first_event_to_the_last_answer(made, 
     one.hears("tripped")
     time.sleep(0.5)
     steel.fault, mended = "", time.monotonic()
-    while one.guardian._last.still_on:
-        time.sleep(0.01)
-    line = one.guardian._last.line()
+    # Tried again while the procedure lives, and asks nothing.
+    until(lambda: not one.guardian._verdicts.last.still_on)
+    line = one.guardian._verdicts.last.line()
     assert mended - begun <= line["off_s"]["steel"] <= line["took_s"] <= time.monotonic() - begun
     assert line["off_s"]["amplifier"] < 0.3 < line["off_s"]["steel"]
     assert one.leave() == 0
@@ -373,7 +492,7 @@ def test_one_that_is_late_is_a_fault_and_proven_when_it_answers(made):
 def test_a_drive_that_is_heard_is_named_until_it_is_heard_to_be_still(made, monkeypatch, lives):
     monkeypatch.setattr(guardians, "_AGAIN", 0.1)
     monkeypatch.setattr(guardians, "_ATTEMPTS", 1)
-    monkeypatch.setattr(guardians, "_ATTEMPT", 0.1)
+    monkeypatch.setattr(verdicts, "_ATTEMPT", 0.1)
     one = made(limit=0.2)
     one.begin()
     one.on()
@@ -386,10 +505,10 @@ def test_a_drive_that_is_heard_is_named_until_it_is_heard_to_be_still(made, monk
         assert named == "vibration: its state is off, its signal moves"
         # By then it has been tried again, and nobody has listened.
         time.sleep(0.5)
-        assert one.guardian._last.still_on
+        assert one.guardian._verdicts.last.still_on
     assert one.leave() == 4
     assert not any("read back to be off" in line for line in one.said)
-    assert "its signal moves" in one.guardian._last.still_on[0]
+    assert "its signal moves" in one.guardian._verdicts.last.still_on[0]
 
 
 def test_a_drive_that_is_heard_to_be_still_at_last_is_off(made, monkeypatch):
@@ -407,7 +526,7 @@ def test_a_drive_that_is_heard_to_be_still_at_last_is_off(made, monkeypatch):
         daemon=True,
     ).start()
     assert one.leave() == 0
-    assert "its signal is still" in one.guardian._last.line()["read_back"]["vibration"]
+    assert "its signal is still" in one.guardian._verdicts.last.line()["read_back"]["vibration"]
 
 
 def test_a_drive_is_proven_still_by_what_is_known_of_it():
@@ -429,6 +548,7 @@ def test_a_drive_is_proven_still_by_what_is_known_of_it():
 def test_a_supply_is_proven_off_by_its_state_and_what_it_measures():
     for state, volts, amperes, proven in (
         (False, 12.0, 0.0, True), (False, 0.0, 0.2, False), (True, 0.0, 0.0, False),
+        (False, 0.0, 0.049, True), (False, 0.0, 0.06, False), (False, 0.0, -0.06, False),
         (None, 0.0, 0.0, True), (None, 12.0, 0.0, False), (False, 0.0, float("nan"), False),
     ):  # fmt: skip
         assert off.supply_off("supply", (state, Reading(volts, amperes))).proven == proven

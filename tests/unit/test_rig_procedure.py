@@ -98,6 +98,21 @@ def test_a_run_whose_recording_is_gone_is_not_gone_on_with(undisturbed, tmp_path
         rigs.run(rigs.small_case(), folder, resume=True)
 
 
+@pytest.mark.parametrize("how", ["a count is changed", "it is shorter"])
+def test_a_run_whose_recording_holds_something_else_is_not_gone_on_with(undisturbed, tmp_path, how):
+    folder = tmp_path / "run"
+    shutil.copytree(undisturbed[0], folder)
+    with h5py.File(folder / "file-01.nc", "r+") as file:
+        done = [line for line in rigs.journal(folder) if "shaken" in line]
+        first, samples = done[-1]["shaken"]
+        if how == "a count is changed":
+            file["raw"][first + samples - 1, 0] ^= 1
+        else:
+            file["raw"].resize(first + samples - 1, axis=0)
+    with pytest.raises(InputError, match=r"file-01\.nc .*(check sums differ|cannot be gone on)"):
+        rigs.run(rigs.small_case(), folder, resume=True)
+
+
 def replayed(case, undisturbed, folder):
     recorded, _ = undisturbed
     folder.mkdir()

@@ -8,6 +8,8 @@ from apparatus.spreadsheet import Workbook
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.rating import rate_case
+from asperity.rating.workbook import write_rating
 from asperity.results.xlsx import Formula
 from asperity.runs import Run
 from asperity.shafts import statics, study
@@ -78,6 +80,40 @@ def test_calculated_anew_it_is_the_answer(tmp_path):
             if isinstance(cells[1], Formula):
                 again = sheets.value((sheet, "B", row), known)
                 assert again == pytest.approx(cells[1].value, rel=1e-12)
+
+
+def beside_the_rating(folder, *settings):
+    """Return shafts, and the workbook of the rating that they stand beside."""
+    case = read_case("actuator-shafts", case_tables(), settings)
+    rated = study.beside_rating(case)(rate_case(case, ("iso14521", "bs721")), Run())
+    file = folder / "rate.xlsx"
+    write_rating(rated.given, rated.tables_bs721, rated.found, file, rated.shafts)
+    return solved(*settings), Workbook(file)
+
+
+def test_the_workbook_of_a_rating_has_them_on_the_same_inputs(tmp_path):
+    found, sheets = beside_the_rating(tmp_path)
+    assert held(sheets, found) > 80
+    for row, cells in sheets.rows("iso14521"):
+        if cells[3] == "wear safety":
+            assert sheets.value(("iso14521", "B", row), {}) == pytest.approx(31.183369)
+    # A pitch diameter, a torque and a friction that change there are those of the shafts.
+    keys = [cells[4] for _, cells in sheets.rows("inputs") if cells[4]]
+    assert not {"wheel_mean_diameter", "load_1.torque", "load_1.friction"} & set(keys)
+    assert len(keys) == len(set(keys))
+    sheets.change("duty_cycle_1_output_torque", 220.0 / 250.0)
+    parts = ", ".join(
+        f"{{duration='{hours} h', output_torque='{torque} N m', worm_speed='{speed} rpm'}}"
+        for hours, torque, speed in ((500, 220, 1400), (1500, 150, 1400), (3000, 60, 700))
+    )
+    moved, known = told(solved(f"operation.duty_cycle=[{parts}]")), {}
+    rows = {cells[3]: row for row, cells in sheets.rows("worm shaft")}
+    forces = [place for place in moved if place[0] == "worm shaft" and "equivalent" in place[1]]
+    assert len(forces) > 2
+    for place in forces:
+        again = sheets.value(("worm shaft", "B", rows[place[1]]), known)
+        assert again == pytest.approx(moved[place], rel=1e-11)
+        assert again != pytest.approx(told(found)[place], rel=1e-3)
 
 
 def test_a_mesh_that_is_moved_in_the_sheet_is_moved_in_the_case(tmp_path):

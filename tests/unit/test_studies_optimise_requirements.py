@@ -171,6 +171,7 @@ def test_no_optimum_of_a_random_gearset_breaks_a_requirement():
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_no_optimum_of_a_random_gearset_breaks_a_requirement")
 def test_no_optimum_of_random_gearsets_breaks_a_requirement():
     assert sum(check(seed) for seed in range(4, 40)) >= 6
 

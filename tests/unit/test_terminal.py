@@ -87,7 +87,7 @@ def test_headings_and_cells_fold_where_no_column_that_folds_is_left():
 
 @pytest.mark.parametrize("width", range(9, 60))
 def test_no_line_ends_between_a_number_and_its_unit(width):
-    measured = ["1328 lbf in", "42 %", "0.6 h", "-3.5 degC", "1.2e-6 N m", "5,000 h", "12 m/s"]
+    measured = ["1328 lbf·in", "42 %", "0.6 h", "-3.5 degC", "1.2e-6 N m", "5,000 h", "12 m/s"]
     text = "wear " + ", oil ".join(measured)
     lines = lines_of_text(text, width, hanging="  ")
     assert " ".join(line.strip() for line in lines) == text

@@ -150,7 +150,7 @@ def test_notes_stand_under_gearsets_and_what_none_holds_above_them(holding):
     )  # fmt: skip
     found = SimpleNamespace(
         found=[best], rated=7, holding=holding, ranked_by="size", notes=("one", "none holds"),
-        _made=lambda: (),
+        _made=lambda: (), _borne=lambda: (),
     )  # fmt: skip
     (table,) = Proposals.tables(found)
     assert table.title == ("" if holding else "None holds")
@@ -177,7 +177,7 @@ def test_a_multiple_that_is_an_end_but_for_rounding_is_kept_as_the_end(end):
 
 def test_a_unit_of_several_is_converted_whole():
     with shown_in("us"):
-        assert shown_text("5 N m is more") == "44.3 lbf in is more"
+        assert shown_text("5 N m is more") == "44.3 lbf·in is more"
         assert shown_text("5 N/mm and 5 N") == "28.6 lbf/in and 1.12 lbf"
 
 

@@ -1,5 +1,7 @@
 """Files of oscilloscope programs become recordings, or are refused with row and reason."""
 
+import datetime
+import errno
 import importlib.util
 import struct
 import tracemalloc
@@ -11,12 +13,13 @@ import pytest
 import scipy.io
 
 from asperity.casefile import read_case
-from asperity.errors import InputError
+from asperity.errors import InputError, StorageError
 from asperity.runs import Run
 from asperity.tribometer.importing import look
 from asperity.tribometer.importing.columns import matching
 from asperity.tribometer.importing.study import answer, prepare
 from asperity.tribometer.recording import Recording, layout
+from asperity.tribometer.recording.blocks import Blocks
 from asperity.tribometer.tables import TABLES
 
 MAPPED = [
@@ -91,6 +94,20 @@ def test_an_imported_recording_is_one(tmp_path):
     again = imported(tmp_path / "run.nc")
     assert again.form == "recording"
     assert np.array_equal(again.sampled.counts, np.concatenate([c for _, c in found.stretches()]))
+
+
+def test_an_import_onto_a_full_disk_leaves_nothing(tmp_path, monkeypatch):
+    path = tmp_path / "run.csv"
+    path.write_text(text(HEADS["en"], "(ms),(V),(V),(V),(V)", rows(), ","))
+    found = imported(path)
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    monkeypatch.setattr(Blocks, "block", full)
+    with pytest.raises(StorageError, match="no space left"):
+        found.save(tmp_path / "run.nc")
+    assert [one.name for one in tmp_path.iterdir()] == ["run.csv"]
 
 
 def test_marks_past_the_range_gaps_and_a_cut_end_are_told(tmp_path):
@@ -243,14 +260,114 @@ def test_tdms_is_read(tmp_path):
         writer.write_segment(
             [
                 ChannelObject(
-                    "scope", name, given[:, n + 1], {"wf_increment": 5e-5, "unit_string": "V"}
+                    "scope",
+                    name,
+                    given[:, n + 1],
+                    {
+                        "wf_increment": 5e-5,
+                        "unit_string": "V",
+                        "wf_start_time": np.datetime64("2026-05-01T23:59:50"),
+                    },
                 )
                 for n, name in enumerate("ABCD")
             ]
         )
     found = imported(tmp_path / "run.tdms")
     assert found.sample_interval == pytest.approx(5e-5)
+    assert found.began == DATED["ISO"][1]
     assert seen(found, 0) == pytest.approx(given[:, 1], abs=1e-4)
+
+
+UTC = datetime.UTC
+TABLE = "(ms),(V),(V),(V),(V)"
+
+
+def dated(head, first="0.05"):
+    body = [f"{first},1,2,3,4", *(f"{0.05 * n},1,2,3,4" for n in range(2, 9))]
+    return "\n".join([*head, HEADS["en"], TABLE, *body, ""])
+
+
+def clocks(first, step=datetime.timedelta(seconds=1), shape="%Y-%m-%dT%H:%M:%S+00:00"):
+    moment = datetime.datetime.fromisoformat(first)
+    rows = [f"{(moment + n * step).strftime(shape)};1;2;3;4" for n in range(8)]
+    return "\n".join([HEADS["de"], " ;(V);(V);(V);(V)", *rows, ""])
+
+
+LVM = """LabVIEW Measurement\t
+Writer_Version\t2
+Date\t2026/05/01
+Time\t12:34:56.5
+***End_of_Header***\t
+\t
+Channels\t4
+Samples\t3\t3\t3\t3
+Date\t2026/05/01\t2026/05/01\t2026/05/01\t2026/05/01
+Time\t12:34:56.5\t12:34:56.5\t12:34:56.5\t12:34:56.5
+Y_Unit_Label\tVolts\tVolts\tVolts\tVolts
+X0\t0\t0\t0\t0
+Delta_X\t0.001\t0.001\t0.001\t0.001
+***End_of_Header***\t
+X_Value\tA\tB\tC\tD
+0\t1\t2\t3\t4
+0.001\t1\t2\t3\t4
+0.002\t1\t2\t3\t4
+"""
+# Times of day without a zone are this computer's.
+LOCAL = datetime.datetime(2026, 5, 1, 12, 34, 56).astimezone(UTC)
+DATED = {
+    "ISO": (clocks("2026-05-01T23:59:50"), datetime.datetime(2026, 5, 1, 23, 59, 50, tzinfo=UTC)),
+    "German": (clocks("2026-05-01T12:34:56", shape="%d.%m.%Y %H:%M:%S,0"), LOCAL),
+    "LabVIEW": (LVM, LOCAL + datetime.timedelta(seconds=0.5)),
+    "a row of its own": (dated(["Datum: 01.05.26", "Zeit: 12:34:56"]), LOCAL),
+    "a month's name": (dated(["Segment,TrigTime", "#1,01-May-2026 12:34:56"]), LOCAL),
+    "half days": (dated(["Start,5/1/2026 12:34:56 PM"]), LOCAL),
+    "since 1970": (dated([], "1777638896000.0").replace("\n0.", "\n1777638896000."), None),
+    "none": (dated([]), ""),
+    "exported": (dated(["Exported on 2026-05-01 12:34:56", "calibration due 2027-01-01"]), ""),
+    "exchangeable": (dated(["Date,05/06/2026"]), ""),
+    "no day": (dated(["Date,32.13.2026"]), ""),
+}
+
+
+@pytest.mark.parametrize("how", DATED)
+def test_a_recording_is_dated_by_its_file_or_by_its_import_and_says_so(tmp_path, how):
+    content, began = DATED[how]
+    path = tmp_path / "run.csv"
+    path.write_text(content)
+    if began is None:
+        began = datetime.datetime.fromtimestamp(1777638896, UTC)
+    before = datetime.datetime.now(UTC)
+    found = imported(path)
+    found.save(tmp_path / "run.nc")
+    start = Recording.open(tmp_path / "run.nc").start
+    assert start.isoformat(timespec="seconds") == found.to_json()["start"]
+    undated = [note for note in found.notes if "tells no date" in note]
+    if began == "":
+        assert before <= start <= datetime.datetime.now(UTC)
+        assert len(undated) == 1
+        assert any("2026-06-05 or 2026-05-06" in one for one in found.notes) == (
+            how == "exchangeable"
+        )
+        # Then it can be said.
+        told = answer(prepare(case(), file=str(path), start="2026-05-01 12:34:56"), Run())
+        assert told.began == LOCAL
+        assert not any("no date" in note for note in told.notes)
+        return
+    assert abs(start - began) <= datetime.timedelta(seconds=0.1)
+    assert not undated
+    assert any(note.startswith("begun 2026-0") for note in found.notes)
+
+
+def test_a_recording_that_is_imported_again_keeps_its_date_and_a_calibration_its_due(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text(clocks("2026-05-01T23:59:50"))
+    imported(path).save(tmp_path / "run.nc")
+    assert imported(tmp_path / "run.nc").began == DATED["ISO"][1]
+    with pytest.raises(InputError, match="without --join, --rate, --columns, --units or --start"):
+        prepare(case(), file=str(tmp_path / "run.nc"), start="2026-05-01")
+    for wrong in ("soon", "05/06/2026", "2026-13-01"):
+        with pytest.raises(InputError, match=r"--start is .*as in"):
+            prepare(case(), file=str(path), start=wrong)
 
 
 def test_a_channel_is_its_heading_or_what_a_heading_ends_in():

@@ -43,6 +43,17 @@ from asperity.units import Quantity, measures, quantity_of, registry, split_unit
         ("-.5 m", "m", -0.5),
         ("71 %", "", 0.71),
         ("0.71", "", 0.71),
+        ("1 lb-in", "N m", 0.1129848290276167),
+        ("1 lbf-in", "N m", 0.1129848290276167),
+        ("1 lbf\u00b7in", "N m", 0.1129848290276167),
+        ("1 in-lb", "N m", 0.1129848290276167),
+        ("1 ft-lb", "N m", 1.3558179483314004),
+        ("1 lb ft", "N m", 1.3558179483314004),
+        ("1 BTU/(h ft2 degF)", "W/m**2/K", 5.678263341113488),
+        ("1 Btu/(hr*ft^2*\u00b0F)", "W/m**2/K", 5.678263341113488),
+        ("1 BTU/degF", "J/K", 1899.100534716),
+        ("15 W/m**2/degC", "W/m**2/K", 15.0),
+        ("1 acre", "m**2", 4046.8564224),
     ],
 )
 def test_text_becomes_the_nearest_float_in_si(text, unit, expected):

@@ -76,7 +76,7 @@ def size(
     What the case or --set says of starts, teeth, centre distance, module, diameter factor or
     profile shift is held. The wheels of those that are shown are cut.
 
-    With --out also size.json, size.nc and a case file for each proposal.
+    With --out also report.html, size.json, size.nc and a case file for each proposal.
     """
     from asperity.cli.size import size as run
 

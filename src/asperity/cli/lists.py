@@ -8,6 +8,7 @@ from asperity.gearset.library import Sourced, every
 from asperity.results.table import Column, Table
 from asperity.units import quantity_of, split_unit
 
+_HIDDEN = "name", "sources", "assumption", "own"
 _SHORT = {"polyalphaolefin": "PAO", "polyglycol": "PG"}
 
 
@@ -20,7 +21,7 @@ def print_library(models: Sequence[type[Sourced]], *, as_json: bool) -> None:
     sources: dict[str, int] = {}
     tables = []
     for model in models:
-        keys = [key for key in model.model_fields if key not in ("name", "sources", "assumption")]
+        keys = [key for key in model.model_fields if key not in _HIDDEN]
         shown = [thing for of, thing in things if of is model]
         rows = [(t.name, *(_short(t, key) for key in keys), _numbers(t, sources)) for t in shown]
         headings = [_heading(model, key) for key in keys]
@@ -53,6 +54,8 @@ def _short(thing: Sourced, key: str) -> str:
     value = getattr(thing, key)
     if isinstance(value, dict) and value:
         return " ".join(f"{_SHORT.get(name, name)} {number:g}" for name, number in value.items())
+    if isinstance(value, tuple):
+        return f"{len(value)} values" if isinstance(value[0], float) else f"{len(value)} rows"
     return _text(thing, key).removesuffix(_unit(type(thing), key)).strip()
 
 

@@ -1,5 +1,6 @@
 """What ``asperity new`` does."""
 
+import dataclasses
 import sys
 from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from pathlib import Path
@@ -10,9 +11,9 @@ from asperity.commands import case_tables
 from asperity.errors import InputError, plain
 from asperity.files.store import write_text
 from asperity.rating.parameters import Operation
-from asperity.start.bearing import KIND as BEARING
-from asperity.start.bearing import bearing_text
-from asperity.start.gear import MACRO, drop_begun_life, proposals, ratio_of
+from asperity.start import bearing, plastic
+from asperity.start.duty import complete, sized
+from asperity.start.gear import MACRO, drop_begun_life, operation_of, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
 from asperity.start.write import case_text
 
@@ -35,10 +36,10 @@ def new(
     """
     path = file or Path(name)
     path = path if path.suffix else path.with_name(f"{path.name}.toml")
-    if name == BEARING:
+    if name in _DATA:
         if read:
             raise InputError(f"--from {plain(read)}: a REXS file is read as a gear, not as {name}")
-        _new_bearing(path, asked, settings, ratio, as_json=as_json)
+        _new_data(name, path, asked, settings, ratio, as_json=as_json)
         return
     kind = kind_of(name)
     if any(each is not None for each in asked.values()) and Operation.table not in kind.tables:
@@ -68,9 +69,14 @@ def new(
             f"What is given is that of {kind.case}; asperity cases {kind.case} prints it with "
             "where each value comes from. Replace it by your own."
         )
-    if "gearset" in values and not read:
+    if "gearset" in values and not read and name != "duty":
         remarks += _sized(values, given, ratio_of(wanted))
-    case = Case(path.name, path.parent.absolute(), {}, values, case_tables()).replace(())
+    case = Case(path.name, path.parent.absolute(), {}, values, case_tables())
+    if name == "duty":
+        # What size refuses is not written; what a duty says of a gearset is a part of one.
+        sized(case)
+        case = dataclasses.replace(case, raw={k: v for k, v in values.items() if k != "gearset"})
+    case = case.replace(())
     title = f"{kind.title}, begun by asperity new"
     names = (*kind.tables, *(table for table in values if table not in kind.tables))
     text = case_text(title, values, case_tables(), names, remarks)
@@ -114,7 +120,8 @@ def _received(name: str, file: str, begun: Values, ratio: str) -> tuple[Values, 
     return tables, tuple(said)
 
 
-def _new_bearing(
+def _new_data(
+    name: str,
     path: Path,
     asked: Mapping[str, str | None],
     settings: Sequence[str],
@@ -122,21 +129,28 @@ def _new_bearing(
     *,
     as_json: bool,
 ) -> None:
-    """Write a data file of bearings, which has nothing that can be asked."""
+    """Write a data file of bearings or plastics, which has nothing that can be asked."""
+    text, shown = _DATA[name]
     if settings or ratio or any(each is not None for each in asked.values()):
         raise InputError(
             "--set, --ratio, --output-torque and --worm-speed are of a case; a data file of "
-            "bearings has none: leave them out"
+            f"{name}s has none: leave them out"
         )
     if path.exists():
         raise InputError(f"{plain(str(path))} is there already; name another file")
-    write_text(path, bearing_text())
+    write_text(path, text())
     if as_json:
-        show.print_json({"file": str(path), "tables": [BEARING]})
+        show.print_json({"file": str(path), "tables": [name]})
     else:
         file = plain(str(path))
-        show.print_text(f"{file} is written; go on with\n\n  asperity --materials {file} bearings")
+        show.print_text(f"{file} is written; go on with\n\n  asperity --materials {file} {shown}")
 
+
+_DATA = {
+    bearing.KIND: (bearing.bearing_text, "bearings"),
+    plastic.KIND: (plastic.plastic_text, "materials"),
+}
+"""What is begun as a data file, and the command that lists what it holds."""
 
 OTHER_FORMS = ("worm_pitch_diameter", "profile_shift")
 """Of what a proposal says."""
@@ -227,6 +241,11 @@ def _try(path: str, values: Values) -> None:
     for key, sentence in mistakes_of(case_tables()[table], values[table]):
         if key == path:
             raise InputError(sentence)
+    if path == "spectrum.step":
+        # Loads are of a life under a rated torque, which is known by now.
+        run = {name: dict(values[name]) for name in ("operation", "spectrum")}
+        complete(run)
+        operation_of(run)
 
 
 def _asked_ratio(question: Question) -> str:

@@ -1,18 +1,23 @@
 """What ``asperity size`` does."""
 
+import dataclasses
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from asperity import __version__
 from asperity.casefile.case import Case, naming_source
+from asperity.casefile.overruled import overruled
 from asperity.casefile.project import Project
 from asperity.cli import show
 from asperity.cli.new import OTHER_FORMS, given_to
 from asperity.commands import case_tables
 from asperity.commands.shown import check_shown, shown_as
 from asperity.files.store import output_folder, write_text
+from asperity.results.report import Heading
+from asperity.start.borne import with_bearings
 from asperity.start.duty import complete, duty
 from asperity.start.gear import proposals, ratio_of
-from asperity.start.kinds import Values, kind_of
+from asperity.start.kinds import kind_of
 from asperity.start.write import case_text
 from asperity.studies.proposed import Proposals
 
@@ -41,27 +46,39 @@ def size(
     given_to(values, asked, settings)
     wanted = ratio_of(ratio) if ratio else None
     origin = {setting.partition("=")[0].strip(): setting for setting in settings}
-    with naming_source(Case(case or "size", Path(), {}, values, case_tables(), origin)):
+    asking = Case(case or "size", Path(), {}, values, case_tables(), origin)
+    for line in overruled(asking):
+        show.note(line)
+    with naming_source(asking):
         complete(values)
         found = proposals(values, wanted, rank, cut=cut, locks=locks)
     folder = Path(case).parent if case else Path()
-    with shown_as(Project.model_validate(values.get("project", {})), folder, *shown):
+
+    def written(to: Path) -> None:
+        show.note(show.said(_written(found, asking, to, ratio)))
+
+    with (
+        shown_as(Project.model_validate(values.get("project", {})), folder, *shown),
+        show.files_first(None if out is None else lambda: written(out)),
+    ):
         if as_json:
             show.print_json(found.to_json())
         else:
             show.print_tables(found.tables())
-        if out is not None:
-            show.note(_written(found, values, out))
 
 
-def _written(found: Proposals, values: Values, out: Path) -> str:
+def _written(found: Proposals, asking: Case, out: Path, ratio: str) -> str:
     """Write proposals to a folder, each also as a case; returns what is to be said of it."""
-    folder = output_folder(out)
+    folder, values = output_folder(out), asking.raw
     kind, names = kind_of("gear"), found.write(folder, pictures="")
     for place, proposal in enumerate(found.found, 1):
         kept = {k: v for k, v in values["gearset"].items() if k not in OTHER_FORMS}
-        mine = {**values, "gearset": {**kept, **proposal.keys}}
+        mine = {**with_bearings(values, proposal.bearings), "gearset": {**kept, **proposal.keys}}
         tables = (*kind.tables, *(name for name in mine if name not in kind.tables))
         text = case_text(f"Proposal {place}", mine, case_tables(), tables)
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)
+    heading = Heading.of(asking, __version__)
+    given = {"ratio": ratio, **heading.given} if ratio else heading.given
+    report = found.to_html(dataclasses.replace(heading, given=given), folder)
+    names.append(write_text(folder / "report.html", report).name)
     return f"written to {folder}: {', '.join(names)}"

@@ -12,7 +12,7 @@ COMMANDS = (
     Command(
         "slide",
         "Pull a body over a vibrating base: drive force, friction, power.",
-        "With --out also slide.nc, slide.png and slide.json.",
+        "With --out also report.html, slide.nc, slide.png and slide.json.",
         module="asperity.slider.methods",
         needs=("slider", "friction"),
         counts="steps",
@@ -20,8 +20,8 @@ COMMANDS = (
     Command(
         "static",
         "Pull a body on a vibrating base steadily: the largest force under which it holds.",
-        "The drive is left out; the body needs slider.mass. With --out also static.json, static.nc "
-        "and static.png.",
+        "The drive is left out; the body needs slider.mass. With --out also report.html, "
+        "static.json, static.nc and static.png.",
         module="asperity.slider.static",
         needs=("slider", "friction"),
         counts="pulls",
@@ -29,8 +29,8 @@ COMMANDS = (
     Command(
         "block",
         "Pull an elastic block over a vibrating base: the same by finite elements.",
-        "With --out also block.nc, block.png, block_pressure.png, block.json and block.pvd, an "
-        "animation for ParaView.",
+        "With --out also report.html, block.nc, block.png, block_pressure.png, block.json and "
+        "block.pvd, an animation for ParaView.",
         module="asperity.block.solve",
         needs=("slider", "friction", "block"),
         counts="increments",
@@ -38,7 +38,7 @@ COMMANDS = (
     Command(
         "sweep",
         "Solve a case over a grid of values; what is done is kept, and found by the next run.",
-        "With --out also sweep.nc, sweep.json and, for one or two axes, sweep.png.",
+        "With --out also report.html, sweep.nc, sweep.json and, for one or two axes, sweep.png.",
         module="asperity.sweep.run",
         needs=("slider", "friction"),
         either=("gearset",),
@@ -63,7 +63,7 @@ COMMANDS = (
     Command(
         "branches",
         "Follow a body's periodic state along one axis and back: where it has two.",
-        "With --out also branches.json, branches.nc and branches.png.",
+        "With --out also report.html, branches.json, branches.nc and branches.png.",
         module="asperity.sweep.branches",
         needs=("slider", "friction"),
         read="asperity.sweep.axes:read_first",
@@ -116,7 +116,7 @@ COMMANDS = (
     Command(
         "sensitivity",
         "Raise each input of a worm gearset alone, to 40 %, and follow its efficiency.",
-        "With --out also sensitivity.nc, sensitivity.png and sensitivity.json.",
+        "With --out also report.html, sensitivity.nc, sensitivity.png and sensitivity.json.",
         module="asperity.studies.sensitivity",
         needs=("gearset", "operation"),
     ),
@@ -124,7 +124,7 @@ COMMANDS = (
         "methods",
         "Compare oils, additives, coatings and vibration by a worm gearset's efficiency.",
         "The vibration is that of the case's [vibration], with the law of [friction]. With --out "
-        "also methods.nc, methods.png and methods.json.",
+        "also report.html, methods.nc, methods.png and methods.json.",
         module="asperity.studies.methods",
         options=(
             Option(
@@ -142,7 +142,7 @@ COMMANDS = (
         "Find a worm gearset's most efficient design that keeps its load capacity.",
         "Pressure angle, diameter factor, module and roughness are free; every safety that "
         "holds goes on to. Also what a higher permissible torque costs. With --out also "
-        "optimise.nc, optimise.png and optimise.json.",
+        "report.html, optimise.nc, optimise.png and optimise.json.",
         module="asperity.studies.optimise",
         options=(
             Option(
@@ -213,6 +213,15 @@ COMMANDS = (
         options=(Option("over", _AN_AXIS, "TABLE.KEY=VALUES", many=True),),
     ),
     Command(
+        "roots",
+        "Find the stresses at the roots of a loaded worm wheel's teeth over a pitch.",
+        "Three teeth are meshed finely about their fillets; a minute. With --out also report.html, "
+        "roots.json, roots.nc and pictures.",
+        module="asperity.drive.root.study",
+        needs=("gearset", "operation", "drive"),
+        counts="meshes",
+    ),
+    Command(
         "relief",
         "Find the relief of a worm gearset that takes the load off its edges.",
         "Each design counts by the worst of its loads and mountings. With --out also report.html, "
@@ -253,7 +262,7 @@ COMMANDS = (
     Command(
         "directions",
         "Shake a worm gearset each way: what a micrometre and a watt save, and what forces.",
-        "With --out also directions.json, directions.nc and directions.png.",
+        "With --out also report.html, directions.json, directions.nc and directions.png.",
         module="asperity.drive.directions",
         needs=("gearset", "operation", "drive"),
         counts="ways",
@@ -261,7 +270,7 @@ COMMANDS = (
     Command(
         "locking",
         "Take a worm gearset's motor off: whether it holds, and how much shaking sets it free.",
-        "With --out also locking.json, locking.nc and locking.png.",
+        "With --out also report.html, locking.json, locking.nc and locking.png.",
         module="asperity.drive.locking",
         needs=("gearset", "operation", "drive"),
         counts="amplitudes",
@@ -269,7 +278,7 @@ COMMANDS = (
     Command(
         "control",
         "Switch a drive's vibration in a stroke, by a sensor or a clutch, and let each part fail.",
-        "With --out also control.json, control.nc and pictures.",
+        "With --out also report.html, control.json, control.nc and pictures.",
         module="asperity.drive.control.study",
         needs=("gearset", "operation", "drive", "control"),
         counts="thousandths of strokes",
@@ -277,7 +286,7 @@ COMMANDS = (
     Command(
         "fit",
         "Fit a friction law to measured ratios or forces: intervals, and what data cannot tell.",
-        "With --out also fit.json, fit.nc and fit.png.",
+        "With --out also report.html, fit.json, fit.nc and fit.png.",
         module="asperity.tribometer.fit.study",
         counts="fits and ends",
         arguments=(

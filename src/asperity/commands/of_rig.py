@@ -15,7 +15,7 @@ RIG_COMMANDS = (
     Command(
         "rig plan",
         "Lay out a series of tests: cells, files, order, time, and what it will not tell.",
-        "With --out also plan.json, plan.nc and plan.png.",
+        "With --out also report.html, plan.json, plan.nc and plan.png.",
         module="asperity.tribometer.plan.study",
         needs=("rig", "plan"),
         case="CONFIG",
@@ -52,7 +52,7 @@ RIG_COMMANDS = (
     Command(
         "rig look",
         "Tell what is understood of a file before it is imported: columns, units, times.",
-        "With --out also look.json, look.nc and look.png.",
+        "With --out also report.html, look.json, look.nc and look.png.",
         module="asperity.tribometer.importing.look",
         read="asperity.tribometer.importing.look:read",
         arguments=(Argument("files", "FILE...", "Of one recording.", many=True),),
@@ -62,7 +62,8 @@ RIG_COMMANDS = (
     Command(
         "rig import",
         "Make a recording of an oscilloscope's or logger's file: text, .mat, TDMS, WAV and more.",
-        "Without --out the file is looked at only.",
+        "Without --out the file is looked at only; --look FILE tells what is understood of it, as "
+        "asperity rig look FILE does.",
         module="asperity.tribometer.importing.study",
         arguments=(Argument("file", "FILE", "What the instrument or its program exported."),),
         options=(
@@ -70,6 +71,9 @@ RIG_COMMANDS = (
                 "join", "Another file of the same recording; again for each.", "FILE", many=True
             ),
             *_COLUMNS,
+            Option(
+                "start", "When it began, where the file does not say: 2026-05-01 14:30.", "DATE"
+            ),
         ),
         needs=("rig", "steel_disc", "bronze_disc", "drives", "channels"),
         case="CONFIG",
@@ -79,7 +83,8 @@ RIG_COMMANDS = (
     Command(
         "rig check",
         "Check what recordings say of their own sensors: zeros, signs, ratios, drive, tones.",
-        "With --out also check.json, check.nc and check.png, a small picture of each finding.",
+        "With --out also report.html, check.json, check.nc and check.png, a small picture of each "
+        "finding.",
         module="asperity.tribometer.checking.study",
         read="asperity.tribometer.checking.study:read",
         counts="recordings",
@@ -90,8 +95,8 @@ RIG_COMMANDS = (
     Command(
         "rig reduce",
         "Reduce recordings: what vibration does to torque, power and efficiency.",
-        "With --out also reduce.json, reduce.nc, reduce.csv, measurements.csv, which asperity fit "
-        "takes, budget.csv and reduce.png.",
+        "With --out also report.html, reduce.json, reduce.nc, reduce.csv, measurements.csv, which "
+        "asperity fit takes, budget.csv and reduce.png.",
         module="asperity.tribometer.reduction.study",
         read="asperity.tribometer.reduction.study:read",
         counts="recordings",

@@ -31,7 +31,7 @@ _TABLES = {
     "disc": "asperity.flanks.parameters:Disc",
     "modification": "asperity.flanks.parameters:Modification",
     "mount": "asperity.flanks.parameters:Mount",
-    "blank": "asperity.flanks.parameters:Blanks",
+    "blank": "asperity.gearset.blanks:Blanks",
     "measuring": "asperity.flanks.parameters:MeasuringOptions",
     "rig": "asperity.tribometer.parameters:Rig",
     "steel_disc": "asperity.tribometer.parameters:SteelDisc",

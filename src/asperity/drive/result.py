@@ -102,7 +102,6 @@ class DriveResult(Drawn):
         "drive": "The worm's torque over the last cycles, and its means from the start on.",
         "drive_powers": "Mean powers over the window: what is put in, and where it goes.",
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
     k_w: float = quantity("k_w", "", "peak velocity of the vibration over the sliding", key="k_w")
@@ -196,6 +195,11 @@ class DriveResult(Drawn):
     def geometry(self) -> Geometry:
         """What follows from the gearset's numbers."""
         return self.problem.geometry
+
+    @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
 
     @property
     @labelled("", "", "of the powers, what is missing over what is put in", swept=True)

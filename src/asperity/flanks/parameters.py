@@ -175,51 +175,6 @@ class Mount(Table):
     backlash: Annotated[float, _length("0.05 mm", ge=0.0, le=0.01)] | None = None
 
 
-class Blanks(Table):
-    r"""What wheel and worm are beside their teeth: in their solids and pictures alone.
-
-    Parameters
-    ----------
-    bore : float or str, optional
-        Diameter of the wheel's bore, m. Left out: 0.4 centre distances, at most half the inside of
-        the rim.
-    hub_diameter : float or str, optional
-        Outside diameter of the wheel's hub, m. Left out: 1.6 bores, or all the inside of the rim
-        where that leaves no web.
-    hub_width : float or str, optional
-        Length of the hub along the axis, m, its middle in mid-face. Left out: the face width, or
-        the bore where that is more.
-    web_width : float or str, optional
-        Thickness of the disc between hub and rim, m. Left out: half the face width.
-    shaft_diameter : float or str, optional
-        Diameter of the worm's shaft on both sides of the thread, m, less than its root diameter.
-        Left out: nine tenths of that.
-    drive_end : float or str, optional
-        Length of the shaft beyond the thread at the end where it is driven, m; 0 for none. Left
-        out: that of the free end and two shaft diameters.
-    free_end : float or str, optional
-        The same at the other end, m. Left out: to half a shaft diameter beyond bearings that stand
-        1.5 centre distances apart.
-    chamfer : float or str, optional
-        Chamfer of the bore and of the shaft's ends, m; 0 for none. Left out: a twentieth of their
-        diameter, at most 1 mm.
-    keyways : {'none', 'wheel', 'worm', 'both'}
-        Which have a keyway of DIN 6885-1 in STEP: the wheel's bore, the worm's driven end.
-    """
-
-    table: ClassVar[str] = "blank"
-
-    bore: Annotated[float, _length("30 mm", gt=0, le=10.0)] | None = None
-    hub_diameter: Annotated[float, _length("50 mm", gt=0, le=10.0)] | None = None
-    hub_width: Annotated[float, _length("30 mm", gt=0, le=10.0)] | None = None
-    web_width: Annotated[float, _length("10 mm", gt=0, le=10.0)] | None = None
-    shaft_diameter: Annotated[float, _length("12 mm", gt=0, le=10.0)] | None = None
-    drive_end: Annotated[float, _length("60 mm", ge=0.0, le=10.0)] | None = None
-    free_end: Annotated[float, _length("40 mm", ge=0.0, le=10.0)] | None = None
-    chamfer: Annotated[float, _length("1 mm", ge=0.0, le=0.1)] | None = None
-    keyways: Literal["none", "wheel", "worm", "both"] = "none"
-
-
 class MeasuringOptions(Table):
     r"""How worm and wheel are measured, and how far their teeth may be thinner than they should.
 

@@ -8,6 +8,9 @@ from asperity.gearset.geometry import Geometry
 from asperity.results import Result
 from asperity.results.report import Picture, Section
 
+Views = tuple[tuple[str, str], tuple[str, str]]
+"""Two views of a gearset, each as SVG with its caption."""
+
 
 class Drawn(Result):
     """Base of answers about a worm gearset: they tell its geometry, and draw it."""
@@ -17,17 +20,30 @@ class Drawn(Result):
         """What follows from the gearset's numbers."""
         raise NotImplementedError
 
+    @property
+    def hand(self) -> str:
+        """Of the worm: right or left."""
+        raise NotImplementedError
+
     def to_json(self) -> dict[str, Any]:
         """Return the scalars by key, each key with its unit, the notes and the geometry."""
         return super().to_json() | {"geometry": self.geometry.to_json()}
 
+    def seen(self) -> Views:
+        """Return both views of it, each as SVG with its caption."""
+        return views_of(self.geometry, self.hand)
+
     def sections(self, folder: Path | None = None) -> tuple[Section, ...]:
         """Return what its report says, the gearset drawn to scale ahead of the results."""
         heading, *others = super().sections(folder)
-        return heading, drawn(self.geometry), *others
+        return heading, drawn(self.seen()), *others
 
 
-def drawn(g: Geometry) -> Section:
+def views_of(g: Geometry, hand: str = "right") -> Views:
+    """Return both views of a gearset without its shafts."""
+    return along_the_wheel(g, hand), through_the_wheel(g)
+
+
+def drawn(views: Views) -> Section:
     """Return the part of a report that draws a gearset along and through its wheel."""
-    views = (along_the_wheel(g), through_the_wheel(g))
     return Section("The gearset", pictures=tuple(Picture("", svg=v, caption=c) for v, c in views))

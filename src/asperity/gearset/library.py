@@ -1,9 +1,10 @@
 """Named materials, lubricants and bearings from data files, each value with its source.
 
 A data file is TOML. ``[source.ID]`` says where values come from (``name``, ``confidence``,
-``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[worm.NAME]``,
-``[steel.NAME]``, ``[base_oil.NAME]``, ``[lubricant.NAME]``, ``[bearings.NAME]``, ``[motor.NAME]``,
-``[bearing.NAME]``, ``[shaft_steel.NAME]`` or ``[hob.NAME]``, with the keys of its class. Its
+``note``), and every other table holds one thing: ``[wheel.NAME]``, ``[plastic.NAME]``,
+``[worm.NAME]``, ``[steel.NAME]``, ``[base_oil.NAME]``, ``[lubricant.NAME]``,
+``[bearings.NAME]``, ``[motor.NAME]``, ``[bearing.NAME]``, ``[shaft_steel.NAME]`` or
+``[hob.NAME]``, with the keys of its class. Its
 key ``from`` names the source of each value by key, with ``"*"`` for all others::
 
     [source.maker]
@@ -38,6 +39,7 @@ VARIABLE = "ASPERITY_MATERIALS"
 SECTIONS: Mapping[str, str] = {
     "wheel": "wheel material",
     "worm": "worm material",
+    "plastic": "plastic of wheels",
     "steel": "steel",
     "base_oil": "base oil",
     "lubricant": "lubricant",

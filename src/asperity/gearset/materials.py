@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal
 
+from pydantic import Field, model_validator
+
 from asperity.errors import InputError
 from asperity.gearset.library import Sourced, every, find, resolve
 from asperity.sources import Source, weakest
@@ -13,7 +15,7 @@ Strength = Annotated[float, Quantity("Pa", what="a stress", example="660 MPa", g
 Poisson = Annotated[float, Quantity("", what="a ratio", example="0.35", ge=0, lt=0.5)]
 Hardness = Annotated[float, Quantity("", what="a Brinell hardness", example="150", gt=0, le=1000)]
 Factor = Annotated[float, Quantity("", what="a factor", example="1.1", gt=0)]
-Family = Literal["tin bronze", "aluminium bronze", "grey iron", "nodular iron"]
+Family = Literal["tin bronze", "aluminium bronze", "grey iron", "nodular iron", "plastic"]
 BaseOilName = Literal["mineral", "polyalphaolefin", "polyglycol"]
 WheelClass = Literal[
     "phosphor bronze centrifugal",
@@ -53,8 +55,9 @@ class WheelMaterial(Material):
 
     Parameters
     ----------
-    family : {'tin bronze', 'aluminium bronze', 'grey iron', 'nodular iron'}
-        Decides on friction and wear in ISO/TR 14521.
+    family : {'tin bronze', 'aluminium bronze', 'grey iron', 'nodular iron', 'plastic'}
+        Decides on friction and wear in ISO/TR 14521, which knows no plastics: those are in tables
+        of their own, `asperity.gearset.plastics.Plastic`.
     material_factor : float
         :math:`Y_W`.
     pitting_strength : float or str
@@ -69,10 +72,13 @@ class WheelMaterial(Material):
         Row of BS 721's tables of stress factors; left out where none fits.
     agma6034 : {'sand', 'chill', 'centrifugal'}, optional
         Casting as AGMA 6034 knows it; left out where the alloy is not a bronze.
+    own : Plastic, optional
+        The table of a plastic, which comes from a data file alone.
     """
 
     table: ClassVar[str] = "gearset.wheel_material"
     section: ClassVar[str] = "wheel"
+    also: ClassVar[str] = "plastic"
 
     family: Family
     material_factor: Factor
@@ -82,6 +88,35 @@ class WheelMaterial(Material):
     brinell_hardness: Hardness | None = None
     bs721: WheelClass | None = None
     agma6034: Casting | None = None
+    own: Annotated[Any, Field(exclude=True)] = None
+
+    @model_validator(mode="after")
+    def _of_plastic(self) -> "WheelMaterial":
+        if (self.family == "plastic") != (self.own is not None):
+            raise InputError(
+                f"{self.table}.family is {self.family!r}; a plastic is named by its own table of "
+                "a data file: asperity new plastic begins one"
+            )
+        return self
+
+    def require_covered(self, standard: str) -> None:
+        """Refuse a standard that does not know of its kind.
+
+        Parameters
+        ----------
+        standard : str
+            Its name.
+
+        Raises
+        ------
+        InputError
+            It is a plastic, which none covers.
+        """
+        if self.family == "plastic":
+            raise InputError(
+                f"{self.table} is {self.name!r}, a plastic, which {standard} does not cover: "
+                "asperity rate judges it by its own table"
+            )
 
     @property
     def flow_pressure(self) -> float | None:

@@ -11,9 +11,9 @@ from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 from asperity.casefile import Table
 from asperity.errors import InputError
 from asperity.gearset.geometry import Flank, Geometry, Rule
-from asperity.gearset.library import resolve
 from asperity.gearset.macro import LARGEST_SHIFT, complete
 from asperity.gearset.materials import WheelMaterial, WormMaterial, worm_material
+from asperity.gearset.plastics import wheel_material
 from asperity.gearset.relations import centre_distance
 from asperity.units import Quantity
 
@@ -157,7 +157,7 @@ class Gearset(Table):
         if "worm_material" in named:
             named["worm_material"] = worm_material(named["worm_material"], info.context)
         if "wheel_material" in named:
-            named["wheel_material"] = resolve(WheelMaterial, named["wheel_material"], info.context)
+            named["wheel_material"] = wheel_material(named["wheel_material"], info.context)
         return named
 
     @model_validator(mode="after")

@@ -11,7 +11,7 @@ from asperity.gearset.lubricants import Lubricant
 from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.table import Tolerances
-from asperity.rating.changes import changed_words
+from asperity.rating.changes import changed_words, fails_anew
 from asperity.rating.driven import given_of
 from asperity.rating.inputs import Inputs
 from asperity.rating.levers import Alternative, alternatives, levers
@@ -48,21 +48,30 @@ def answer(problem: Problem, _: Run) -> Rated:
     if first is None:
         return rated
     judge = judge_of(first.demand, given.options, rated.tables_bs721)
-    others = alternatives(judge, given.gearset, given.operation)
     return dataclasses.replace(
         rated,
         levers=levers(judge, given.gearset, given.operation),
-        alternatives=tuple(_with_changes(rated, one, standards, case.folder) for one in others),
+        alternatives=alternatives(
+            judge,
+            given.gearset,
+            given.operation,
+            lambda other: _with_changes(rated, other, standards, case.folder),
+        ),
     )
 
 
 def _with_changes(
     rated: Rated, other: Alternative, standards: Sequence[str], folder: Path | None
-) -> Alternative:
-    """Return an alternative with what else it changes in the words of the verdict."""
+) -> Alternative | None:
+    """Return an alternative with what else it changes in the words of the verdict.
+
+    None if it does not hold by a standard any more by which the gearset holds: that is no best.
+    """
     given, (table, _, key) = rated.given, other.key.partition(".")
     thing = find(Lubricant if key == "lubricant" else WheelMaterial, other.value)
     tables: dict[str, Any] = {"gearset": given.gearset, "operation": given.operation}
     tables[table] = tables[table].model_copy(update={key: thing})
     changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
+    if fails_anew(rated, changed):
+        return None
     return other._replace(changes=changed_words(rated, changed))

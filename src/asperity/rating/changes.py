@@ -17,6 +17,14 @@ def changed_words(before: Rated, after: Rated) -> tuple[str, ...]:
     return (*_standing(before, after), *_locking(before, after))
 
 
+def fails_anew(before: Rated, after: Rated) -> bool:
+    """Whether a standard by which a gearset holds says that it does not hold any more."""
+    held = {one.standard for one in before.verdict.standing if one.word == "holds"}
+    return any(
+        one.standard in held and one.word == "does not hold" for one in after.verdict.standing
+    )
+
+
 def _standing(before: Rated, after: Rated) -> Iterator[str]:
     old = {one.standard: one for one in before.verdict.standing}
     for one in after.verdict.standing:

@@ -2,6 +2,8 @@
 
 import itertools
 import math
+from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +13,7 @@ from asperity.rating.iso14521.calculation import parts_of
 from asperity.rating.result import Rating
 from asperity.results.quantity import Quantities, quantity
 from asperity.results.table import Cell, Table, table_of_rows
+from asperity.results.words import Number, Sentence
 
 
 class DutyPart(Quantities):
@@ -23,6 +26,53 @@ class DutyPart(Quantities):
     share: float | None = quantity("", "", "share of all wear", key="wear_share")
     sump: float | None = quantity("theta_S", "degC", "temperature of the oil", key="theta_S_degC")
     loss: float = quantity("P_V", "W", "all losses")
+
+
+class DutyMean(Quantities):
+    """What a duty cycle comes to while it runs; None where the worm drives under no load of it."""
+
+    hours: float = quantity("t", "h", "running time")
+    output_power: float = quantity("P_2m", "W", "mean power of the wheel")
+    loss: float = quantity("P_Vm", "W", "mean loss")
+    efficiency: float | None = quantity("eta_m", "", "output over input of what the worm drives")
+    energy: float = quantity("W_V", "kWh", "energy lost over its life", key="lost_energy_kWh")
+
+    def sentence(self, torque: float, speed: float, *, occurs: bool, key: str = "") -> Sentence:
+        """Return it in words, beside what stands before: at a rated torque, N m, and speed, rpm."""
+        rated = f"{torque:.4g} N m, {speed:.4g} rpm"
+        point = rated if occurs else f"the rated {rated}, no load of the duty"
+        said: list[Any] = [f"this at {point}; over the duty "]
+        if self.efficiency is not None:
+            said += [Number.of(self.efficiency, ".1f", key and f"{key}.efficiency", 100.0), " %, "]
+        return Sentence(
+            *said, "mean loss ", Number.of(self.loss, ".4g", key and f"{key}.loss_W"), " W, ",
+            Number.of(self.energy, ".4g", key and f"{key}.lost_energy_kWh"),
+            " kWh",
+        )  # fmt: skip
+
+
+def duty_mean(given: Inputs, parts: Sequence[DutyPart]) -> DutyMean | None:
+    """Return what the parts of a duty cycle come to together; None without any."""
+    if not parts:
+        return None
+    hours = math.fsum(part.hours for part in parts)
+    turns = math.pi / 30.0 / float(given.gear_ratio)
+    powers = [part.torque * part.speed * turns for part in parts]
+    carried = math.fsum(p.hours * power for p, power in zip(parts, powers, strict=True))
+    driven = [
+        (part.hours * power, part.hours * part.loss)
+        for part, power, load in zip(parts, powers, given.duty, strict=True)
+        if not load.back
+    ]
+    out, lost = (math.fsum(each) for each in zip(*driven, strict=True)) if driven else (0.0, 0.0)
+    loss = math.fsum(part.hours * part.loss for part in parts) / hours
+    return DutyMean(
+        hours=hours,
+        output_power=carried / hours,
+        loss=loss,
+        efficiency=out / (out + lost) if driven else None,
+        energy=1e-3 * hours * loss,
+    )
 
 
 def duty_parts(given: Inputs, iso: Rating) -> tuple[DutyPart, ...]:

@@ -1,9 +1,10 @@
 """What the verdict says of a load spectrum and of a housing."""
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from asperity.rating.duty import DutyPart
+from asperity.rating.duty import DutyMean, DutyPart, duty_mean
 from asperity.rating.endurance import Endurance
 from asperity.rating.inputs import Inputs
 from asperity.rating.result import Rating
@@ -15,15 +16,13 @@ _MOST_PARTS = 3
 
 def loads_line(given: Inputs) -> str:
     """Return how many loads there are, for how long, and in which duty."""
-    spectrum = given.operation.spectrum
-    assert spectrum is not None
+    spectrum, how = given.operation.spectrum, given.how
     hours = float(given.total(part.hours for part in given.loads))
     count = len(given.duty)
-    how = spectrum.how
-    duty = "" if how.kind == "S1" else f", {' '.join(spectrum.duty.split())}"
+    duty = "" if spectrum is None or how.kind == "S1" else f", {' '.join(spectrum.duty.split())}"
     if how.kind == "S3":
-        duty += f" of {spectrum.cycle / 60.0:.4g} min"
-    named = f", {spectrum.duty_class}" if spectrum.duty_class else ""
+        duty += f" of {given.cycle / 60.0:.4g} min"
+    named = f", {spectrum.duty_class}" if spectrum is not None and spectrum.duty_class else ""
     return f"{count} load{'s' * (count > 1)} in {hours:.4g} h{named}{duty}"
 
 
@@ -36,9 +35,10 @@ def duty_lines(
 ) -> Iterator[str]:
     """Yield the lines of a spectrum and a housing; none without them."""
     operation, iso = given.operation, found.get("iso14521")
-    if operation.spectrum is not None:
-        if parts:
-            yield _shares(parts)
+    if operation.steps is not None:
+        if mean := duty_mean(given, parts):
+            yield _over_all(given, mean)
+        yield from _shares(parts)
         if lasts:
             hours = float(given.total(part.hours for part in given.loads))
             yield lasts[0].sentence(hours, "endurance.0")
@@ -52,8 +52,18 @@ def duty_lines(
         yield starting_line(starts)
 
 
-def _shares(parts: Sequence[DutyPart]) -> Sentence:
-    """Return which loads do most of the wear."""
+def _over_all(given: Inputs, mean: DutyMean) -> Sentence:
+    """Return what the loads come to together, and of which one the losses before are."""
+    torque, speed = float(given.output_torque), float(given.worm_speed)
+    occurs = any(
+        math.isclose(torque, float(p.torque)) and math.isclose(speed, float(p.speed))
+        for p in given.duty
+    )
+    return mean.sentence(torque, speed, occurs=occurs, key="duty_mean")
+
+
+def _shares(parts: Sequence[DutyPart]) -> Iterator[Sentence]:
+    """Yield which loads do most of the wear, where it has an answer."""
     order = sorted(enumerate(parts), key=lambda pair: -(pair[1].share or 0.0))
     said = [
         Sentence(
@@ -64,7 +74,8 @@ def _shares(parts: Sequence[DutyPart]) -> Sentence:
         for place, part in order[:_MOST_PARTS]
         if part.share is not None
     ]
-    return Sentence("of all wear by ISO/TR 14521: ", Sentence.joined(said))
+    if said:
+        yield Sentence("of all wear by ISO/TR 14521: ", Sentence.joined(said))
 
 
 def _oil(given: Inputs, iso: Rating) -> Sentence:

@@ -17,6 +17,7 @@ from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
 from asperity.rating.load_steps import LoadStep
 from asperity.rating.parameters import DEFAULT_LIFE, Operation, RatingOptions
+from asperity.rating.spectrum import Duty
 from asperity.units.standards import FROM_SI, RPM
 
 Values = dict[str, Real]
@@ -210,6 +211,12 @@ class Inputs:
         if housing is None or housing.measured_at is None:
             return scaled(self.operation.worm_speed, RPM)
         return scaled(housing.measured_at, RPM)
+
+    @property
+    def how(self) -> Duty:
+        """How it is run in the terms of IEC 60034-1: S1 where no spectrum says otherwise."""
+        spectrum = self.operation.spectrum
+        return Duty("S1") if spectrum is None else spectrum.how
 
     @property
     def cycle(self) -> float:

@@ -183,30 +183,41 @@ class Alternative(NamedTuple):
         return Sentence(f"{_WORDS[self.key]} {self.value} (", safety, f"{also})")
 
 
-def alternatives(judge: Judge, gearset: Gearset, operation: Operation) -> tuple[Alternative, ...]:
+def alternatives(
+    judge: Judge,
+    gearset: Gearset,
+    operation: Operation,
+    kept: Callable[[Alternative], Alternative | None] = lambda other: other,
+) -> tuple[Alternative, ...]:
     """Return the best other oil and the best other wheel material, the better one first.
 
     Parameters
     ----------
     judge, gearset, operation
         As of `levers`.
+    kept : callable, optional
+        Returns an alternative with what is to be said of it, or None if it is none.
 
     Returns
     -------
     tuple of Alternative
-        Of each kind the best, where it brings at least a percent of the safety. Pairs that practice
-        avoids are left out.
+        Of each kind the best that is kept, where it brings at least a percent of the safety. Pairs
+        that practice avoids are left out.
     """
-    now = judge(gearset, operation)
-    best: dict[str, Alternative] = {}
+    least = judge(gearset, operation) * (1.0 + _LITTLE)
+    better: dict[str, list[Alternative]] = {}
     for key, name, changed in _others(gearset, operation):
         try:
             then = judge(*changed)
         except AsperityError:
             continue
-        if then > max(now * (1.0 + _LITTLE), best[key].safety if key in best else 0.0):
-            best[key] = Alternative(key, name, then)
-    return tuple(sorted(best.values(), key=lambda found: -found.safety))
+        if then > max(least, 0.0):
+            better.setdefault(key, []).append(Alternative(key, name, then))
+    found = [
+        next(filter(None, map(kept, sorted(others, key=lambda other: -other.safety))), None)
+        for others in better.values()
+    ]
+    return tuple(sorted(filter(None, found), key=lambda other: -other.safety))
 
 
 def _others(

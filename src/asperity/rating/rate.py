@@ -12,20 +12,22 @@ from asperity.gearset.geometry import Geometry
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.table import Tolerances
+from asperity.rating import own_table
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import given_of, told_of
-from asperity.rating.duty import DutyPart, duty_parts, duty_table
+from asperity.rating.duty import DutyPart, duty_mean, duty_parts, duty_table
 from asperity.rating.duty_words import duty_lines, loads_line
 from asperity.rating.endurance import Endurance, endurance, endurance_table
 from asperity.rating.entries import assumptions
 from asperity.rating.forces import Forces, forces
 from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs
+from asperity.rating.iso14521.housed import uncounted
 from asperity.rating.levers import Alternative, Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row
+from asperity.rating.rows import Row, Shafts
 from asperity.rating.self_locking import SelfLocking, self_locking
 from asperity.rating.standards import PROMISED, STANDARDS, known_standards, rate_by, tables_of
 from asperity.rating.starting import Starting, starting, starting_table
@@ -77,11 +79,12 @@ class Rated(Result):
         What the tolerances leave of it, where there are any.
     rows : tuple of Row
         What others than the standards say of the same gearbox, for its verdict.
+    shafts : Shafts, optional
+        What draws its shafts, and works them out in the workbook.
     """
 
     title: ClassVar[str] = "Worm gearset, rated"
     stem: ClassVar[str] = "rate"
-    reported: ClassVar[bool] = True
 
     gearset: Gearset
     geometry: Geometry
@@ -98,6 +101,7 @@ class Rated(Result):
     contact: "Section | None" = None
     backlash: Backlash | None = None
     rows: tuple[Row, ...] = ()
+    shafts: Shafts | None = None
 
     @property
     def verdict(self) -> Verdict:
@@ -109,6 +113,7 @@ class Rated(Result):
             self.given.operation.wear_assumed,
             self.unanswered,
             self.rows,
+            uncounted(self.given),
         )
 
     @property
@@ -139,9 +144,8 @@ class Rated(Result):
     @property
     def of_duty(self) -> tuple[str, ...]:
         """What the verdict says of spectrum and housing."""
-        lasts = self.endurance if self.given.operation.spectrum is not None else ()
-        parts = self.duty_cycle
-        return tuple(duty_lines(self.given, self.found, parts, lasts, self.starting))
+        lasts = self.endurance if self.given.operation.steps is not None else ()
+        return tuple(duty_lines(self.given, self.found, self.duty_cycle, lasts, self.starting))
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -177,9 +181,11 @@ class Rated(Result):
         }
 
     def _of_spectrum(self) -> dict[str, Any]:
-        if self.given.operation.spectrum is None:
+        if self.given.operation.steps is None:
             return {}
+        mean = duty_mean(self.given, self.duty_cycle)
         return {
+            **({} if mean is None else {"duty_mean": mean.to_json()}),
             "endurance": [one.to_json() for one in self.endurance],
             "starting": [one.to_json() for one in self.starting],
         }
@@ -188,28 +194,24 @@ class Rated(Result):
         """Yield every number of every rating, by ``standard.key``."""
         for standard, rating in self.found.items():
             for number in rating:
-                label = Label(
-                    number.symbol,
-                    number.unit,
-                    number.meaning,
-                    key=f"{standard}.{number.key}",
-                    variable=f"{standard}_{number.key}",
-                )
+                key, name = f"{standard}.{number.key}", f"{standard}_{number.key}"
+                of = number.symbol, number.unit, number.meaning
+                label = Label(*of, key=key, variable=name)
                 name = f"{standard}.{number.symbol or number.key}"
                 yield Entry(name, label, number.value, origin=number)
 
     def views(self) -> dict[str, str]:
         """Return the gearset drawn to scale."""
-        from asperity.gearset.drawing import along_the_wheel, through_the_wheel
+        from asperity.rating.report import seen
 
-        along, through = along_the_wheel(self.geometry), through_the_wheel(self.geometry)
+        along, through = seen(self)
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
         """Return the gearset's name, and how it is loaded."""
         name = self.gearset.name or "worm gearset"
-        spectrum = self.given.operation.spectrum
-        return name if spectrum is None else f"{name}: {loads_line(self.given)}"
+        steps = self.given.operation.steps
+        return name if steps is None else f"{name}: {loads_line(self.given)}"
 
     def __repr__(self) -> str:
         return f"{self.heading()}\n{self.verdict!r}"
@@ -229,7 +231,7 @@ class Rated(Result):
             tables.append(self.self_locking.table())
         if self.holding:
             tables.append(held_table(self.holding))
-        if self.given.operation.spectrum is not None:
+        if self.given.operation.steps is not None:
             tables.append(endurance_table(self.endurance))
         if self.starting:
             tables.append(starting_table(self.starting))
@@ -270,7 +272,7 @@ class Rated(Result):
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
         if len(self.given.duty) > _MOST_SHEETS:
             return [*names, "rate.csv"]
-        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx")
+        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx", self.shafts)
         return [*names, "rate.csv", "rate.xlsx"]
 
 
@@ -337,11 +339,10 @@ def rated_of(
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
     steel = gearset.worm_material.taken_for
-    notes = (
-        []
-        if steel is None
-        else [f"worm material: {steel.note}, by {steel.name} ({steel.confidence})"]
-    )
+    notes = []
+    if steel is not None:
+        notes.append(f"worm material: {steel.note}, by {steel.name} ({steel.confidence})")
+    rows, told = own_table.rows_of(given)
     for name in wanted:
         try:
             found[name] = rate_by(name, given, tables)
@@ -364,7 +365,8 @@ def rated_of(
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
         self_locking=self_locking(given, found, tables),
-        notes=(*told_of(asked, given.operation), *notes),
+        notes=(*told_of(asked, given.operation), *told, *notes),
+        rows=rows,
         assumed=assumptions(given),
     )
 

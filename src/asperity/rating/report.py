@@ -1,10 +1,11 @@
 """What the report of a rating says, from verdict to sources."""
 
 import dataclasses
+import math
 from collections.abc import Iterator
 from typing import Any
 
-from asperity.gearset.drawn import drawn
+from asperity.gearset.drawn import Views, drawn, views_of
 from asperity.rating.duty import duty_table
 from asperity.rating.endurance import endurance_table
 from asperity.rating.forces import MEANINGS
@@ -14,6 +15,7 @@ from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
 from asperity.rating.verdict import bar, locking_line, power_lines
+from asperity.results.language import Spoken, said
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
 from asperity.results.words import Number, Sentence, text_of
@@ -38,11 +40,20 @@ Reported = Any
 """A `asperity.rating.rate.Rated`, whose module imports this one."""
 
 
+def seen(rated: Reported) -> Views:
+    """Return both views of a gearset that is rated, with its shafts where there are any."""
+    if rated.shafts is None:
+        return views_of(rated.geometry, rated.gearset.hand)
+    views: Views = rated.shafts.seen()
+    return views
+
+
 def sections(rated: Reported) -> Iterator[Section]:
     """Yield the sections of the report of a rating."""
     cited: dict[Source, int] = {}
-    yield Section("Verdict", tuple(_come_to(rated)), tables=tuple(_verdict(rated)))
-    yield dataclasses.replace(drawn(rated.geometry), tables=(_geometry(rated),))
+    verdict = (*_verdict(rated), *_beside(rated))
+    yield Section("Verdict", tuple(_come_to(rated)), tables=verdict)
+    yield dataclasses.replace(drawn(seen(rated)), tables=(_geometry(rated),))
     if rated.iso14521 is not None:
         flow = Picture("", svg=power_flow(rated.iso14521),
                        caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip
@@ -76,13 +87,10 @@ def _duty(rated: Reported) -> Section:
     """Return what each load has in wear and heat, and how warm the housing gets."""
     iso, given = rated.iso14521, rated.given
     tables = [duty_table(rated.duty_cycle)]
-    if given.operation.spectrum is None and given.operation.housing is None:
-        return Section("Duty cycle", tables=tuple(tables))
     from asperity.rating.duty_plots import plot_duty
     from asperity.rating.warming import warming
 
-    if given.operation.spectrum is not None:
-        tables.append(endurance_table(rated.endurance))
+    tables.append(endurance_table(rated.endurance))
     tables += [starting_table(rated.starting)] if rated.starting else []
     figure = plot_duty(rated.duty_cycle, float(iso["theta_S_lim_degC"]), warming(given, iso))
     caption = (
@@ -147,7 +155,27 @@ def _verdict(rated: Reported) -> Iterator[Table]:
     told = rated.given.operation.wear_told("iso14521" if rated.iso14521 is not None else "")
     wear = (told,) if rated.verdict.wear_assumed else ()
     unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
-    yield Table(columns, tuple(rows), remarks=(said, *wear, *unrated))
+    heat = (rated.verdict.heat_assumed,) if rated.verdict.heat_assumed else ()
+    yield Table(columns, tuple(rows), remarks=(said, *wear, *heat, *unrated))
+
+
+def _beside(rated: Reported) -> Iterator[Table]:
+    """Yield what shafts and bearings come to, where there are any."""
+    if not rated.rows:
+        return
+    rows = []
+    for place, row in enumerate(rated.rows):
+        key = f"verdict.rows.{place}.{'life_h' if row.unit else 'safety'}"
+        value = text_of(row.value, key=key) if math.isfinite(row.value) else "-"
+        stands = "holds" if row.holds else "FAILS"
+        name = Spoken(f"{said(row.standard)} {said(row.name)}")
+        rows.append((name, value, f"{row.asked:.4g}", row.unit, row.by,
+                     stands))  # fmt: skip
+    columns = (
+        Column("besides the standards"), Column("value", right=True), Column("asked", right=True),
+        Column("unit"), Column("by", folds=True), Column(""),
+    )  # fmt: skip
+    yield Table(columns, tuple(rows))
 
 
 def _geometry(rated: Reported) -> Table:

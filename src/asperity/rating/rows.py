@@ -1,9 +1,27 @@
 """A row of the verdict that comes from outside the three standards: a shaft, a bearing."""
 
 import math
-from typing import Any, NamedTuple
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from asperity.results.language import Spoken, said
+
+if TYPE_CHECKING:
+    from asperity.gearset.drawn import Views
+    from asperity.rating.inputs import Inputs, Values
+    from asperity.results.live import Cells
+
+
+class Shafts(Protocol):
+    """What others than the standards know of the shafts of the same gearbox."""
+
+    def seen(self) -> "Views":
+        """Return both views of the gearset with its shafts, each as SVG with its caption."""
+
+    def sheets(
+        self, cells: "Cells", given: "Inputs", iso: "Values"
+    ) -> Mapping[str, list[tuple[Any, ...]]]:
+        """Return the rows of a sheet for each shaft, its numbers found from traced inputs."""
 
 
 class Row(NamedTuple):
@@ -29,6 +47,11 @@ class Row(NamedTuple):
     by: str = ""
 
     @property
+    def margin(self) -> float:
+        """What there is over what is asked."""
+        return self.value / self.asked
+
+    @property
     def holds(self) -> bool:
         """Whether it is enough."""
         return self.value >= self.asked
@@ -36,11 +59,19 @@ class Row(NamedTuple):
     @property
     def line(self) -> str:
         """It in a line of the screen."""
-        unit = f" {self.unit}" if self.unit else ""
         fails = "" if self.holds else f"  {said('FAILS')}"
-        stands = f"{self.value:.3g}{unit} {said('of')} {self.asked:.4g}{fails}"
+        stands = f"{self.value:.3g}{self._unit} {said('of')} {self.asked:.4g}{fails}"
         by = f"; {said(self.by)}" if self.by else ""
-        return Spoken(f"{f'{self.standard} {said(self.name)}':24} {stands}{by}")
+        return Spoken(f"{f'{said(self.standard)} {said(self.name)}':24} {stands}{by}")
+
+    @property
+    def stands(self) -> str:
+        """What there is of what is asked."""
+        return f"{self.value:.3g}{self._unit} of the {self.asked:.4g} asked"
+
+    @property
+    def _unit(self) -> str:
+        return f" {self.unit}" if self.unit else ""
 
     def to_json(self) -> dict[str, Any]:
         """Return it by key."""

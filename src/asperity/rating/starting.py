@@ -71,11 +71,10 @@ class Starting(Quantities):
 
 
 def has_starts(given: Inputs) -> bool:
-    """Whether the spectrum of a gearset tells of starts."""
-    spectrum = given.operation.spectrum
-    if spectrum is None:
+    """Whether the loads of a gearset tell of starts."""
+    if given.operation.steps is None:
         return False
-    return given.operation.most_starts > 0.0 or spectrum.how.kind != "S1"
+    return given.operation.most_starts > 0.0 or given.how.kind != "S1"
 
 
 def starting(

@@ -84,6 +84,8 @@ class Verdict(NamedTuple):
         What is to be said of the torque that wear is judged by.
     rows : tuple of Row
         What others than the three standards say, of shafts and bearings for one.
+    heat_assumed : str
+        What is to be said of a duty that temperature is not judged by.
     """
 
     safeties: tuple[Safety, ...]
@@ -94,6 +96,7 @@ class Verdict(NamedTuple):
     film: Film | None = None
     wear_assumed: str = ""
     rows: tuple[Row, ...] = ()
+    heat_assumed: str = ""
 
     @classmethod
     def of(
@@ -104,6 +107,7 @@ class Verdict(NamedTuple):
         wear_assumed: str = "",
         unanswered: Mapping[str, str] | None = None,
         rows: tuple[Row, ...] = (),
+        heat_assumed: str = "",
     ) -> "Verdict":
         """Return the verdict of ratings by standard; why others have no answer, likewise.
 
@@ -121,6 +125,8 @@ class Verdict(NamedTuple):
             Why a standard has no answer.
         rows : tuple of Row
             Of what is not of the standards, such as bearings.
+        heat_assumed : str
+            What was assumed of a duty's heat; empty for nothing.
 
         Returns
         -------
@@ -138,6 +144,7 @@ class Verdict(NamedTuple):
             Film.of(found["iso14521"]) if "h_min_um" in found.get("iso14521", ()) else None,
             wear_assumed if any(demand.name == "wear" for demand in rated) else "",
             rows,
+            heat_assumed if any(demand.name == "temperature" for demand in rated) else "",
         )
 
     def __repr__(self) -> str:
@@ -191,6 +198,8 @@ class Verdict(NamedTuple):
         failing = [f"{row.name} by {row.standard}" for row in self.rows if not row.holds]
         if failing:
             yield f"does not hold: {listed(failing)}"
+        elif self.rows and not self.safeties:
+            yield f"holds by {listed([*dict.fromkeys(row.standard for row in self.rows)])}"
 
     def sentences(self) -> Iterator[str]:
         """Yield whether it holds, and what fails first."""
@@ -235,18 +244,20 @@ class Verdict(NamedTuple):
 
         Below them what the bars of wear are judged by, where it is assumed.
         """
-        if not self.safeties:
+        if not self.safeties and not self.rows:
             return
         names = [f"{NAMES[one.demand.standard]} {said(one.demand.name)}" for one in self.safeties]
-        wide = max(_NAMES, *map(len, names))
+        wide = max([_NAMES, *map(len, names)])
         unit = _BAR // int(_LONGEST)
         scale = "".join(f"{number:>{unit}}" for number in range(1, int(_LONGEST) + 1))
-        yield f"{'':{wide + 1}}{scale}  {said('times what is asked')}"
+        if self.safeties:
+            yield f"{'':{wide + 1}}{scale}  {said('times what is asked')}"
         for name, safety in zip(names, self.safeties, strict=True):
             yield f"{name:{wide}} {bar(safety.margin)} {safety.said}"
         for row in self.rows:
             yield from wrapped(row.line)
         yield from wrapped(self.wear_assumed)
+        yield from wrapped(self.heat_assumed)
 
 
 def _short(value: float) -> str:
@@ -309,6 +320,8 @@ def locking_line(locking: SelfLocking) -> str:
             said.append(f"{words}{alone}")
     locked = f"locks itself {', '.join(said)}" if said else "does not lock itself"
     angles = [math.degrees(math.atan(v.friction)) for v in locking]
+    if not angles:
+        locked = "no standard says whether it locks itself"
     lead = Number.of(math.degrees(locking.lead_angle), ".3g", "self_locking.lead_angle_deg")
     spread = f", friction {min(angles):.2g} to {max(angles):.2g} deg" if angles else ""
     return Sentence(f"{locked} (lead angle ", lead, f" deg{spread})")

@@ -25,6 +25,7 @@ from asperity.rating.entries import Fact, facts
 from asperity.rating.inputs import Inputs, Part, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.result import Rating
+from asperity.rating.rows import Shafts
 from asperity.rating.variation import derived
 from asperity.results.live import Cells, Page, write_live
 from asperity.units import unit_of
@@ -42,7 +43,13 @@ _FREE = (
 )  # fmt: skip
 
 
-def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], path: Path) -> Path:
+def write_rating(
+    given: Inputs,
+    tables: Tables,
+    found: Mapping[str, Rating],
+    path: Path,
+    shafts: Shafts | None = None,
+) -> Path:
     """Write the workbook of a rating.
 
     Parameters
@@ -55,11 +62,15 @@ def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], pat
         The ratings, by standard.
     path : path
         The file.
+    shafts : Shafts, optional
+        What has sheets of its own.
     """
     cells = Cells(_fact)
     traced, own = _traced(given, cells), _tables(tables, cells)
     values = {standard: _rated(standard, traced, own) for standard in found}
+    others = {} if shafts is None else shafts.sheets(cells, traced, values.get("iso14521", {}))
     cells.settle(number for rated in values.values() for number in rated.values())
+    cells.settle(number for rows in others.values() for number, *_ in rows)
     geometry = Page(_GEOMETRY, cells)
     for name, value in vars(traced).items():
         if isinstance(value, Traced) and value.operation:
@@ -79,6 +90,8 @@ def write_rating(given: Inputs, tables: Tables, found: Mapping[str, Rating], pat
                 about = entry.symbol, entry.unit, entry.meaning, entry.equation, str(entry.source)
                 page.add(values[standard][entry.key], *about, asked=asked.get(entry.key))
         pages.append(page)
+    for title, rows in others.items():
+        pages.append(Page.of(title, cells, rows))
     return write_live(cells, pages, _REMARKS, path)
 
 

@@ -86,7 +86,7 @@ class Cells:
                 reached.add(id(one))
                 open_ += [other for other in one.arguments if isinstance(other, Traced)]
         for path, (shown, _) in self._known.items():
-            if id(shown) in reached:
+            if id(shown) in reached and id(shown) not in self.places:
                 fact = self._about(path)
                 name = path.rpartition(".")[2].replace("_", " ")
                 symbol, meaning = (fact.symbol, fact.meaning) if fact else ("", name)
@@ -101,6 +101,14 @@ class Page:
     def __init__(self, name: str, cells: Cells) -> None:
         self.name, self._cells = name, cells
         self.rows: list[tuple[Any, ...]] = [_HEADING]
+
+    @classmethod
+    def of(cls, name: str, cells: Cells, rows: Iterable[tuple[Any, ...]]) -> "Page":
+        """Return a sheet of rows, each what `add` takes."""
+        made = cls(name, cells)
+        for row in rows:
+            made.add(*row)
+        return made
 
     def add(
         self,

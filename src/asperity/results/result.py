@@ -57,7 +57,7 @@ class Result(Quantities):
     labels: ClassVar[datasets.Labels] = {}
 
     captions: ClassVar[Mapping[str, str]] = {}
-    reported: ClassVar[bool] = False
+    reported: ClassVar[bool] = True
 
     notes: tuple[str, ...] = ()
 
@@ -176,12 +176,13 @@ class Result(Quantities):
         """
         from asperity.results.report import Section
 
+        drawn = self.pictures(folder)
         return (
             Section(
                 "", (*((self.heading(),) if self.heading() != self.title else ()), *self.headline())
             ),
             Section("Results", tables=self.tables()),
-            Section("Pictures", pictures=self.pictures(folder)),
+            *([Section("Pictures", pictures=drawn)] if drawn else []),
         )
 
     def pictures(self, folder: Path | None = None) -> "tuple[Picture, ...]":
@@ -189,13 +190,15 @@ class Result(Quantities):
         from asperity.results.report import Picture
 
         made = []
-        for name in self.kind.drawings:
-            title = name.replace("_", " ").replace("-", " ").capitalize()
+        for name in self.kind.drawings or (self.kind.stem,):
+            own = name.replace("_", " ").replace("-", " ").capitalize()
+            # The one that is called as its file says nothing of what it shows.
+            title = self.kind.title if name == self.kind.stem else own
             caption = self.kind.captions.get(name, "")
             png = None if folder is None else folder / f"{name}.png"
             if png is not None and png.is_file():
                 made.append(Picture(title, caption=caption, png=png))
-            else:
+            elif self.kind.drawings:
                 made.append(Picture(title, self.figure(name), caption))
         return tuple(made)
 

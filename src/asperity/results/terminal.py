@@ -19,7 +19,7 @@ _PART = re.compile(r"(?<=[._])(?=[A-Za-z])")  # where a name may be broken that 
 _DIGITS = 4  # of a width; what is wider is as wide
 _GAP = "  "
 _BOUND = "\N{NO-BREAK SPACE}"  # at which no line is broken
-# "lbf in" and "N m" are one unit, and so is what is only shown: hours and turns have no other.
+# "N m" and "mm2/s" are one unit, and so is what is only shown: hours and turns have no other.
 _UNITS = {*US, *(shown.unit for shown in US.values()), "%", "h", "s", "min", "ms", "rpm", "deg",
           "arcmin", "Hz", "kHz", "MHz", "K", "J", "J/K", "V", "A", "mm2/s", "nm", "GPa",
           "N/um", "W/K"}  # fmt: skip
@@ -44,8 +44,8 @@ def lines_of_text(text: str, width: int, hanging: str = "") -> list[str]:
 
     Examples
     --------
-    >>> lines_of_text("of the wear 2213 lbf in 23 %", 26)
-    ['of the wear 2213 lbf in', '23 %']
+    >>> lines_of_text("of the wear 2213 N m in 23 %", 24)
+    ['of the wear 2213 N m in', '23 %']
     """
     room = width - len(hanging) - len(",")
 

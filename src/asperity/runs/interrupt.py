@@ -76,8 +76,10 @@ class Signals:
     def __init__(self) -> None:
         self.heard = ""
         self._raises = False
+        self._number = 0
 
     def _hear(self, number: int, _frame: object) -> None:
+        self._number = self._number or number
         self.heard = self.heard or _MEANING[signal.Signals(number).name]
         if self._raises:
             self._raises = False
@@ -102,12 +104,18 @@ class Signals:
 
     @contextlib.contextmanager
     def told_to(self, pipe: int) -> Iterator[None]:
-        """Have their numbers written to a pipe the moment they come; to none if it is negative."""
+        """Have their numbers written to a pipe the moment they come; to none if it is negative.
+
+        One that has come already is written at once.
+        """
         if pipe < 0 or threading.current_thread() is not threading.main_thread():
             yield
             return
         before = signal.set_wakeup_fd(pipe, warn_on_full_buffer=False)
         try:
+            if self._number:
+                with contextlib.suppress(OSError):
+                    os.write(pipe, bytes([self._number]))
             yield
         finally:
             signal.set_wakeup_fd(before)

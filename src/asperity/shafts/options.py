@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator
 
 from asperity.casefile import Table
-from asperity.shafts.rolling.life import CLEANLINESS, RELIABILITY
+from asperity.shafts.rolling.life import AT_REST, CLEANLINESS, RELIABILITY, Kind
 from asperity.units import Quantity
 
 
@@ -29,6 +29,9 @@ class BearingOptions(Table):
         Cleanliness of the oil in the words of ISO 281, 'high' the cleanest, each with the least
         e_C of its range; 'bronze' is an oil bath with what a bronze wheel wears off, 0.3, of our
         own. Left out: L10h alone is told, without what the oil does.
+    static_safety : float, optional
+        Least static safety :math:`s_0` under the peak load. Left out: 1 of ball and 1.5 of roller
+        bearings, for normal running (ISO 76, from memory).
     raises : {'clockwise', 'anticlockwise'}, optional
         Rotation of the worm that raises a load that never reverses, as a hoist's: its axial force
         keeps its sign. Left out: both rotations, with the worm or the load driving.
@@ -42,12 +45,30 @@ class BearingOptions(Table):
         BeforeValidator(_percent, json_schema_input_type=Literal[90, 95, 96, 97, 98, 99] | str),
     ] = 90
     contamination: Literal["high", "normal", "slight", "typical", "severe", "bronze"] | None = None
+    static_safety: (
+        Annotated[float, Quantity("", what="a factor", example="2.0", gt=0, le=100)] | None
+    ) = None
     raises: Literal["clockwise", "anticlockwise"] | None = None
 
     @property
     def a_1(self) -> float:
         """Life factor of the reliability."""
         return RELIABILITY[self.reliability]
+
+    def at_rest(self, elements: Kind) -> float:
+        """Return the least static safety that is asked of a bearing.
+
+        Parameters
+        ----------
+        elements : {'ball', 'roller'}
+            What it rolls on.
+
+        Returns
+        -------
+        float
+            s_0.
+        """
+        return AT_REST[elements] if self.static_safety is None else self.static_safety
 
     @property
     def e_c(self) -> float | None:

@@ -4,7 +4,8 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from asperity.results import Result, quantity
+from asperity.gearset.drawn import Drawn
+from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.shafts.loads import Load
 from asperity.shafts.shaft import ShaftFound
@@ -14,11 +15,15 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
-    from asperity.rating.inputs import Inputs
+    from asperity.gearset.blanks import Blanks
+    from asperity.gearset.drawn import Views
+    from asperity.gearset.geometry import Geometry
+    from asperity.rating.inputs import Inputs, Values
     from asperity.rating.rows import Row
+    from asperity.results.live import Cells
 
 
-class ShaftStudy(Result):
+class ShaftStudy(Drawn):
     """Shafts and bearings of a worm gearset.
 
     Attributes
@@ -33,6 +38,8 @@ class ShaftStudy(Result):
         That the bearings must reach, h.
     given : Inputs, optional
         The gearset that they belong to.
+    blanks : Blanks, optional
+        What the wheel is beside its teeth, for drawings.
     """
 
     title: ClassVar[str] = "Shafts and bearings"
@@ -42,7 +49,6 @@ class ShaftStudy(Result):
         "shafts": "Each shaft to scale with its bearings and what they carry, bending moment and "
         "torque, and deflection, in the case that bends it most."
     }
-    reported: ClassVar[bool] = True
 
     name: str
     found: Mapping[str, ShaftFound]
@@ -74,6 +80,7 @@ class ShaftStudy(Result):
     )
 
     given: "Inputs | None" = None
+    blanks: "Blanks | None" = None
 
     @classmethod
     def of(
@@ -83,6 +90,7 @@ class ShaftStudy(Result):
         loads: tuple[Load, ...],
         life: float,
         iso: tuple[float, float] | None,
+        blanks: "Blanks | None" = None,
     ) -> "ShaftStudy":
         """Return the answer of shafts that are found; ISO's deflection and limit in mm.
 
@@ -98,6 +106,8 @@ class ShaftStudy(Result):
             Required of the bearings, h.
         iso : tuple of float or None
             Deflection by ISO/TR 14521 and its limit, mm.
+        blanks : Blanks, optional
+            What the wheel is beside its teeth, for drawings.
 
         Returns
         -------
@@ -135,6 +145,7 @@ class ShaftStudy(Result):
         return cls(
             name=given.gearset.name,
             given=given,
+            blanks=blanks,
             found=found,
             loads=loads,
             life=life,
@@ -160,6 +171,59 @@ class ShaftStudy(Result):
     def holds(self) -> bool:
         """Whether everything does."""
         return all(row.holds for row in self.rows)
+
+    @property
+    def geometry(self) -> "Geometry":
+        """What follows from the gearset's numbers."""
+        assert self.given is not None
+        return self.given.gearset.geometry
+
+    @property
+    def hand(self) -> str:
+        """Of the worm."""
+        assert self.given is not None
+        return self.given.gearset.hand
+
+    def seen(self) -> "Views":
+        """Return both views of the gearset with its shafts, each as SVG with its caption.
+
+        Returns
+        -------
+        along, through : tuple of str
+            Along the wheel's axis, and through it.
+        """
+        from asperity.shafts.drawing import views_of
+        from asperity.shafts.shape import shape_of
+
+        worm, wheel = (
+            shape_of(self.found[key].model.table, self.geometry) if key in self.found else None
+            for key in ("worm_shaft", "wheel_shaft")
+        )
+        return views_of(self.geometry, self.hand, worm, wheel, self.blanks)
+
+    def sheets(
+        self, cells: "Cells", given: "Inputs", iso: "Values"
+    ) -> Mapping[str, list[tuple[Any, ...]]]:
+        """Return the rows of a sheet for each shaft, its numbers found from traced inputs.
+
+        Parameters
+        ----------
+        cells : Cells
+            Of the workbook.
+        given : Inputs
+            The gearset and its operation, whose numbers may be cells.
+        iso : mapping of str to object
+            What ISO/TR 14521 finds from them.
+
+        Returns
+        -------
+        mapping of str to list of tuple
+            By the name of the sheet.
+        """
+        from asperity.shafts.workbook import sheets_of
+
+        options = next(iter(self.found.values())).options
+        return sheets_of(self.found, self.loads, given, options, cells, iso)
 
     def heading(self) -> str:
         """Return the gearset's name."""

@@ -1,6 +1,6 @@
 """What shafts and bearings come to, a row each, as the screen of a rating has its safeties."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from asperity.arrays import first_least
@@ -20,6 +20,7 @@ def rows_of(study: Study) -> tuple[Row, ...]:
     rows: list[Row] = []
     for key, found in study.found.items():
         rows += _bearings(NAMES[key], found, study.life)
+    rows += _at_rest(study.found)
     for key, found in study.found.items():
         rows += _strength(f"{NAMES[key]} shaft", found)
     if study.deflection_limit is not None and study.worm_deflection:
@@ -44,8 +45,27 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
             by.append(f"{torque:g} N m {100.0 * worst.damage[most]:.0f} %")
         if worst.a_iso is not None:
             by.append(f"a_ISO {worst.a_iso:.2g}")
-        by.append(f"s0 {min(each.static_safety for each in lives.values()):.2g}")
+        if any(f"bearing {end} " in note for note in found.model.misseated):
+            by.append("cannot sit there")
         yield Row(f"{name} bearing {end}", "ISO 281", worst.told, asked, "h", ", ".join(by))
+
+
+def _at_rest(found: Mapping[str, ShaftFound]) -> Iterator[Row]:
+    """Yield the static safety of the bearing that is nearest to what is asked of it."""
+    every = [
+        (life.static_safety, shaft.options.at_rest(place.bearing.elements), key, end, condition)
+        for key, shaft in found.items()
+        for end, place, lives in zip(_ENDS, shaft.model.places, shaft.lives, strict=True)
+        if lives is not None and place.bearing is not None
+        for condition, life in lives.items()
+    ]
+    if not every:
+        return
+    value, asked, key, end, condition = first_least(every, lambda one: one[0] / one[1])
+    peak = found[key].model.table.peak
+    under = "" if peak == 1.0 else f", at {peak:g} times the torque"
+    by = f"{NAMES[key]} bearing {end}, {condition.short}{under}"
+    yield Row("bearings at rest", "ISO 76", value, asked, "", by)
 
 
 def _strength(name: str, found: ShaftFound) -> Iterator[Row]:

@@ -14,6 +14,7 @@ from asperity.shafts.bearings import Carried, Life, life_of
 from asperity.shafts.loads import Condition, Load
 from asperity.shafts.model import Axial, Model
 from asperity.shafts.options import BearingOptions
+from asperity.shafts.parameters import ShaftBearing
 from asperity.shafts.statics import Moments, PointLoad, Reactions, moments, reactions
 from asperity.shafts.strength.section import Actions, Detail, Judged, judged, strength
 
@@ -204,26 +205,27 @@ class ShaftFound:
     @functools.cached_property
     def lives(self) -> tuple[Mapping[Condition, Life] | None, ...]:
         """What each bearing comes to by case; None of one that is not named."""
-        made: list[Mapping[Condition, Life] | None] = []
-        for number, place in enumerate(self.model.places):
-            if place.bearing is None:
-                made.append(None)
-                continue
-            own = {}
-            for condition, case in zip(self.cases, self.every, strict=True):
-                loads = [
-                    Carried(
-                        each.carried.radial[number],
-                        each.axial.loads[number],
-                        each.load.hours,
-                        speed,
-                        each.load.viscosity,
-                    )
-                    for each, speed in zip(case, self.speeds, strict=True)
-                ]
-                own[condition] = life_of(place, loads, self.options, self.model.table.peak)
-            made.append(own)
-        return tuple(made)
+        return tuple(
+            None if place.bearing is None else self.lives_of(number, place)
+            for number, place in enumerate(self.model.places)
+        )
+
+    def lives_of(self, number: int, place: ShaftBearing) -> Mapping[Condition, Life]:
+        """Return what a bearing comes to by case where another stands, or none, of its kind."""
+        own = {}
+        for condition, case in zip(self.cases, self.every, strict=True):
+            loads = [
+                Carried(
+                    each.carried.radial[number],
+                    each.axial.loads[number],
+                    each.load.hours,
+                    speed,
+                    each.load.viscosity,
+                )
+                for each, speed in zip(case, self.speeds, strict=True)
+            ]
+            own[condition] = life_of(place, loads, self.options, self.model.table.peak)
+        return own
 
 
 def least(safeties: Judged) -> float:

@@ -2,17 +2,20 @@
 
 import dataclasses
 from collections.abc import Callable
+from pathlib import Path
 from typing import NamedTuple
 
 from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
+from asperity.gearset.blanks import Blanks
 from asperity.gearset.parameters import Gearset
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, inputs, scaled
-from asperity.rating.parameters import RatingOptions
+from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated
 from asperity.rating.result import Rating
+from asperity.rating.rows import Row
 from asperity.rating.standards import rate_by, tables_of
 from asperity.rating.tables import operation_of
 from asperity.runs import Run
@@ -28,8 +31,8 @@ from asperity.shafts.model import Model, model_of
 from asperity.shafts.options import BearingOptions
 from asperity.shafts.parameters import WheelShaft, WormShaft
 from asperity.shafts.result import ShaftStudy
-from asperity.shafts.rows import rows_of
 from asperity.shafts.shaft import ShaftFound, find_shaft
+from asperity.shafts.shape import require_once, shape_of
 from asperity.shafts.statics import PointLoad
 
 
@@ -41,6 +44,7 @@ class Prepared(NamedTuple):
     worm: Model | None
     wheel: Model | None
     options: BearingOptions
+    blanks: Blanks | None = None
 
 
 def given_shafts(case: Case) -> bool:
@@ -72,18 +76,42 @@ def prepare(case: Case) -> Prepared:
             f"{case.source}: the table [worm_shaft] is missing, and [wheel_shaft]; add one"
         )
     with naming_source(case):
-        options = case.get(RatingOptions, RatingOptions())
-        operation = driven(gearset, operation_of(case), options)
         gearset.require_consistent()
-        given = inputs(gearset, operation, options)
-        worm, wheel = case.get(WormShaft), case.get(WheelShaft)
-        return Prepared(
-            given,
-            tables_of(options, case.folder),
-            None if worm is None else model_of(worm, gearset.geometry),
-            None if wheel is None else model_of(wheel, gearset.geometry),
+        worm, wheel, blanks = case.get(WormShaft), case.get(WheelShaft), case.get(Blanks)
+        g = gearset.geometry
+        shapes = (None if table is None else shape_of(table, g) for table in (worm, wheel))
+        require_once(blanks, *shapes)
+        found = prepared(
+            gearset,
+            operation_of(case),
+            case.get(RatingOptions, RatingOptions()),
+            (worm, wheel),
             case.get(BearingOptions, BearingOptions()),
+            case.folder,
         )
+        return found._replace(blanks=blanks)
+
+
+def prepared(
+    gearset: Gearset,
+    operation: Operation,
+    options: RatingOptions,
+    shafts: tuple[WormShaft | None, WheelShaft | None],
+    asked: BearingOptions,
+    folder: Path | None = None,
+) -> Prepared:
+    """Return the shafts of a gearset: the worm's and the wheel's, None where there is none.
+
+    Raises
+    ------
+    InputError
+        The gearset's numbers do not belong together.
+    """
+    operation = driven(gearset, operation, options)
+    gearset.require_consistent()
+    worm, wheel = (None if one is None else model_of(one, gearset.geometry) for one in shafts)
+    given = inputs(gearset, operation, options)
+    return Prepared(given, tables_of(options, folder), worm, wheel, asked)
 
 
 def answer(problem: Prepared, _: Run) -> ShaftStudy:
@@ -104,12 +132,36 @@ def answer(problem: Prepared, _: Run) -> ShaftStudy:
     InputError
         ISO/TR 14521 has no answer for the gearset, whose losses the loads follow from.
     """
-    iso = rate_by("iso14521", problem.given, problem.tables)
+    return studied(problem)
+
+
+def studied(problem: Prepared, rating: Rating | None = None) -> ShaftStudy:
+    """Return what both shafts come to, by a rating by ISO/TR 14521 where there is one."""
+    iso = rating or rate_by("iso14521", problem.given, problem.tables)
     return study(problem, loads_of(problem.given, iso), iso)
 
 
 def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy:
     """Return what both shafts come to under given loads, beside a rating by ISO/TR 14521."""
+    return ShaftStudy.of(
+        problem.given,
+        found_of(problem, loads),
+        loads,
+        asked_life(problem, loads),
+        (float(iso["delta_m_mm"]), float(iso["delta_lim_mm"])) if "delta_m_mm" in iso else None,
+        problem.blanks,
+    )
+
+
+def asked_life(problem: Prepared, loads: tuple[Load, ...]) -> float:
+    """Return the life that the bearings must reach, h."""
+    if problem.options.life is not None:
+        return scaled(problem.options.life, 1.0 / 3600.0)
+    return float(sum(load.hours for load in loads))
+
+
+def found_of(problem: Prepared, loads: tuple[Load, ...]) -> dict[str, ShaftFound]:
+    """Return both shafts under loads, by table."""
     given, options = problem.given, problem.options
     hand = 1.0 if given.gearset.hand == "right" else -1.0
     cases = cases_of(loads, options.raises)
@@ -133,15 +185,24 @@ def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy
         found["wheel_shaft"] = find_shaft(
             problem.wheel, loads, cases, options, on_wheel, of_wheel=True
         )
-    life = float(sum(load.hours for load in loads))
-    if options.life is not None:
-        life = scaled(options.life, 1.0 / 3600.0)
-    return ShaftStudy.of(
-        given,
-        found,
-        loads,
-        life,
-        (float(iso["delta_m_mm"]), float(iso["delta_lim_mm"])) if "delta_m_mm" in iso else None,
+    return found
+
+
+def rows_by(case: Case) -> Callable[[Gearset], tuple[Row, ...]] | None:
+    """Return what says of another gearset what a case's shafts come to; None without shafts.
+
+    Parameters
+    ----------
+    case : Case
+        With all but the gearset that is asked about.
+    """
+    if not given_shafts(case):
+        return None
+    operation, options = operation_of(case), case.get(RatingOptions, RatingOptions())
+    shafts = case.get(WormShaft), case.get(WheelShaft)
+    asked = case.get(BearingOptions, BearingOptions())
+    return lambda gearset: (
+        studied(prepared(gearset, operation, options, shafts, asked, case.folder)).rows
     )
 
 
@@ -166,8 +227,13 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     problem = prepare(case)
 
     def add(rated: Rated, _: Run) -> Rated:
-        iso = rated.iso14521 or rate_by("iso14521", problem.given, problem.tables)
-        rows = rows_of(study(problem, loads_of(problem.given, iso), iso))
-        return dataclasses.replace(rated, rows=rows)
+        shafts = studied(problem, rated.iso14521)
+        wrong = (note for one in shafts.found.values() for note in one.model.misseated)
+        return dataclasses.replace(
+            rated,
+            rows=(*rated.rows, *shafts.rows),
+            shafts=shafts,
+            notes=(*rated.notes, *wrong),
+        )
 
     return add

@@ -13,6 +13,7 @@ STATICS = Source("statics", "verified")
 ISO_281 = Source("ISO 281", "verified", "makers' catalogues agree")
 ISO_281_MEMORY = Source("ISO 281", "from memory")
 ISO_76 = Source("ISO 76", "verified", "makers' catalogues agree")
+ISO_76_MEMORY = Source("ISO 76", "from memory")
 OWN = Source("Asperity's own rule", "own choice", "of no standard")
 
 # Shape of a notch

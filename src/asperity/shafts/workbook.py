@@ -15,7 +15,7 @@ from pydantic import BaseModel
 
 from asperity.formulas import masking
 from asperity.formulas.traced import Traced
-from asperity.rating.inputs import Inputs
+from asperity.rating.inputs import Inputs, Values
 from asperity.results.live import Cells, Page, write_live
 from asperity.shafts.bearings import Carried, life_of
 from asperity.shafts.loads import Condition, Load, forces, on_wheel_shaft, on_worm_shaft
@@ -65,17 +65,43 @@ def write_shafts(
     if len(loads) > MOST:
         return None
     cells = Cells()
-    with masking():
-        sheets = [_Shaft(name, each, loads, given, options, cells) for name, each in found.items()]
-        rows = {sheet.name: list(sheet.rows()) for sheet in sheets}
-    cells.settle(value for own in rows.values() for value, *_ in own)
-    pages = []
-    for name, own in rows.items():
-        page = Page(name.replace("_", " "), cells)
-        for value, *about in own:
-            page.add(value, *about)
-        pages.append(page)
+    sheets = sheets_of(found, loads, given, options, cells)
+    cells.settle(value for own in sheets.values() for value, *_ in own)
+    pages = [Page.of(name, cells, own) for name, own in sheets.items()]
     return write_live(cells, pages, _REMARKS, path)
+
+
+def sheets_of(
+    found: Mapping[str, ShaftFound],
+    loads: tuple[Load, ...],
+    given: Inputs,
+    options: BearingOptions,
+    cells: Cells,
+    iso: Values | None = None,
+) -> dict[str, list[tuple[Any, ...]]]:
+    """Return the rows of a sheet for each shaft; none where there are more than `MOST` loads.
+
+    Parameters
+    ----------
+    found, loads, given, options
+        As of `write_shafts`; the numbers of ``given`` may be cells already.
+    cells : Cells
+        Of the workbook.
+    iso : mapping, optional
+        What ISO/TR 14521 finds from them as cells: friction is taken from there.
+    """
+    if len(loads) > MOST:
+        return {}
+    with masking():
+        own = [
+            _Shaft(name, each, loads, given, options, cells, iso) for name, each in found.items()
+        ]
+        return {sheet.name.replace("_", " "): list(sheet.rows()) for sheet in own}
+
+
+def _number(value: Any, path: str, unit: str, cells: Cells) -> Any:
+    """Return a number that is a cell already, or an input."""
+    return value if isinstance(value, Traced) else cells.input(path, float(value), unit)
 
 
 class _Live:
@@ -111,12 +137,14 @@ class _Shaft:
         given: Inputs,
         options: BearingOptions,
         cells: Cells,
+        iso: Values | None = None,
     ) -> None:
+        self._given, self._iso = given, iso or {}
         self.name, self.found, self._cells = name, found, cells
         self._of_wheel = name == "wheel_shaft"
         self._right = given.gearset.hand == "right"
         self._shared = {
-            key: cells.input(key, float(getattr(given, key)), unit)
+            key: _number(getattr(given, key), key, unit, cells)
             for key, unit in (
                 ("worm_pitch_diameter", "mm"), ("wheel_mean_diameter", "mm"),
                 ("lead_angle", "rad"), ("pressure_angle", "rad"), ("gear_ratio", ""),
@@ -138,16 +166,27 @@ class _Shaft:
     def _load(self, number: int, load: Load) -> Load:
         """Return a load whose forces follow from torque and friction."""
 
-        def cell(key: str, value: float, unit: str = "") -> Any:
-            return self._cells.input(f"load_{number}.{key}", value, unit)
+        def cell(key: str, value: Any, unit: str = "") -> Any:
+            return _number(value, f"load_{number}.{key}", unit, self._cells)
 
-        torque, friction = cell("torque", load.torque, "N m"), cell("friction", load.friction)
-        speed = cell("worm_speed", load.speed, "rpm")
+        hours: Any = load.hours
+        torque: Any = load.torque
+        speed: Any = load.speed
+        given = self._given
+        if isinstance(given.output_torque, Traced):
+            # A cell of the rating that the shafts stand beside.
+            part = given.duty[number - 1] if given.duty else None
+            hours = given.life if part is None else part.hours
+            torque = given.output_torque if part is None else part.torque
+            speed = given.worm_speed if part is None else part.speed
+        there = f"part_{number}.mu_zm" if given.duty else "mu_zm"
+        torque, speed = cell("torque", torque, "N m"), cell("worm_speed", speed, "rpm")
+        friction = cell("friction", self._iso.get(there, load.friction))
         of = self._shared
         angles = of["lead_angle"], of["pressure_angle"]
         found = forces(torque, friction, of["wheel_mean_diameter"], *angles)
         return Load(
-            cell("hours", load.hours, "h"), torque, speed, speed / of["gear_ratio"], *found,
+            cell("hours", hours, "h"), torque, speed, speed / of["gear_ratio"], *found,
             cell("viscosity", load.viscosity, ""), load.rotation, load.lets_down,
         )  # fmt: skip
 

@@ -97,12 +97,13 @@ class Cycle:
     def find(self, settle: int) -> bool:
         """Look for the state that repeats itself; ``settle`` as in `shoot`."""
         size = most_unknowns(self.springs)
-        jacobian = np.zeros((size, size))
+        jacobian = np.zeros((size + 1, size))
         self.residual, cycles, unknowns = shoot(
             self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
             self.rises, self.body.sums, jacobian, settle,
         )  # fmt: skip
         self.jacobian = jacobian[:unknowns, :unknowns]
+        self.slopes = jacobian[unknowns, :unknowns]
         self.run += cycles * self.period
         return bool(self.residual <= ACCEPTED)
 
@@ -117,11 +118,13 @@ class Cycle:
 
     def _by_differences(self) -> float:
         if self.q is not None:
-            self.jacobian = np.empty_like(self.jacobian, order="C")
+            unknowns = len(self.jacobian)
+            found = np.empty((unknowns + 1, unknowns))
             differentiated(
                 self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
-                self.rises, self.body.no_sums()[0], self.jacobian,
+                self.rises, self.body.no_sums()[0], found,
             )  # fmt: skip
+            self.jacobian, self.slopes = found[:unknowns], found[unknowns]
         return _growth(self.jacobian)
 
     def grows_slowly(self, growth: float) -> bool:

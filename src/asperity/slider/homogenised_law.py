@@ -8,7 +8,7 @@ little with the base) is in the table.
 import dataclasses
 import functools
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any, overload
 
 import numpy as np
@@ -22,7 +22,7 @@ from asperity.slider.homogenised_normal import remarks_of, told_by
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.periodic import solve_periodic
-from asperity.slider.pieces import each
+from asperity.slider.pieces import each, of_one
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import ACCEPTED
 
@@ -107,6 +107,10 @@ class HomogenisedLaw:
         """Breakpoints, coefficients and viscous part of the mean force, for `interpolate`."""
         return *self._pieces(FORCE), self.viscous
 
+    @functools.cached_property
+    def _one(self) -> Callable[[float], float]:
+        return of_one(*self.arguments)
+
     def _pieces(self, column: int) -> tuple[FloatArray, FloatArray]:
         cubic = self._cubic(self.table[:, column])
         return np.ascontiguousarray(cubic.x), np.ascontiguousarray(cubic.c)
@@ -123,6 +127,8 @@ class HomogenisedLaw:
     def __call__(self, velocity: FloatArray) -> FloatArray: ...
     def __call__(self, velocity: float | FloatArray) -> float | FloatArray:
         """Mean friction force in N at mean velocities in m/s."""
+        if isinstance(velocity, float) and math.isfinite(velocity):
+            return self.full_friction * self._one(float(velocity))
         values = np.atleast_1d(real("the velocity", velocity))
         if not np.all(np.isfinite(values)):
             raise InputError("the velocity is not finite; give finite velocities in m/s")
@@ -131,14 +137,10 @@ class HomogenisedLaw:
 
     def __repr__(self) -> str:
         """Return how much is tabulated, and what the law says at its ends and in its middle."""
-        low, high = float(self.velocity[0]), float(self.velocity[-1])
-        front = self.velocity > 0.0
+        low, high, front = float(self.velocity[0]), float(self.velocity[-1]), self.velocity > 0.0
         forces = self.full_friction * self.table[front, FORCE]
-        held = ""
-        if self.missing:
-            held = f", {len(self.missing)} interpolated over"
-        if self.unsettled:
-            held += f", {len(self.unsettled)} not settled"
+        held = f", {len(self.missing)} interpolated over" if self.missing else ""
+        held += f", {len(self.unsettled)} not settled" if self.unsettled else ""
         return (
             f"HomogenisedLaw({self.velocity.size} mean velocities from {low:.3g} to {high:.3g} m/s"
             f"{held}: {forces[0]:.4g} N at {self.velocity[front][0]:.3g} m/s to {forces[-1]:.4g} N "
@@ -181,10 +183,9 @@ class HomogenisedLaw:
     def _of_missing(self) -> Iterator[str]:
         if not self.missing:
             return
-        count = len(self.missing)
         tried = len({*self.velocity, *self.missing}) - 1
         yield (
-            f"no periodic state was found at {count} of {tried} mean "
+            f"no periodic state was found at {len(self.missing)} of {tried} mean "
             f"velocities, which are interpolated over: {_places(self.missing)}"
         )
 

@@ -1,11 +1,14 @@
-"""A body in the cycle of its vibration on steps twice as long, from where it is on the first."""
+"""A body in the cycle of its vibration on steps twice or half as long, from where it is."""
 
 import numpy as np
 
 from asperity.kernels.compiled import kernel
 from asperity.kernels.dense import copy
+from asperity.kernels.elimination import eliminate
 from asperity.slider.other_drives import in_longer_steps, pressed_in_longer_steps
-from asperity.slider.shooting import close, run_cycle
+from asperity.slider.search_room import room_for
+from asperity.slider.shooting import CLOSE, close, defect_of, mean_drive, run_cycle
+from asperity.slider.unknowns import unknown_scales
 
 
 @kernel
@@ -19,23 +22,37 @@ def _pairs(increments):
 
 
 @kernel
-def _moved(start, springs, p, q, increments, rises, sums):
-    """What `close` takes of the body on the longer steps: copies, the cycle's steps are even."""
+def _halves(increments):
+    """Increments over halves of steps in which velocities are constant, of a wave with corners."""
+    halves = np.empty(2 * increments.size - 1)
+    for i in range(halves.size):
+        halves[i] = 0.5 * increments[i // 2]
+    return halves
+
+
+@kernel
+def _moved(start, springs, p, q, increments, rises, sums, longer):
+    """What `close` takes of the body on steps that are longer, twice or half: copies.
+
+    Of twice the steps are even.
+    """
     states, records, held = np.empty_like(start), np.empty_like(sums), np.empty_like(springs)
     states[0] = start[0]
     records[0] = sums[0]
     copy(springs, held)
-    longer, pressing = in_longer_steps(p, 2.0), pressed_in_longer_steps(q, 2.0)
+    other, pressing = in_longer_steps(p, longer), pressed_in_longer_steps(q, longer)
     # Velocities are those of the half step that follows.
     state = states[0]
-    gained = 0.25 * longer.mobility_x * (state.drive_force - state.friction_x)
-    state.velocity_x = 2.0 * state.velocity_x + gained
-    state.velocity_y = 2.0 * state.velocity_y - 0.25 * longer.mobility_y * state.friction_y
-    pairs = _pairs(increments)
+    half = 0.5 * (1.0 - 1.0 / longer)
+    gained = half * other.mobility_x * (state.drive_force - state.friction_x)
+    state.velocity_x = longer * state.velocity_x + gained
+    state.velocity_y = longer * state.velocity_y - half * other.mobility_y * state.friction_y
+    steps = _pairs(increments) if longer > 1.0 else _halves(increments)
     if q is None:
-        return states, held, longer, pressing, pairs, pairs, records
-    state.rise *= 2.0
-    return states, held, longer, pressing, pairs, _pairs(rises), records
+        return states, held, other, pressing, steps, steps, records
+    state.rise *= longer
+    rise_steps = _pairs(rises) if longer > 1.0 else _halves(rises)
+    return states, held, other, pressing, steps, rise_steps, records
 
 
 @kernel
@@ -45,7 +62,7 @@ def close_on_twice(start, springs, p, q, increments, rises, sums, jacobian, most
     Returns the defect that is left and the state's mean drive force over mu F_N.
     """
     states, held, longer, pressing, pairs, rise_pairs, records = _moved(
-        start, springs, p, q, increments, rises, sums
+        start, springs, p, q, increments, rises, sums, 2.0
     )
     left, _ = close(states, held, longer, pressing, pairs, rise_pairs, records[0], jacobian, most)
     return left, records[0].drive_force / records[0].steps
@@ -55,10 +72,50 @@ def close_on_twice(start, springs, p, q, increments, rises, sums, jacobian, most
 def friction_on_twice(start, springs, p, q, increments, rises, sums, cycles):
     """Return the mean friction over mu F_N of some cycles on steps twice as long."""
     states, held, longer, pressing, pairs, rise_pairs, records = _moved(
-        start, springs, p, q, increments, rises, sums
+        start, springs, p, q, increments, rises, sums, 2.0
     )
     total = 0.0
     for _ in range(cycles):
         run_cycle(states[0], held, longer, pressing, pairs, rise_pairs, records[0])
         total += records[0].friction_x / records[0].steps
     return total / cycles
+
+
+@kernel
+def _predicted(start, springs, p, q, increments, rises, sums, jacobian, slopes):
+    """Foresee the state next to ``start`` by a cycle from there, of which a Jacobian is known.
+
+    Returns the mean drive force over mu F_N of that cycle, and of the state, by its ``slopes``;
+    infinite where the Jacobian tells nothing.
+    """
+    room = room_for(start, springs)
+    count = unknown_scales(start, springs, p, q, room.scales)
+    step, matrix, end = room.step, room.matrix, room.trial_end
+    worst = defect_of(
+        start, springs, p, q, increments, rises, sums, count, room, end, room.trial_end_springs,
+        room.defect,
+    )  # fmt: skip
+    first = mean_drive(sums, start[0], end[0], p)
+    if worst <= CLOSE:
+        return first, first
+    for i in range(count):
+        step[i] = -room.defect[i]
+        for j in range(count):
+            matrix[i, j] = jacobian[i, j]
+    if not (worst < 1e300 and eliminate(matrix, step, count, 1e-14)):
+        return first, np.inf
+    mean = first
+    for i in range(count):
+        mean += slopes[i] * step[i]
+    return first, mean
+
+
+@kernel
+def predicted_on_half(start, springs, p, q, increments, rises, sums, jacobian, slopes):
+    """Foresee the state on steps half as long, as `_predicted`; what is given is left as it is."""
+    states, held, shorter, pressing, halves, rise_halves, records = _moved(
+        start, springs, p, q, increments, rises, sums, 0.5
+    )
+    return _predicted(
+        states, held, shorter, pressing, halves, rise_halves, records[0], jacobian, slopes
+    )

@@ -1,5 +1,9 @@
 """A curve in pieces, compiled: cubics between its places, and what it goes to beyond them."""
 
+import bisect
+import math
+from collections.abc import Callable
+
 import numpy as np
 
 from asperity.arrays import FloatArray
@@ -50,3 +54,25 @@ def each(
     out = np.empty(velocities.size)
     interpolate_each(np.ascontiguousarray(velocities), breaks, coefficients, viscous, out)
     return out
+
+
+def of_one(
+    breaks: FloatArray, coefficients: FloatArray, viscous: float
+) -> Callable[[float], float]:
+    """Return `interpolate` as a function of one velocity, by the same operations without arrays."""
+    places: list[float] = breaks.tolist()
+    cubics: list[list[float]] = coefficients.T.tolist()
+    last = len(places) - 2
+
+    def value_at(velocity: float) -> float:
+        at = min(max(velocity, places[0]), places[-1])
+        piece = min(bisect.bisect_right(places, at) - 1, last)
+        x = at - places[piece]
+        a, b, c, d = cubics[piece]
+        value = ((a * x + b) * x + c) * x + d
+        if at == velocity:
+            return value
+        full, share = math.copysign(1.0, velocity), at / velocity
+        return full + viscous * velocity + (value - viscous * at - full) * (share * share)
+
+    return value_at

@@ -98,7 +98,7 @@ def run(state, springs, p, q, increments, rises, sums):
 
 
 @kernel
-def _defect(
+def defect_of(
     start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
 ):  # fmt: skip
     """Scaled change of the unknowns over a cycle from ``start``; returns its largest part."""
@@ -119,10 +119,23 @@ def _defect(
 
 
 @kernel
+def mean_drive(sums, start, end, p):
+    """Mean drive force over a cycle, whose start is taken to have that of its end.
+
+    A rigid drive has it of its contact.
+    """
+    before = p.stiffness * start.stretch + p.damping * (p.drive - start.velocity_x)
+    return (sums.drive_force + 0.5 * (end.drive_force - before)) / sums.steps
+
+
+@kernel
 def differentiate(
-    start, springs, p, q, increments, rises, sums, count, change, side, room, jacobian
+    start, springs, p, q, increments, rises, sums, count, change, side, mean, room, jacobian
 ):  # fmt: skip
-    """Jacobian of the scaled defect at ``start``, by differences of a size; a cycle an unknown."""
+    """Jacobian of the scaled defect at ``start``, by differences of a size; a cycle an unknown.
+
+    A row more are the slopes of the mean drive force, which is ``mean`` at ``start``.
+    """
     trial, trial_springs, here, there = room.trial, room.trial_springs, room.here, room.there
     other, defect = room.trial_defect, room.defect
     read_unknowns(start[0], springs, p, q, here)
@@ -134,12 +147,13 @@ def differentiate(
         signed = -change * side if here[j] > 0.0 else change * side
         there[j] += signed * room.scales[j]
         write_unknowns(there, p, q, trial[0], trial_springs)
-        _defect(
+        defect_of(
             trial, trial_springs, p, q, increments, rises, sums, count, room, room.trial_end,
             room.trial_end_springs, other,
         )  # fmt: skip
         for i in range(count):
             jacobian[i, j] = (other[i] - defect[i]) / signed
+        jacobian[count, j] = (mean_drive(sums, trial[0], room.trial_end[0], p) - mean) / signed
 
 
 @kernel
@@ -154,9 +168,10 @@ def _newton(
     trial_end, trial_end_springs = room.trial_end, room.trial_end_springs
     defect, matrix, step, scales = room.defect, room.matrix, room.step, room.scales
     cycles = 1
-    worst = _defect(
+    worst = defect_of(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
     )
+    mean = mean_drive(sums, start[0], end[0], p)
     fresh = False
     side = 1.0
     for _ in range(_NEWTON_STEPS):
@@ -167,8 +182,9 @@ def _newton(
             # Steps that shrink with the defect do not reach a kink the answer is not at.
             change = min(_DIFFERENCE, max(0.1 * worst, _LEAST_DIFFERENCE))
             differentiate(
-                start, springs, p, q, increments, rises, sums, count, change, side, room, jacobian
-            )
+                start, springs, p, q, increments, rises, sums, count, change, side, mean, room,
+                jacobian,
+            )  # fmt: skip
             cycles += count
             fresh = True
         for i in range(count):
@@ -190,7 +206,7 @@ def _newton(
                 if q is None and size > 1.5 * p.static_ratio:
                     trial[0].deflection_x *= p.static_ratio / size
                     trial[0].deflection_y *= p.static_ratio / size
-            reached = _defect(
+            reached = defect_of(
                 trial, trial_springs, p, q, increments, rises, sums, count, room, trial_end,
                 trial_end_springs, room.trial_defect,
             )  # fmt: skip
@@ -209,7 +225,7 @@ def _newton(
         side = 1.0
         # The differences cost a cycle an unknown: keep them while they still gain a digit.
         fresh = reached < 0.1 * worst and length == 1.0
-        worst = reached
+        worst, mean = reached, mean_drive(sums, trial[0], trial_end[0], p)
         read_unknowns(trial[0], trial_springs, p, q, there)
         write_unknowns(there, p, q, start[0], springs)
         end[0] = trial_end[0]
@@ -240,7 +256,7 @@ def _first_guess(
             springs[0, j] = max(q.reference - q.heights[j], 0.0)
     if not p.rigid:
         state.stretch = state.friction_x / p.stiffness
-    worst = _defect(
+    worst = defect_of(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, room.defect
     )
     if worst <= 1e-12:
@@ -276,7 +292,8 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     sums : record
         Overwritten.
     jacobian : ndarray
-        Room for that of the map less one.
+        Room for that of the map less one, and in the row behind it for the slopes of the mean drive
+        force over mu F_N.
     settle : int
         0 for the first call; else cycles to run beforehand, the drive damped critically, which
         calms the lateral motion too; on its own drive if below zero.
@@ -323,17 +340,19 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
 def differentiated(start, springs, p, q, increments, rises, sums, jacobian):
     """Write the Jacobian of the map over a cycle, less one, in scaled unknowns.
 
-    It is a row and a column an unknown; ``sums`` are overwritten.
+    It is a row and a column an unknown, and a row for the slopes of the mean drive force over
+    mu F_N; ``sums`` are overwritten.
     """
     room = room_for(start, springs)
     unknown_scales(start, springs, p, q, room.scales)
-    count = jacobian.shape[0]
-    _defect(
+    count = jacobian.shape[1]
+    defect_of(
         start, springs, p, q, increments, rises, sums, count, room, room.trial_end,
         room.trial_end_springs, room.defect,
     )  # fmt: skip
+    mean = mean_drive(sums, start[0], room.trial_end[0], p)
     differentiate(
-        start, springs, p, q, increments, rises, sums, count, _DIFFERENCE, 1.0, room, jacobian
+        start, springs, p, q, increments, rises, sums, count, _DIFFERENCE, 1.0, mean, room, jacobian
     )
 
 
@@ -347,7 +366,7 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
     count = unknown_scales(start, springs, p, q, room.scales)
     here, defect, step, matrix = room.here, room.defect, room.step, room.matrix
     end, end_springs = room.trial_end, room.trial_end_springs
-    worst = _defect(
+    worst = defect_of(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
     )
     cycles = 1
@@ -365,11 +384,9 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
             # Found without Newton's method, in a cycle or some: it is left to itself here too.
             start[0] = end[0]
             copy(end_springs, springs)
-        worst = _defect(
+        worst = defect_of(
             start, springs, p, q, increments, rises, sums, count, room, end, end_springs, defect
         )
         cycles += 1
-    # The drive's force at the start is that at the end, which a rigid drive has of its contact.
-    before = p.stiffness * start[0].stretch + p.damping * (p.drive - start[0].velocity_x)
-    sums.drive_force += 0.5 * (end[0].drive_force - before)
+    sums.drive_force = sums.steps * mean_drive(sums, start[0], end[0], p)
     return worst, cycles

@@ -1,14 +1,14 @@
 """The error that the time step makes, from second solutions on twice the step or on half of it.
 
 Of a state that repeats itself, the state on twice the step is found with the Jacobian of the first,
-in a few cycles; of a wave with corners that on half the step, which ends on the same corners. A
-march is at its end next to such a state, and both are found from there; where there is none, some
-of its last cycles are marched again. Of order two the error is a third of the difference to twice
-the step (four thirds of that to half of it), of order one all of it (twice): with low exponents,
-and at the corners of a wave with LuGre friction or under a load that changes. An exponent of
-nothing and a slip that turns make it more than all of it. As of order one is told too what Coulomb
-friction makes that stops a body at corners, which falls by four on average only, and the two-phase
-scheme.
+in a few cycles; of a wave with corners that on half the step, which ends on the same corners, is
+foreseen from one cycle, and found where that may not be enough. A march is at its end next to such
+a state, and both are found from there; where there is none, some of its last cycles are marched
+again. Of order two the error is a third of the difference to twice the step (four thirds of that to
+half of it), of order one all of it (twice): with low exponents, and at the corners of a wave with
+LuGre friction or under a load that changes. An exponent of nothing and a slip that turns make it
+more than all of it. As of order one is told too what Coulomb friction makes that stops a body at
+corners, which falls by four on average only, and the two-phase scheme.
 """
 
 import dataclasses
@@ -22,7 +22,7 @@ from asperity.errors import AsperityError
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
-from asperity.slider.on_twice import close_on_twice, friction_on_twice
+from asperity.slider.on_twice import close_on_twice, friction_on_twice, predicted_on_half
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import close, differentiated, run_cycle
@@ -43,6 +43,8 @@ _FINEST = 16  # times finer than by the bounds
 _LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
 _LEAST_TO_FOLLOW = 0.1  # exponent, below which friction turns at once
 _ALONG = 1e-9
+_CLEAR = 0.5  # what is left of two changes, over both
+_NOTHING = 1e-3  # of an error that a step may make
 # What the difference is of the error, by the order.
 _ORDER_HALF = 0.41
 _ORDER_ONE = 1.0
@@ -107,7 +109,7 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
     """Return the error of the ratio of a state that repeats itself; None where it is not found."""
     if not model.vibrates:
         return 0.0
-    other = _closed_beside(cycle, cycle.jacobian)
+    other = _closed_beside(cycle, cycle.jacobian, cycle.slopes)
     if other is None:
         return _cycles_again(cycle, _CLOSING // 2)
     return abs(other - _ratio(cycle)) * _part_of_difference(model)
@@ -140,15 +142,16 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     put(end, step, state, springs)
     unknowns = _unknowns(end)
     if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
-        jacobian = np.zeros((unknowns, unknowns))
+        found = np.zeros((unknowns + 1, unknowns))
         if unknowns:
             differentiated(
                 end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums()[0], jacobian,
+                end.body.no_sums()[0], found,
             )  # fmt: skip
+        jacobian, slopes = found[:unknowns], found[unknowns]
         there = end.copied()
         one = _closed(there, jacobian)
-        other = _closed_beside(there, jacobian)
+        other = _closed_beside(there, jacobian, slopes)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
             return abs(other - one) * _part_of_difference(model)
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
@@ -282,20 +285,38 @@ def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
-def _closed_beside(cycle: Cycle, jacobian: FloatArray) -> float | None:
+def _closed_beside(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
     """Return the ratio of that state on other steps; the body stays where it is.
 
     Those are twice as long, or half as long of a wave with corners: half the steps end on the same
     corners, and on coarser ones errors that fall with the step alone do not show in full.
     """
     if cycle.body.model.meets_corners:
-        return _closed(_on_half(cycle), jacobian)
+        foreseen = _foreseen(cycle, jacobian, slopes)
+        return foreseen if foreseen is not None else _closed(_on_half(cycle), jacobian)
     kept = cycle.body.kept
     left, ratio = close_on_twice(
         kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
         kept["sums"], np.ascontiguousarray(jacobian), _CLOSING,
     )  # fmt: skip
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
+
+
+def _foreseen(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
+    """Return the ratio of that state on half the steps, from one cycle of them.
+
+    None where that may not be enough, which takes some cycles more: what the steps change in that
+    cycle and what the way to the state does are not small by themselves, or undo one another.
+    """
+    body, here = cycle.body, _ratio(cycle)
+    first, ratio = predicted_on_half(
+        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
+        body.kept["sums"], np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
+    )  # fmt: skip
+    most = WANTED * max(abs(here), _LEAST_RATIO) / _part_of_difference(body.model)
+    apart = abs(first - here) + abs(ratio - first)
+    clear = abs(ratio - here) >= _CLEAR * apart or apart <= _NOTHING * most
+    return ratio if apart <= most and clear else None
 
 
 def _ratio(cycle: Cycle) -> float:

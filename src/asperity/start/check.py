@@ -7,6 +7,8 @@ from asperity.casefile.case import Case, naming_source
 from asperity.casefile.check import Mistake, check_case, missing
 from asperity.commands import COMMANDS, Command, case_tables
 from asperity.errors import AsperityError, InputError
+from asperity.start.duty import sized
+from asperity.start.gear import MACRO, begun
 
 DUTY = "requirements"
 """The table of a case that says what a gearset has to do, where it has none yet."""
@@ -67,9 +69,11 @@ class Checked(NamedTuple):
 def check(name: str, settings: Sequence[str]) -> Checked:
     """Look at a case file and at what every command says of it."""
     case, mistakes = check_case(name, case_tables(), settings)
+    left_out = [m for m in mistakes if _filled(case, m)]
+    mistakes = tuple(m for m in mistakes if m not in left_out)
     takers: list[str] = []
     refusals: dict[str, str] = {}
-    able = [] if mistakes else _able(case)
+    able = [] if mistakes or left_out else _able(case)
     asked = [command for command in able if _takes_no_more(command)]
     for command in asked:
         try:
@@ -84,7 +88,13 @@ def check(name: str, settings: Sequence[str]) -> Checked:
         text = refusals[asked[0].name].removeprefix(f"{case.source}: ")
         mistakes, takers = (Mistake(None, "", text),), []
     elif not mistakes and not able and DUTY in case:
-        takers = ["size"]
+        try:
+            with naming_source(case):
+                sized(case)
+        except AsperityError as error:
+            mistakes = (Mistake(None, "", str(error).removeprefix(f"{case.source}: ")),)
+        else:
+            takers = ["size"]
     elif not mistakes and not able:
         mistakes = tuple(_lacking(case))
     besides = [
@@ -95,6 +105,13 @@ def check(name: str, settings: Sequence[str]) -> Checked:
         and (not missing(case, c.needs) or any(table in case for table in c.either))
     ]
     return Checked(case, mistakes, tuple(takers), refusals, tuple(besides))
+
+
+def _filled(case: Case, mistake: Mistake) -> bool:
+    """Whether a mistake is what a duty leaves out and ``size`` fills in."""
+    table, _, key = mistake.key.partition(".")
+    filled = table == "gearset" and mistake.text == f"{mistake.key} is missing"
+    return filled and DUTY in case.raw and key in (*MACRO, *begun()[table])
 
 
 def _takes_no_more(command: Command) -> bool:

@@ -1,16 +1,18 @@
 """What a gearset is sized for: a case file that says everything but the gearset."""
 
+import copy
 from typing import Any
 
-from asperity.casefile.case import read_raw
+from asperity.casefile.case import Case, read_raw
 from asperity.casefile.table import names_file, same_thing
 from asperity.commands import case_tables
 from asperity.errors import InputError, nearest, shown
 from asperity.rating.load_steps import LOADS
 from asperity.rating.parameters import Operation
 from asperity.rating.spectrum import Spectrum
-from asperity.start.gear import begun, drop_begun_life
+from asperity.start.gear import begun, drop_begun_life, proposals
 from asperity.start.kinds import Values
+from asperity.studies.proposed import Proposals
 from asperity.units import Named, quantity_of
 
 _ASKED = {"output_torque": "300 N m", "worm_speed": "1500 rpm"}
@@ -30,13 +32,36 @@ def duty(name: str = "") -> Values:
     InputError
         The file cannot be read or has a table that no case has.
     """
+    if name:
+        return _laid_over(read_raw(name, case_tables())[0])
     values = begun()
     for key in _ASKED:
         values["operation"].pop(key)
-    if not name:
-        return values
+    return values
+
+
+def sized(case: Case) -> Proposals:
+    """Return what ``size`` proposes for a duty, without cutting a wheel; it refuses what that does.
+
+    Parameters
+    ----------
+    case : Case
+        Its tables as a file has them; whether they are validated does not matter.
+
+    Raises
+    ------
+    InputError
+        As ``size`` does.
+    """
+    values = copy.deepcopy(_laid_over(case))
+    complete(values)
+    return proposals(values)
+
+
+def _laid_over(case: Case) -> Values:
+    """Return the tables of a case over what is assumed where it says nothing."""
+    values = duty()
     known = case_tables()
-    case, _ = read_raw(name, known)
     given = set[str]()
     for table, entries in case.raw.items():
         if table not in known:

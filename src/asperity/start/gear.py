@@ -1,6 +1,5 @@
 """A gearset's case from ratio, torque and speed alone."""
 
-import dataclasses
 import functools
 import math
 from collections.abc import Collection, Mapping
@@ -16,6 +15,7 @@ from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.spectrum import Spectrum
+from asperity.start.borne import borne_by
 from asperity.start.kinds import KINDS, Values
 from asperity.studies.proposals import propose
 from asperity.studies.proposed import Proposals
@@ -36,7 +36,7 @@ _STAND_IN = {"starts": 1, "wheel_teeth": 40, "centre_distance": "100 mm", "axial
 SIZE = Command(
     "size",
     "Propose worm gearsets for a ratio, a torque and a speed, rated by all standards.",
-    "With --out also size.json, size.nc and a case file for each proposal.",
+    "With --out also report.html, size.json, size.nc and a case file for each proposal.",
     module="",
     case="",
     options=(
@@ -77,7 +77,7 @@ def proposals(
         ``requirements`` as a file has them; what the gearset says of its macro-geometry is held,
         and the rest of it proposed.
     ratio : float, optional
-        Of the speeds; left out: that of ``requirements``.
+        Of the speeds; left out: that of ``requirements``, or of teeth and starts that are held.
     rank, exact
         As in `asperity.studies.proposals.propose`.
     cut : bool
@@ -94,34 +94,28 @@ def proposals(
     kept = {key: value for key, value in values["gearset"].items() if key not in _HELD}
     held = _held({key: value for key, value in values["gearset"].items() if key in _HELD})
     gearset = _table(Gearset, kept | _STAND_IN)
-    operation = _operation(values)
+    operation = operation_of(values)
     options = _table(RatingOptions, values.get("rating", {}))
-    found = propose(
-        _ratio(ratio, asked),
+    return propose(
+        _ratio(ratio, asked, held),
         gearset,
         operation,
         options,
         rank=rank,
         exact=exact,
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
+        borne=borne_by(values, kept, operation, options, asked),
         details=functools.partial(_details, kept, values.get(Tolerances.table)),
         held=held,
         locks=locks,
         requirements=asked,
     )
-    shafts = [f"[{name}]" for name in ("worm_shaft", "wheel_shaft") if name in values]
-    if not shafts:
-        return found
-    # What shafts and bearings bear follows from where they stand, which a proposal moves.
-    said = (
-        f"{' and '.join(shafts)} of the case are not among what holds here: asperity rate judges "
-        "them with each proposal that --out writes"
-    )
-    return dataclasses.replace(found, notes=(said, *found.notes))
 
 
-def _ratio(given: float | None, asked: Requirements) -> float:
+def _ratio(given: float | None, asked: Requirements, held: Mapping[str, float]) -> float:
     if given is None:
+        if asked.ratio is None and {"starts", "wheel_teeth"} <= held.keys():
+            return held["wheel_teeth"] / held["starts"]
         if asked.ratio is None:
             raise InputError("ratio is missing: give --ratio 40, or --set requirements.ratio=40")
         return asked.ratio
@@ -132,8 +126,8 @@ def _ratio(given: float | None, asked: Requirements) -> float:
     return given
 
 
-def _operation(values: Values) -> Operation:
-    """Return how it is run, with its load spectrum and housing."""
+def operation_of(values: Values) -> Operation:
+    """Return how it is run, with its load spectrum and housing; raises InputError."""
     run: Operation = _table(Operation, values["operation"])
     tables = {
         model.table: _table(model, values[model.table])

@@ -6,11 +6,10 @@ and margin together; where none holds, the nearest ones are told as such.
 """
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, suggestion
@@ -24,7 +23,8 @@ from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
-from asperity.studies.proposed import MOST, Proposal, Proposals
+from asperity.studies.chosen import Borne, Chosen, Judges, choose, undominated, weakest
+from asperity.studies.proposed import MOST, Proposal, Proposals, gearset_keys
 from asperity.studies.requirements import Requirements
 from asperity.studies.series import grid
 from asperity.units.standards import FROM_SI
@@ -46,6 +46,7 @@ def propose(
     held: Mapping[str, float] | None = None,
     locks: str = "",
     requirements: Requirements | None = None,
+    borne: Callable[[Mapping[str, Any]], Borne] | None = None,
     details: Callable[[Mapping[str, Any]], Mapping[str, Any]] | None = None,
 ) -> Proposals:
     """Propose gearsets for a ratio, by the torque and the speed of an operation.
@@ -74,6 +75,9 @@ def propose(
         Whether the worm must lock itself, at rest or in motion, by every standard that rates it.
     requirements : Requirements, optional
         What is kept beside the safeties.
+    borne : callable, optional
+        What shafts and bearings of a gearset with such keys come to; it raises InputError where
+        they cannot be judged. Those that nothing else beats are asked for.
     details : callable, optional
         What else a `Proposal` tells of a gearset with its keys; those that are shown are asked for.
 
@@ -150,9 +154,11 @@ def propose(
             "no gearset of the series can be rated for this; look for a value with a wrong unit"
             f"{other}"
         )
-    worth = np.stack([-distance, efficiency, margins], axis=-1)
+    holds = bool(holding.any())
 
     def proposal(n: int) -> Proposal:
+        rows, bearings = chosen.borne.get(n, Borne())
+        weak = rows and weakest(rows).margin == margins[n]
         return Proposal(
             int(starts[n]),
             int(teeth[n]),
@@ -162,23 +168,37 @@ def propose(
             float(f"{shift[n]:.12g}"),
             float(efficiency[n]),
             float(margins[n]),
-            DEMANDS[least[n]].path,
-            bool(holding[n]),
+            weakest(rows).name if weak else DEMANDS[least[n]].path,
+            bool(holding[n]) and bool(margins[n] >= keeps.safety),
             *_locks(locking, n),
             hob=hob_of(hobs or (), int(starts[n]), float(module[n]), float(factor[n])),
+            rows=rows,
+            bearings=bearings,
         )
 
-    def best(of: Any) -> Any:
-        if holding.any():
-            return of[_undominated(worth[of])]
-        return of[np.argsort(-margins[of], kind="stable")[:MOST]]
+    def keys(n: int) -> dict[str, Any]:
+        return gearset_keys(starts[n], teeth[n], distance[n], module[n], factor[n])
 
-    shown, uncut = _that_can_be_cut(kept, best, proposal, can_be_cut)
+    def best(of: Any) -> Any:
+        if not holds:
+            return of[np.argsort(-margins[of], kind="stable")[:MOST]]
+        return of[undominated(np.stack([-distance, efficiency, margins], axis=-1)[of])]
+
+    judges = Judges(keys, can_be_cut, borne)
+    chosen = choose(kept, margins, best, judges, keeps.safety if holds else None)
+    if holds and not len(chosen.shown) and (chosen.weak or chosen.refused):
+        holds, before = False, chosen
+        others = np.array([n for n in np.flatnonzero(known) if n not in before.refused], dtype=int)
+        chosen = choose(others, margins, best, judges, None, before.borne)
+        chosen = chosen._replace(weak=before.weak, refused=before.refused | chosen.refused)
+    if not len(chosen.shown):
+        raise InputError(_none_left(chosen))
+    shown = chosen.shown
     notes = list(rated.notes)
     if pointed := len(designs) - starts.size:
         notes.append(f"left out: {pointed} whose worm or hob would have pointed threads")
-    if uncut:
-        notes.append(f"left out: {uncut} whose wheel no hob cuts (asperity flank tells why)")
+    if chosen.uncut:
+        notes.append(f"left out: {chosen.uncut} whose wheel no hob cuts (asperity flank tells why)")
     if held:
         named = ", ".join(f"gearset.{key}" for key in held)
         notes.append(f"held as it is set: {named}")
@@ -186,17 +206,20 @@ def propose(
         notes.append(f"kept as [requirements] has it: {keeps.said}")
     if operation.wear_assumed:
         notes.append(operation.wear_assumed)
-    if holding.any():
+    notes += _told_of_shafts(chosen)
+    if holds:
         if not rated_by_all[shown].all():
             notes.append(
                 "none holds by every standard, since one or another cannot rate these; they hold "
                 "by those that can"
             )
+    elif holding.any():
+        notes.append("none holds with its shafts and bearings; these come nearest")
     else:
         notes.append("none holds by every standard; these come nearest")
     order = {"size": (-efficiency, distance), "efficiency": (distance, -efficiency),
              "margin": (distance, -margins)}[rank]  # fmt: skip
-    if holding.any():
+    if holds:
         shown = shown[np.lexsort(tuple(keys[shown] for keys in order))]
     told = tuple(map(proposal, shown))
     return Proposals(
@@ -205,28 +228,6 @@ def propose(
         ranked_by=rank,
         found=tuple(p._replace(**(details(p.keys) if details else {})) for p in told),
         notes=tuple(notes),
-    )
-
-
-def _that_can_be_cut(
-    kept: Any,
-    best: Callable[[Any], Any],
-    proposal: Callable[[int], Proposal],
-    can_be_cut: Callable[[Mapping[str, Any]], bool] | None,
-) -> tuple[Any, int]:
-    """Return the best of what is kept, all of which a hob can cut, and how many it cannot."""
-    if can_be_cut is None:
-        return best(kept), 0
-    cut: dict[int, bool] = {}
-    while len(kept):
-        shown = best(kept)
-        cut |= {n: can_be_cut(proposal(n).keys) for n in shown if n not in cut}
-        if all(cut[n] for n in shown):
-            return shown, sum(not good for good in cut.values())
-        kept = np.array([n for n in kept if cut.get(n, True)], dtype=int)
-    raise InputError(
-        "no hob cuts the wheel of any gearset that could be proposed (asperity flank tells why): "
-        "take another gearset.flank, pressure angle or ratio"
     )
 
 
@@ -281,9 +282,24 @@ def _locks(
     return rest, motion, word or ("by some" if rest or motion else "no")
 
 
-def _undominated(worth: FloatArray) -> npt.NDArray[np.bool_]:
-    """Return whether no other row is at least as high in everything and higher in something."""
-    above = np.all(worth[:, None] >= worth[None], axis=-1)
-    higher = np.any(worth[:, None] > worth[None], axis=-1)
-    beaten: npt.NDArray[np.bool_] = np.any(above & higher, axis=0)
-    return ~beaten
+def _none_left(chosen: Chosen) -> str:
+    """Return why nothing can be proposed of what can be rated."""
+    if chosen.refused:
+        return next(iter(chosen.refused.values()))
+    return (
+        "no hob cuts the wheel of any gearset that could be proposed (asperity flank tells why): "
+        "take another gearset.flank, pressure angle or ratio"
+    )
+
+
+def _told_of_shafts(chosen: Chosen) -> Iterator[str]:
+    """Yield how many were left out for their shafts and bearings, and why."""
+    if chosen.weak:
+        nearest = max(chosen.weak, key=lambda row: row.margin)
+        yield (
+            f"left out: {len(chosen.weak)} whose shafts or bearings do not hold; nearest to it: "
+            f"{nearest.name} by {nearest.standard}, {nearest.stands}"
+        )
+    if chosen.refused:
+        why = next(iter(chosen.refused.values()))
+        yield f"left out: {len(chosen.refused)} whose shafts cannot be judged: {why}"

@@ -1,15 +1,32 @@
 """Worm gearsets that are proposed, and how they are told."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple
 
 from asperity.rating.demands import DEMANDS
+from asperity.rating.rows import Row
 from asperity.rating.standing import NAMES
 from asperity.results import Result, quantity
+from asperity.results.language import said
 from asperity.results.table import Table
 
+_OF_SHAFTS = ("rows", "bearings")
 MOST = 20
 """Proposals that are shown."""
+
+
+def gearset_keys(
+    starts: float, teeth: float, distance: float, module: float, factor: float
+) -> dict[str, Any]:
+    """Return what a ``[gearset]`` table has of a macro-geometry, lengths in mm."""
+    return {
+        "starts": int(starts),
+        "wheel_teeth": int(teeth),
+        "centre_distance": f"{distance:.12g} mm",
+        "axial_module": f"{module:.12g} mm",
+        "diameter_factor": float(f"{factor:.12g}"),
+    }
 
 
 class Proposal(NamedTuple):
@@ -26,7 +43,7 @@ class Proposal(NamedTuple):
     margin : float
         The least of all safeties over what is asked; 1 and more holds.
     limited_by : str
-        The safety that has it, as ``standard.key``.
+        The safety that has it, as ``standard.key``, or the shaft or bearing by its name.
     holds : bool
         Whether every safety is enough.
     locks_at_rest, locks_in_motion : tuple of str
@@ -39,6 +56,10 @@ class Proposal(NamedTuple):
         Of worm and wheel as full bodies, and of the wheel's rim with its teeth.
     backlash_arcmin : tuple of float, optional
         Least and greatest at the wheel in the worst case, where there are tolerances.
+    rows : tuple of Row, optional
+        What its shafts and bearings come to, where the case has any.
+    bearings : mapping of str to str, optional
+        Names of those that are chosen from data files, by where they stand in the case.
     """
 
     starts: int
@@ -58,17 +79,19 @@ class Proposal(NamedTuple):
     mass_kg: float | None = None
     rim_kg: float | None = None
     backlash_arcmin: tuple[float, float] | None = None
+    rows: tuple[Row, ...] = ()
+    bearings: Mapping[str, str] = MappingProxyType({})
 
     @property
     def keys(self) -> dict[str, Any]:
         """What a ``[gearset]`` table has of it."""
-        return {
-            "starts": self.starts,
-            "wheel_teeth": self.wheel_teeth,
-            "centre_distance": f"{self.centre_distance_mm:.12g} mm",
-            "axial_module": f"{self.axial_module_mm:.12g} mm",
-            "diameter_factor": self.diameter_factor,
-        }
+        return gearset_keys(
+            self.starts,
+            self.wheel_teeth,
+            self.centre_distance_mm,
+            self.axial_module_mm,
+            self.diameter_factor,
+        )
 
     @property
     def settings(self) -> tuple[str, ...]:
@@ -96,7 +119,9 @@ class Proposals(Result):
     def to_json(self) -> dict[str, Any]:
         """Return the proposals, each with the settings that make it."""
         found = [
-            {key: value for key, value in p._asdict().items() if value not in (None, "")}
+            {k: v for k, v in p._asdict().items() if k not in _OF_SHAFTS and v not in (None, "")}
+            | ({"bearings": dict(p.bearings)} if p.bearings else {})
+            | ({"rows": [row.to_json() for row in p.rows]} if p.rows else {})
             | {"settings": list(p.settings)}
             for p in self.found
         ]
@@ -114,6 +139,7 @@ class Proposals(Result):
             for place, p in enumerate(self.found[:MOST], 1)
         ]  # fmt: skip
         best = self.found[0]
+        said_above = not (self.holding and best.holds)
         first = " ".join(f'--set "{setting}"' for setting in best.settings)
         remarks = [
             f"{self.rated} gearset{'s' * (self.rated != 1)} rated, {self.holding} "
@@ -121,12 +147,39 @@ class Proposals(Result):
             f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
             # One that breaks is nobody's first one.
             *([f"the first one: {first}"] if best.holds else []),
-            *(self.notes if self.holding else self.notes[:-1]),
+            *(self.notes[:-1] if said_above else self.notes),
         ]
         if len(self.found) > MOST:
             remarks.insert(1, f"{len(self.found) - MOST} more with --json")
-        title = "" if self.holding else self.notes[-1].capitalize()
-        return (Table.of(headings, rows, title=title, remarks=remarks), *self._made())
+        title = self.notes[-1].capitalize() if said_above else ""
+        table = Table.of(headings, rows, title=title, remarks=remarks)
+        return (table, *self._borne(), *self._made())
+
+    def _borne(self) -> Iterator[Table]:
+        """Yield what shafts and bearings come to, where the case has any."""
+        shown = self.found[:MOST]
+        told = [_grouped(p.rows) for p in shown]
+        if told[0]:
+            heads = (
+                "",
+                *(f"{name} ({row.unit})" if row.unit else name for name, row in told[0].items()),
+            )
+            asked = ("asked", *(f"{row.asked:.4g}" for row in told[0].values()))
+            rows = [
+                (
+                    str(place),
+                    *(f"{row.value:.3g}{'' if row.holds else ' FAILS'}" for row in own.values()),
+                )
+                for place, own in enumerate(told, 1)
+            ]
+            yield Table.of(heads, [asked, *rows], title="Shafts and bearings")
+        places = list(shown[0].bearings)
+        if places:
+            rows = [
+                (str(place), *(p.bearings.get(where, "-") for where in places))
+                for place, p in enumerate(shown, 1)
+            ]
+            yield Table.of(("", *places), rows, title="Bearings of the shelf")
 
     def _made(self) -> Iterator[Table]:
         """Yield what they weigh and, where it is asked, what cuts them and how they play."""
@@ -146,10 +199,22 @@ class Proposals(Result):
         yield Table.of(tuple(columns), rows, title="Worm and wheel as full bodies")
 
 
+def _grouped(rows: Sequence[Row]) -> dict[str, Row]:
+    """Return the rows of shafts and bearings by what is told of them; of lives the least."""
+    lives = [row for row in rows if row.unit]
+    least = {"bearings": min(lives, key=lambda row: row.margin)} if lives else {}
+    return {**least, **{row.name: row for row in rows if not row.unit}}
+
+
+def _cell(row: Row) -> str:
+    fails = "" if row.holds else f" {said('FAILS')}"
+    return f"{row.value:.3g}{fails}"
+
+
 def _safety(path: str) -> str:
     """Return a safety as its symbol and the name of its standard."""
-    demand = next(demand for demand in DEMANDS if demand.path == path)
-    return f"{demand.symbol} {NAMES[demand.standard]}"
+    demand = next((demand for demand in DEMANDS if demand.path == path), None)
+    return path if demand is None else f"{demand.symbol} {NAMES[demand.standard]}"
 
 
 def _backlash(proposal: Proposal) -> str:

@@ -52,6 +52,9 @@ class Requirements(Table):
     hobs : {'any', 'standard', 'own'}
         What the wheel is cut with: any hob, one for a pair of module and diameter of DIN 3976, or
         one that a data file has (``asperity hobs``).
+    bearings : {'given', 'own'}
+        Whether the shafts of a duty name their bearings, or ``size`` puts the smallest of data
+        files that does (``asperity bearings``) where one names none.
     safety : float
         Times what each standard asks for, at least. 1 if left out.
     """
@@ -69,6 +72,7 @@ class Requirements(Table):
     centre_distance: Length | None = None
     wheel_diameter: Length | None = None
     hobs: Literal["any", "standard", "own"] = "any"
+    bearings: Literal["given", "own"] = "given"
     safety: Annotated[float, Quantity("", what="a factor", example="1.2", ge=1, le=100)] = 1.0
 
     def room(self, given: "Inputs", at_rest: Mapping[str, Real]) -> dict[str, Any]:

@@ -372,7 +372,7 @@ class Limits(Table):
 
     table: ClassVar[str] = "limits"
 
-    torque: Torque = 2.0
+    torque: Annotated[float, Quantity("N m", "a torque", "2 N m", gt=0)] = 2.0
     steel_supply: Voltage = 24.0
     bronze_supply: Voltage = 24.0
     motor_current: Current | None = None

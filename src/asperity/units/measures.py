@@ -36,7 +36,7 @@ degree = 3.14159265358979323846264338327950288 / 180 * radian = deg = \u00b0
 arcminute = degree / 60 = arcmin
 turn = 360 * degree = rev = revolution
 minute = 60 * second = min
-hour = 60 * minute = h
+hour = 60 * minute = h = hr
 hertz = 1 / second = Hz
 rpm = turn / minute
 newton = kilogram * meter / second ** 2 = N
@@ -54,12 +54,15 @@ poise = 0.1 * pascal * second = P
 stokes = 1e-4 * meter ** 2 / second = St
 degree_Celsius = kelvin; offset: 273.15 = \u00b0C = degC
 degree_Fahrenheit = 5 / 9 * kelvin; offset: 255.372222222222222222222222222222 = \u00b0F = degF
+rankine = 5 / 9 * kelvin = degR
 standard_gravity = 9.80665 * meter / second ** 2 = g_n
 inch = 0.0254 * meter = in
 foot = 12 * inch = ft
 pound = 0.45359237 * kilogram = lb
 pound_force = pound * standard_gravity = lbf
 psi = pound_force / inch ** 2
+british_thermal_unit = 1055.05585262 * joule = BTU = Btu
+acre = 43560 * foot ** 2
 horsepower = 550 * foot * pound_force / second = hp
 """
 

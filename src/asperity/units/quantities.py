@@ -27,6 +27,10 @@ _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?
 _COMMA = re.compile(r"\s*[+-]?[0-9]*,[0-9]+(?![0-9.,])")
 _UNIT = re.compile(r"[A-Za-z\u00b5\u03bc\u00b0%\u00b7\u00b2\u00b3*/^() 0-9-]{0,60}")
 _A_MINUTE = frozenset(("1/min", "/min", "min^-1", "min**-1"))
+# "2000 lb-in" is a torque as it is written in the US, a pound that of a force.
+_TORQUE = re.compile(r"lbf?[- \u00b7*]?(in|ft)|(in|ft)[- \u00b7*]?lbf?")
+_DEGREE = re.compile(r"\bdeg([CF])\b")
+_DIFFERENCE = {"C": "K", "F": "degR"}
 _PLAIN_POWER = re.compile(r"(?<=[A-Za-z])([23])(?![0-9])")
 
 
@@ -57,6 +61,11 @@ def _convert(number: str, given: str, unit: str) -> float:
     if unit == "rad/s" and text.replace(" ", "") in _A_MINUTE:
         # Of turns, as standards write a speed of rotation.
         text = "rpm"
+    if unit == "N m" and (torque := _TORQUE.fullmatch(text)):
+        text = f"lbf*{torque[1] or torque[2]}"
+    if not _DEGREE.fullmatch(text):
+        # Of "W/m**2/degC" the degree is one of a difference.
+        text = _DEGREE.sub(lambda found: _DIFFERENCE[found[1]], text)
     converted = measures.convert(number, text, unit)
     if converted is not None:
         return float(converted)

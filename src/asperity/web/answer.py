@@ -1,5 +1,7 @@
 """What is answered, by the worker that solves and by the one that looks things up."""
 
+import json
+from pathlib import Path
 from typing import Any
 
 from asperity.casefile import Case, naming_source
@@ -7,15 +9,17 @@ from asperity.casefile.check import check_case
 from asperity.commands import case_tables
 from asperity.commands.request import Body, CommandRequest, mapping, settings
 from asperity.errors import InputError
+from asperity.files.store import read_text
 from asperity.results import Result
 from asperity.results.dataset import variables
 from asperity.results.payload import as_payload
 from asperity.runs import Run
 from asperity.start.write import as_set, as_written
-from asperity.web.ask import case_of, confine, request_of
+from asperity.web.ask import case_of, confine, confine_settings, request_of
 from asperity.web.folder import SO_FAR, Folder
 
 _MOST_POINTS = 400
+_SHIPPED = Path(__file__).with_name("static") / "shown"
 
 
 def solved(folder: Folder, body: Body) -> dict[str, Any]:
@@ -48,15 +52,22 @@ def curve(folder: Folder, body: Body) -> dict[str, Any]:
 
 
 def size(folder: Folder, body: Body) -> dict[str, Any]:
-    """Propose gearsets for a ratio, a torque and a speed."""
+    """Propose gearsets for a ratio, a torque and a speed; as a page that prints if asked for."""
+    from asperity import __version__
     from asperity.python import size
+    from asperity.results.report import Heading
     from asperity.start.gear import SIZE, ratio_of
 
     # A page waits for milliseconds: no wheel is cut here.
     given = SIZE.given({}, {**mapping(body, "options"), "uncut": True})
     changes, ratio = settings(body), ratio_of(given["ratio"])
+    confine_settings(changes, folder)
     of_it = {name: text for name, text in given.items() if name not in ("ratio", "uncut")}
     found = size(ratio, **of_it, settings=changes, cut=False)
+    if body.get("report") is True:
+        asked = {name: str(text) for name, text in given.items() if name != "uncut" and text}
+        set_so = dict(change.split("=", 1) for change in changes)
+        return {"html": found.to_html(Heading(given=asked | set_so, version=__version__))}
     answer = found.to_json()
     return {
         "answer": answer,
@@ -121,10 +132,16 @@ def data(folder: Folder, body: Body) -> dict[str, Any]:
 
 
 def thesis(folder: Folder, body: Body) -> dict[str, Any]:
-    """Return what of the thesis is reproduced, and what of that was made here."""
-    from asperity.thesis.reproduce.ledger import ledger
+    """Return what of the thesis is reproduced, and what of that was made here.
 
-    return ledger(folder.thesis)
+    Of claims that were not, what came of them where the page was made; as a page that prints if
+    that is asked for.
+    """
+    from asperity.thesis.reproduce.ledger import ledger, reported
+
+    shipped = json.loads(read_text(_SHIPPED / "thesis/answer.json"))["answer"]["claims"]
+    found = ledger(folder.thesis, {one["id"]: one for one in shipped})
+    return {"html": reported(found, folder.thesis)} if "report" in body else found
 
 
 def received(folder: Folder, body: Body) -> dict[str, Any]:

@@ -24,7 +24,6 @@ from asperity.contact.halfspace.influence import HalfSpace, HalfSpaces
 from asperity.drive.resolved.flank import ExactFlank
 from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Approach, Frame, Strip
 from asperity.drive.teeth.contact import TeethContact
-from asperity.drive.teeth.placing import tooth_numbers
 from asperity.errors import ConvergenceError
 
 CLOSE = 0.05
@@ -202,7 +201,7 @@ class _Teeth:
         sector = contact.sector
         _, rotation, translation = contact.placed(beta, phi, shift)
         body = sector.body
-        numbers = tuple(tooth_numbers(phi, sector.pitch, contact.slots))
+        numbers = tuple(contact.numbers(beta))
         order = contact.side * np.array(numbers)
         normals = sector.surface.nodal_normals
         worm = contact.worm.numbers.worm

@@ -52,7 +52,6 @@ class StaticResult(Drawn):
         "drive_error": "The transmission error by its orders, at rising load.",
         "drive_stiffness": "What gives way between motor and wheel.",
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
     sector: Sector
@@ -74,6 +73,11 @@ class StaticResult(Drawn):
     def geometry(self) -> Geometry:
         """What follows from the gearset's numbers."""
         return self.problem.geometry
+
+    @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
 
     @property
     @labelled("eta", "", "efficiency of the mesh")

@@ -53,7 +53,6 @@ class Misaligned(Drawn):
         "misalign": "Pressure, edges, error and line load over what the mounting is off by.",
         "misalign_patterns": "Where a flank bears as the case is, at the ends, and at the worst.",
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
     axes: tuple[Axis, ...]
@@ -169,6 +168,11 @@ class Misaligned(Drawn):
     def geometry(self) -> Geometry:
         """What follows from the gearset's numbers."""
         return self.problem.geometry
+
+    @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
 
     @property
     def inputs(self) -> Mapping[str, Any]:

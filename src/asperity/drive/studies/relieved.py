@@ -54,7 +54,6 @@ class Relieved(Drawn):
     captions: ClassVar[Mapping[str, str]] = {
         "relief": "Forces on the edges, pressure and error of the designs that were tried."
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
     axes: tuple[Axis, ...]
@@ -143,6 +142,11 @@ class Relieved(Drawn):
     def geometry(self) -> Geometry:
         """What follows from the gearset's numbers."""
         return self.problem.geometry
+
+    @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
 
     @property
     def inputs(self) -> Mapping[str, Any]:

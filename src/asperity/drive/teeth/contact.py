@@ -166,11 +166,19 @@ class TeethContact:
         floor = _ROUNDING * reach * CONTACT_STIFFNESS * float(np.linalg.norm(surface.nodal_area))
         return Laws(interface, _TOLERANCE, floor, _STEPS)
 
+    def numbers(self, beta: float) -> range:
+        """Return the numbers of the teeth that may be in mesh while the worm stands at an angle.
+
+        They go by the worm, which stands still while the wheel is sought: half a pitch from a
+        tooth the next set would begin in the middle of the search.
+        """
+        return tooth_numbers(beta / self.stand.ratio, self.sector.pitch, self.slots)
+
     def placed(
         self, beta: float, phi: float, shift: FloatArray
     ) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return angles of the teeth, (K,), and the worm's pose as each sees it."""
-        numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
+        numbers = self.numbers(beta)
         angles = phi + self.sector.pitch * np.array(numbers, dtype=np.float64)
         rotation, translation = np.empty((len(angles), 3, 3)), np.empty((len(angles), 3))
         for k, angle in enumerate(angles):
@@ -240,7 +248,7 @@ class TeethContact:
             No equilibrium.
         """
         body, stand = self.sector.body, self.stand
-        numbers = tooth_numbers(phi, self.sector.pitch, self.slots)
+        numbers = self.numbers(beta)
         angles, rotation, translation = self.placed(beta, phi, shift)
         self._collect(beta, phi, shift, numbers, rotation, translation)
         slip, turn = np.zeros((len(angles), 3)), np.zeros((len(angles), 3, 3))

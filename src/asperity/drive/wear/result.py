@@ -32,7 +32,6 @@ class WheelWorn(Drawn):
         "wear": "Pressure, error, efficiency and depth over the turns of the wheel.",
         "wear_flank": "What is worn off, and where the flank bears, new and worn.",
     }
-    reported: ClassVar[bool] = True
 
     problem: DriveProblem
 
@@ -88,6 +87,11 @@ class WheelWorn(Drawn):
     def geometry(self) -> Geometry:
         """What follows from the gearset's numbers."""
         return self.problem.geometry
+
+    @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.problem.gearset.hand
 
     @property
     def inputs(self) -> Mapping[str, Any]:

@@ -9,8 +9,8 @@ from asperity.flanks.export.cad.solids import Solids
 from asperity.flanks.export.space import views
 from asperity.flanks.export.space.scene import gearset_scene, write_gearset
 from asperity.flanks.export.tooth import tooth_body
+from asperity.flanks.export.turned import Beside
 from asperity.flanks.export.worm import worm_body
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.mesh import HexMesh
 from asperity.mesh.inp import write_inp
@@ -27,7 +27,7 @@ def write_bodies(
     assembly: Assembly,
     folder: Path,
     *,
-    blanks: Blanks | None = None,
+    beside: Beside = None,
     name: str = "worm gearset",
     solids: Solids | None = None,
 ) -> list[str]:
@@ -42,7 +42,7 @@ def write_bodies(
     for body in (tooth_body(wheel), worm_body(wheel.pair)):
         write_stl(folder / f"{body.name}.stl", body.surface())
         names.append(f"{body.name}.stl")
-    scene = gearset_scene(wheel, assembly, blanks)
+    scene = gearset_scene(wheel, assembly, beside)
     write_gearset(folder / GEARSET, scene)
     names.append(GEARSET)
     with contextlib.suppress(MissingExtraError):

@@ -9,10 +9,10 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.export.turned import merged, rim_radius, wheel_section
-from asperity.flanks.parameters import Blanks
+from asperity.flanks.export.turned import Beside, blanks_of, merged
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import on_cylinder, turned
+from asperity.gearset.blanks import rim_radius, wheel_section
 
 FLANK_ERROR = 4e-7
 """Largest distance of a tooth's splines from the flanks, mm, but for corners of undercut."""
@@ -89,7 +89,7 @@ def centred_teeth(wheel: Wheel, teeth: int) -> Body:
     return tooth_body(wheel, teeth).moved(turned(angle))
 
 
-def wheel_body(wheel: Wheel, blanks: Blanks | None = None, spacing: Spacing = _WHOLE) -> Body:
+def wheel_body(wheel: Wheel, beside: Beside = None, spacing: Spacing = _WHOLE) -> Body:
     """Return the whole wheel: all its teeth, rim, web, hub and bore.
 
     In the gearset's own frame, mm, mirrored if it is left-handed; the first tooth is the one that
@@ -111,7 +111,7 @@ def wheel_body(wheel: Wheel, blanks: Blanks | None = None, spacing: Spacing = _W
         [row @ turn for turn in turns for row in low],
         [row @ turn for turn in reversed(turns) for row in high],
     ]
-    section = wheel_section(wheel.pair.geometry, blanks)
+    section = wheel_section(wheel.pair.geometry, blanks_of(beside))
     made = Body("wheel", patches, rings, [merged(section)])
     return made.moved(np.diag([1.0, 1.0, wheel.pair.mirror]))
 

@@ -1,107 +1,116 @@
-"""What is turned of wheel and worm: rim, web, hub and bore; shaft ends.
+"""What worm and wheel are beside their teeth: shafts as a case describes them, or as assumed.
 
 A section is points of radius and z, mm. The outside of a body lies to the left of the way along it,
 seen with the radius to the right and the axis upwards.
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.casefile import Case
 from asperity.errors import InputError
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.worm.setting import Pair
-from asperity.gearset import Geometry
+from asperity.gearset.blanks import Blanks, chamfer_of, rounded, sizes_given, wheel_sizes
+from asperity.gearset.keys import key_of
+from asperity.shafts.parameters import WheelShaft, WormShaft
+from asperity.shafts.shape import FROM_END, LENGTH, Keyway, Shape, on_shaft, require_once, shape_of
 
-_MILLIMETRES = 1e3
 _SAME = 1e-9
 
-BORE = 0.4
-"""Bore of the wheel where none is given, in centre distances."""
-HUB_DIAMETER = 1.6
-"""Diameter of the hub where none is given, in bores."""
-WEB = 0.5
-"""Width of the web where none is given, in face widths."""
 SHAFT = 0.9
 """Diameter of the worm's shaft where none is given, in root diameters of the worm."""
 SPAN = 1.5
 """Distance between the worm's bearings, in centre distances, that its shaft is made for."""
 JOURNAL = 2.0
 """What the drive end is longer than the free end where none is given, in shaft diameters."""
-CHAMFER = 0.05
-"""Chamfer where none is given, in diameters of bore and shaft."""
-_LARGEST_CHAMFER = 1.0
-_LARGEST_BORE, _LARGEST_HUB = 0.5, 0.85
 _LARGEST_SHAFT = 0.98
 
 
-def rim_radius(geometry: Geometry) -> float:
-    """Return the radius of the inside of the wheel's rim, mm."""
-    return geometry.wheel_root_diameter / 2.0 - geometry.rim_thickness
+class Bodies(NamedTuple):
+    """What both are beside their teeth.
+
+    Attributes
+    ----------
+    blanks : Blanks or None
+        As the table ``[blank]`` has it, of the wheel that sits on its shaft.
+    worm, wheel : Shape or None
+        Shafts, where a case describes them.
+    """
+
+    blanks: Blanks | None = None
+    worm: Shape | None = None
+    wheel: Shape | None = None
+
+    @classmethod
+    def of(cls, case: Case, pair: Pair) -> "Bodies":
+        """Return those of a case.
+
+        Raises
+        ------
+        InputError
+            Two tables say the same, or there is no such body.
+        """
+        blanks, g = case.get(Blanks), pair.geometry
+        tables = case.get(WormShaft), case.get(WheelShaft)
+        worm, wheel = (None if table is None else shape_of(table, g) for table in tables)
+        require_once(blanks, worm, wheel)
+        made = cls(blanks if wheel is None else on_shaft(blanks, wheel), worm, wheel)
+        try:
+            wheel_sizes(g, made.blanks)
+        except InputError as error:
+            if wheel is None:
+                raise
+            said = "the wheel's bore is as [wheel_shaft] is thick at its mesh"
+            raise InputError(f"{said}: {error}") from None
+        worm_shape(pair, made)
+        return made
 
 
-def wheel_sizes(geometry: Geometry, blanks: Blanks | None = None) -> dict[str, float]:
-    """Return what a wheel has of the sizes of `Blanks`, given or assumed, mm.
+Beside = Blanks | Bodies | None
+"""What both are beside their teeth: nothing where all is assumed."""
+
+
+def blanks_of(beside: Beside) -> Blanks | None:
+    """Return what a wheel is beside its teeth."""
+    return beside.blanks if isinstance(beside, Bodies) else beside
+
+
+def worm_shape(pair: Pair, beside: Beside = None) -> Shape:
+    """Return the worm's shaft, as it is described or assumed.
 
     Raises
     ------
     InputError
-        A size leaves no room for another.
+        As of `shaft_sizes`.
     """
-    given = _millimetres(blanks)
-    rim, face = rim_radius(geometry), geometry.wheel_face_width
-    if rim <= 0.0:
-        raise InputError(
-            f"gearset.rim_thickness is {geometry.rim_thickness:.4g} mm; the wheel's root radius is "
-            f"{geometry.wheel_root_diameter / 2.0:.4g} mm: take a thinner rim"
+    if isinstance(beside, Bodies) and beside.worm is not None:
+        return beside.worm
+    blanks = blanks_of(beside)
+    diameter, drive, free, chamfer = shaft_sizes(pair, blanks).values()
+    thread, radius = pair.geometry.worm_face_width, 0.5 * diameter
+    end = drive + thread + free
+    profiles = []
+    if drive > 0.0:
+        profiles.append(((0.0, 0.0), (0.0, radius - chamfer), (chamfer, radius), (drive, radius)))
+    if free > 0.0:
+        profiles.append(
+            ((drive + thread, radius), (end - chamfer, radius), (end, radius - chamfer), (end, 0.0))
         )
-    usual = min(BORE * geometry.centre_distance, _LARGEST_BORE * 2.0 * rim)
-    bore = given.get("bore", _rounded(usual))
-    _below("bore", bore, 2.0 * rim, "the inside of the rim", "take a smaller bore or a thinner rim")
-    hub = given.get("hub_diameter", min(HUB_DIAMETER * bore, 2.0 * rim))
-    if "hub_diameter" not in given and hub > _LARGEST_HUB * 2.0 * rim:
-        hub = 2.0 * rim
-    _below("bore", bore, hub, "the hub", "take a smaller bore or a larger blank.hub_diameter")
-    if hub > 2.0 * rim * (1.0 + _SAME):
-        raise InputError(
-            f"blank.hub_diameter is {hub:g} mm; the inside of the rim has {2.0 * rim:.4g} mm: take "
-            "a smaller one"
-        )
-    width = given.get("hub_width", max(face, bore))
-    web = given.get("web_width", min(WEB * face, width))
-    if web > min(face, width) * (1.0 + _SAME):
-        raise InputError(
-            f"blank.web_width is {web:g} mm; the wheel's face is {face:.4g} mm wide and its hub "
-            f"{width:.4g} mm: take a narrower web"
-        )
-    chamfer = _chamfer(given, bore, min(0.5 * (hub - bore), 0.5 * width))
-    return {
-        "bore": bore,
-        "hub_diameter": hub,
-        "hub_width": width,
-        "web_width": web,
-        "bore_chamfer": chamfer,
-    }
-
-
-def wheel_section(geometry: Geometry, blanks: Blanks | None = None) -> FloatArray:
-    """Return the section of a wheel below its rim, (k, 2), from the lower face to the upper one.
-
-    Errors as in `wheel_sizes`.
-    """
-    bore, hub, width, web, chamfer = wheel_sizes(geometry, blanks).values()
-    rim, face = rim_radius(geometry), geometry.wheel_face_width
-    upper = [
-        (0.5 * bore, 0.5 * width - chamfer),
-        (0.5 * bore + chamfer, 0.5 * width),
-        (0.5 * hub, 0.5 * width),
-        (0.5 * hub, 0.5 * web),
-        (rim, 0.5 * web),
-        (rim, 0.5 * face),
-    ]
-    lower = [(radius, -z) for radius, z in reversed(upper)]
-    return np.array([*lower, *upper])
+    keyways: tuple[Keyway, ...] = ()
+    if blanks is not None and blanks.keyways in ("worm", "both"):
+        key = key_of(diameter, "blank.shaft_diameter")
+        if drive <= 0.0:
+            raise InputError(
+                f"blank.keyways is {blanks.keyways!r}; the worm has no shaft at its driven end: "
+                "give blank.drive_end"
+            )
+        start = FROM_END * drive
+        keyways = (Keyway(start, start + LENGTH * drive, key.width, key.in_shaft, diameter),)
+    mesh = drive + 0.5 * thread
+    return Shape(tuple(profiles), end, mesh, (drive, drive + thread), keyways, (), diameter)
 
 
 def shaft_sizes(pair: Pair, blanks: Blanks | None = None) -> dict[str, float]:
@@ -112,48 +121,59 @@ def shaft_sizes(pair: Pair, blanks: Blanks | None = None) -> dict[str, float]:
     InputError
         The shaft is thicker than the worm's root, or a chamfer has no room.
     """
-    given = _millimetres(blanks)
+    given = sizes_given(blanks)
     root = 2.0 * pair.worm.root_radius
-    diameter = given.get("shaft_diameter", _rounded(SHAFT * root))
+    diameter = given.get("shaft_diameter", rounded(SHAFT * root))
     if diameter > _LARGEST_SHAFT * root:
         raise InputError(
             f"blank.shaft_diameter is {diameter:g} mm; the worm's root diameter is {root:.4g} mm, "
             f"and the thread ends on the shaft: take at most {_LARGEST_SHAFT * root:.4g} mm"
         )
     bearing = 0.5 * (SPAN * pair.geometry.centre_distance - pair.geometry.worm_face_width)
-    free = given.get("free_end", _rounded(max(bearing, 0.0) + 0.5 * diameter))
+    free = given.get("free_end", rounded(max(bearing, 0.0) + 0.5 * diameter))
     drive = given.get("drive_end", free + JOURNAL * diameter)
     ends = [end for end in (free, drive) if end > 0.0]
     return {
         "shaft_diameter": diameter,
         "drive_end": drive,
         "free_end": free,
-        "shaft_chamfer": _chamfer(given, diameter, min([0.5 * diameter, *ends])),
+        "shaft_chamfer": chamfer_of(given, diameter, min([0.5 * diameter, *ends])),
     }
 
 
-def shaft_sections(pair: Pair, blanks: Blanks | None = None) -> list[FloatArray]:
+def shaft_sections(pair: Pair, beside: Beside = None) -> list[FloatArray]:
     """Return the sections of a worm's shaft ends, the drive end where z is positive, (k, 2).
 
-    Errors as in `shaft_sizes`.
+    Each ends on the threads; one that is thicker than their root there is closed, and ends on the
+    axis at both ends. Errors as in `worm_shape`.
     """
-    diameter, drive, free, chamfer = shaft_sizes(pair, blanks).values()
-    thread = 0.5 * pair.geometry.worm_face_width
-    sections = []
-    for side, beyond in ((1.0, drive), (-1.0, free)):
-        if beyond == 0.0:
-            continue
-        end = thread + beyond
-        profile = np.array(
-            [
-                (0.0, end),
-                (0.5 * diameter - chamfer, end),
-                (0.5 * diameter, end - chamfer),
-                (0.5 * diameter, thread),
-            ]
-        )
-        sections.append(merged(profile if side > 0.0 else (profile * [1.0, -1.0])[::-1]))
-    return sections
+    most = _LARGEST_SHAFT * pair.worm.root_radius * (1.0 + _SAME)
+    shape = worm_shape(pair, beside)
+    made = []
+    for section in sections_of(shape):
+        whole = section
+        if section[0][0] > most:
+            whole = np.vstack([[0.0, section[0][1]], whole])
+        if section[-1][0] > most:
+            whole = np.vstack([whole, [0.0, section[-1][1]]])
+        made.append(whole)
+    return made
+
+
+def sections_of(shape: Shape) -> list[FloatArray]:
+    """Return the sections of a shaft, its mesh at z = 0 and its first end where z is positive."""
+    return [
+        merged(np.array([(radius, shape.mesh - place) for place, radius in profile]))
+        for profile in shape.profiles
+    ]
+
+
+def threads_of(pair: Pair, beside: Beside = None) -> tuple[float, float]:
+    """Return from where to where a worm's threads go, mm along z."""
+    shape = worm_shape(pair, beside)
+    assert shape.threads is not None
+    start, end = shape.threads
+    return shape.mesh - end, shape.mesh - start
 
 
 def merged(section: FloatArray) -> FloatArray:
@@ -186,31 +206,3 @@ def volume(section: FloatArray) -> float:
     """
     (r0, z0), (r1, z1) = section[:-1].T, section[1:].T
     return float(np.sum(math.pi / 3.0 * (r0 * r0 + r0 * r1 + r1 * r1) * (z1 - z0)))
-
-
-def _millimetres(blanks: Blanks | None) -> dict[str, float]:
-    """The sizes that are given, mm."""
-    given = (blanks or Blanks()).model_dump(exclude_none=True, exclude={"keyways"})
-    return {key: float(f"{value * _MILLIMETRES:.12g}") for key, value in given.items()}
-
-
-def _rounded(size: float) -> float:
-    """A size as it is made: whole mm, tenths of what is small."""
-    step = 1.0 if size >= 10.0 else 0.1
-    return max(math.floor(size / step) * step, 0.5 * size)
-
-
-def _chamfer(given: dict[str, float], diameter: float, room: float) -> float:
-    usual = min(CHAMFER * diameter, _LARGEST_CHAMFER, 0.5 * room)
-    chamfer = given.get("chamfer", usual)
-    if chamfer > room * (1.0 + _SAME):
-        raise InputError(
-            f"blank.chamfer is {chamfer:g} mm; there is room for at most {room:.4g} mm: take a "
-            "smaller one"
-        )
-    return chamfer
-
-
-def _below(key: str, value: float, most: float, what: str, remedy: str) -> None:
-    if not value < most * (1.0 - 1e-3):
-        raise InputError(f"blank.{key} is {value:g} mm; {what} has {most:.4g} mm: {remedy}")

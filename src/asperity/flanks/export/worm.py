@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.export.turned import shaft_sections
-from asperity.flanks.parameters import Blanks
+from asperity.flanks.export.turned import Beside, shaft_sections, threads_of
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.setting import Pair
 
@@ -34,8 +33,16 @@ SHOWN = Spacing(48, 7, 4, 200)
 """What a picture needs."""
 
 
-def worm_body(pair: Pair, length: float | None = None, *, spacing: Spacing = EXACT) -> Body:
+def worm_body(
+    pair: Pair,
+    length: float | None = None,
+    *,
+    spacing: Spacing = EXACT,
+    between: tuple[float, float] | None = None,
+) -> Body:
     """Return the worm of a pair between two planes across its axis, of its own length or another.
+
+    The planes may be given, ``between`` two places along z; else they are as far to either side.
 
     About the z axis, mm, the middle of a thread space at z = 0 on the x axis; mirrored if the
     gearset is left-handed. Its threads are as thick as the backlash asks for. For each start root,
@@ -43,13 +50,17 @@ def worm_body(pair: Pair, length: float | None = None, *, spacing: Spacing = EXA
     the axis, j along it.
     """
     worm = pair.worm
-    length = pair.geometry.worm_face_width if length is None else length
+    if between is None:
+        half = (pair.geometry.worm_face_width if length is None else length) / 2
+        between = -half, half
+    low_end, high_end = between
+    length = high_end - low_end
     if not (math.isfinite(length) and length > 0):
         raise InputError(f"the worm's length is {length:g} mm; it must be positive")
     p = worm.reduced_lead
     count = 1 + math.ceil(spacing.per_turn * length / (2 * math.pi * p))
     count = min(max(_LEAST_ALONG, count), spacing.most)
-    along = np.linspace(-length / 2, length / 2, count)
+    along = np.linspace(low_end, high_end, count)
 
     def swept(radius: ArrayLike, axial: ArrayLike, start: int) -> Patch:
         # A point of the axial section that stands `axial` beyond the space's middle.
@@ -69,10 +80,10 @@ def worm_body(pair: Pair, length: float | None = None, *, spacing: Spacing = EXA
     return Body(worm.name, patches, [low, high]).moved(np.diag([1.0, 1.0, pair.mirror]))
 
 
-def whole_worm(pair: Pair, blanks: Blanks | None = None, spacing: Spacing = EXACT) -> Body:
+def whole_worm(pair: Pair, beside: Beside = None, spacing: Spacing = EXACT) -> Body:
     """Return the worm with its shaft ends, in the frame of `worm_body`."""
-    sections = shaft_sections(pair, blanks)
-    thread = worm_body(pair, spacing=spacing)
+    sections = shaft_sections(pair, beside)
+    thread = worm_body(pair, spacing=spacing, between=threads_of(pair, beside))
     shaft = Body("", [], [], sections).moved(np.diag([1.0, 1.0, pair.mirror]))
     return Body(thread.name, thread.patches, thread.rings, shaft.turned)
 

@@ -3,20 +3,20 @@
 import dataclasses
 import time
 
-from asperity.casefile import Case
+from asperity.casefile import Case, naming_source
 from asperity.errors import InputError, MissingExtraError
 from asperity.flanks import parameters
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.cad.keyway import require_keys
 from asperity.flanks.export.extras import require_cad, require_draw, require_view
-from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
+from asperity.flanks.export.turned import Bodies
 from asperity.flanks.measuring import measures
 from asperity.flanks.mesh.tooth import element_size, read_density, tooth
 from asperity.flanks.meshing import lubrication
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
-from asperity.flanks.parameters import Blanks, Disc, Hob, MeasuringOptions, Modification, Mount
+from asperity.flanks.parameters import Disc, Hob, MeasuringOptions, Modification, Mount
 from asperity.flanks.study.meshed import ToothMesh
 from asperity.flanks.study.mounted import MountedStudy
 from asperity.flanks.study.result import FlankStudy
@@ -64,7 +64,7 @@ class Prepared:
     notes: tuple[str, ...] = ()
     step: bool = False
     dxf: bool = False
-    blanks: Blanks | None = None
+    beside: Bodies | None = None
     measuring: MeasuringOptions | None = None
     tolerances: Tolerances | None = None
     wear: float | None = None
@@ -148,11 +148,10 @@ def prepare(
     made = prepare_gearset(
         gearset, case.get(Hob), case.get(Mount), case.get(Modification), case.get(Disc), size
     )
-    blanks = case.get(Blanks)
     pair = made.wheel.pair
-    wheel_sizes(pair.geometry, blanks)
-    shaft_sizes(pair, blanks)
-    require_keys(pair, blanks)
+    with naming_source(case):
+        beside = Bodies.of(case, pair)
+        require_keys(pair, beside)
     tolerances, measuring = case.get(Tolerances), case.get(MeasuringOptions)
     require_once(tolerances, case.get(Mount), measuring)
     if tolerances is not None:
@@ -164,7 +163,7 @@ def prepare(
         notes=tuple(notes),
         step=step,
         dxf=dxf,
-        blanks=blanks,
+        beside=beside,
         measuring=measuring,
         tolerances=tolerances,
         wear=None if tolerances is None else _wear(case),
@@ -250,7 +249,7 @@ def study(prepared: Prepared) -> FlankStudy:
         measuring=measured,
         step=prepared.step,
         dxf=prepared.dxf,
-        blanks=prepared.blanks,
+        beside=prepared.beside,
         toleranced=off,
     )
 

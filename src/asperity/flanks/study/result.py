@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from asperity.errors import AsperityError
 from asperity.files.store import write_text
 from asperity.flanks.export.assembly import Assembly
-from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
+from asperity.flanks.export.turned import Beside, Bodies, blanks_of, shaft_sizes
 from asperity.flanks.measuring.drawing import Datum, csv_of, drawing_data
 from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.meshing.analysis import LABELS, Analysis
 from asperity.flanks.meshing.lubrication import LoadedNumbers
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.study.meshed import ToothMesh
 from asperity.flanks.study.toleranced import Toleranced
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.gearset import Geometry
+from asperity.gearset.blanks import wheel_sizes
 from asperity.gearset.drawn import Drawn
 from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.dataset import to_dataset
@@ -74,7 +74,7 @@ class FlankStudy(Drawn):
         Whether the files hold tooth, worm, wheel and both in mesh as STEP.
     dxf : bool
         Whether they hold a drawing as DXF.
-    blanks : Blanks, optional
+    beside : Blanks or Bodies, optional
         What wheel and worm are beside their teeth.
     toleranced : Toleranced, optional
         What the tolerances come to, where there are any.
@@ -96,7 +96,6 @@ class FlankStudy(Drawn):
         "transmission-error": "How far the wheel is ahead of an even turn.",
         "vibration": "Parts of a vibration's velocity on the flank s = +1.",
     }
-    reported: ClassVar[bool] = True
     labels = LABELS
 
     name: str
@@ -109,7 +108,7 @@ class FlankStudy(Drawn):
     assembly: Assembly
     step: bool = False
     dxf: bool = False
-    blanks: Blanks | None = None
+    beside: Beside = None
     toleranced: Toleranced | None = None
     seconds: float = quantity("", "s", "time it took", key="seconds", only="json", shown=False)
 
@@ -117,6 +116,11 @@ class FlankStudy(Drawn):
     def geometry(self) -> Geometry:
         """What follows from the gearset's numbers."""
         return self.analysis.pair.geometry
+
+    @property
+    def hand(self) -> str:
+        """Of the worm."""
+        return self.wheel.pair.hand
 
     @property
     @labelled(
@@ -149,8 +153,12 @@ class FlankStudy(Drawn):
     def sizes(self) -> dict[str, Any]:
         """Sizes of wheel and worm beside their teeth, mm, and which of them were assumed."""
         pair = self.assembly.pair
-        sizes = wheel_sizes(pair.geometry, self.blanks) | shaft_sizes(pair, self.blanks)
-        given = self.blanks.model_fields_set if self.blanks is not None else set()
+        blanks = blanks_of(self.beside)
+        sizes = wheel_sizes(pair.geometry, blanks)
+        if not (isinstance(self.beside, Bodies) and self.beside.worm is not None):
+            # Else the shaft is that of its own table.
+            sizes |= shaft_sizes(pair, blanks)
+        given = blanks.model_fields_set if blanks is not None else set()
         return {f"{key}_mm": size for key, size in sizes.items()} | {
             "assumed": [key for key in sizes if key not in given]
         }
@@ -162,7 +170,7 @@ class FlankStudy(Drawn):
             return None
         from asperity.flanks.export.cad.solids import Solids
 
-        return Solids.of(self.wheel, self.assembly, self.blanks)
+        return Solids.of(self.wheel, self.assembly, self.beside)
 
     @property
     def failure(self) -> AsperityError | None:
@@ -251,7 +259,7 @@ class FlankStudy(Drawn):
         """Return the file that the gearset is drawn from in space."""
         from asperity.flanks.export.space.packed import drawn_from
 
-        parts = self.wheel, self.analysis, self.assembly, self.blanks
+        parts = self.wheel, self.analysis, self.assembly, self.beside
         return {"flanks.bin": drawn_from(self.heading(), *parts)}
 
     def tables(self) -> tuple[Table, ...]:
@@ -324,7 +332,7 @@ class FlankStudy(Drawn):
                 self.mesh.hexahedra,
                 self.assembly,
                 folder,
-                blanks=self.blanks,
+                beside=self.beside,
                 name=self.heading(),
                 solids=self.solids,
             ),
@@ -340,7 +348,7 @@ class FlankStudy(Drawn):
         pair, name = self.wheel.pair, self.heading()
         return (
             write_dxf(
-                folder, pair, self.drawing, blanks=self.blanks, deviation=deviation, name=name
+                folder, pair, self.drawing, beside=self.beside, deviation=deviation, name=name
             ),
         )
 

@@ -50,6 +50,7 @@ def rated(given: Inputs) -> Values:
     Of a duty cycle the safety is the least and the sump's temperature the highest of its parts;
     everything else is that under the rated torque.
     """
+    given.gearset.wheel_material.require_covered("AGMA 6034")
     v = _rated(given)
     parts = [_rated(part) for part in given.parted()]
     if parts:

@@ -55,6 +55,7 @@ def rate(given: Inputs, tables: Tables) -> Rating:
 
 def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     """Return friction and permissible torques by the keys of a rating, and notes."""
+    given.gearset.wheel_material.require_covered("BS 721")
     wheel, worm = _rows(given)
     v: Values = {}
     v["sliding_velocity_m_s"] = sliding_velocity(

@@ -69,6 +69,7 @@ def rated_efficiency(given: Inputs, teeth: Values | None = None) -> Values:
 
 def _teeth(given: Inputs) -> Values:
     wheel, operation = given.gearset.wheel_material, given.operation
+    wheel.require_covered("ISO/TR 14521")
     v: Values = {}
     v["sliding_velocity_m_s"] = friction.sliding_velocity(
         given.worm_pitch_diameter, given.worm_speed, given.lead_angle
@@ -223,7 +224,7 @@ def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
 def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
     parted = given.parted()
     spectrum = given.operation.spectrum
-    if spectrum is not None and spectrum.oil_temperature == "mean" and len(given.duty) > 1:
+    if spectrum is not None and spectrum.oil == "mean" and len(given.duty) > 1:
         hours = given.total(part.life for part in parted)
         sumps = (part.life * sump_of(part) for part in parted)
         mean = given.total(sumps) / hours

@@ -5,17 +5,31 @@ from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import balance
 
 
+def uncounted(given: Inputs) -> str:
+    """Return what is to be said of a duty other than S1 that cannot count; empty where it does."""
+    spectrum, housing = given.operation.spectrum, given.operation.housing
+    if spectrum is None or given.how.kind == "S1" or given.oil_temperature is not None:
+        return ""
+    if housing is not None and housing.capacity is not None:
+        return ""
+    duty = " ".join(spectrum.duty.split())
+    return (
+        f"{duty} does not count yet, temperature is judged as of S1: give [housing] with "
+        "heat_capacity or masses"
+    )
+
+
 def housing_of(given: Inputs, v: Values) -> Real:
     """Find how warm the housing gets by its heat balance; returns the highest temperature, degC."""
     housing, spectrum = given.operation.housing, given.operation.spectrum
     assert housing is not None
     v["A_h_m2"] = housing.area
     if housing.area is None:
-        v["A_h_m2"] = balance.housing_area(given.centre_distance)
+        v["A_h_m2"] = balance.AREAS[housing.area_rule](given.centre_distance)
     v["k_h_W_m2K"] = housing.heat_transfer
     v["K_h_W_K"] = balance.conductance(v["k_h_W_m2K"], v["A_h_m2"], housing.base)
     v["loss_heating_W"] = v.get("loss_max_W", v["loss_total_W"])
-    if spectrum is not None and spectrum.oil_temperature == "mean" and given.duty:
+    if spectrum is not None and spectrum.oil == "mean" and given.duty:
         v["loss_heating_W"] = v["loss_mean_W"]
     v["rise_h_K"] = balance.steady_rise(v["loss_heating_W"], v["K_h_W_K"])
     # What the standard's own formula would ask the housing to give off.
@@ -25,12 +39,12 @@ def housing_of(given: Inputs, v: Values) -> Real:
         v["k_S_W_m2K"] = v["loss_heating_W"] / (by_formula * v["A_h_m2"])
     top = v["rise_h_K"]
     capacity = housing.capacity
-    how = spectrum.how if spectrum is not None else None
+    how = given.how
     if capacity is not None:
         v["tau_s"] = balance.time_constant(capacity, v["K_h_W_K"])
-        if how is not None and how.kind == "S2":
+        if how.kind == "S2":
             top = v["rise_top_K"] = balance.rise_after(v["rise_h_K"], how.time, v["tau_s"])
-        elif how is not None and how.kind == "S3":
+        elif how.kind == "S3":
             rest = v["tau_s"]
             if housing.at_rest is not None:
                 cooled = balance.conductance(housing.at_rest, v["A_h_m2"], housing.base)

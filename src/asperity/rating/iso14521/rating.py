@@ -12,6 +12,7 @@ from asperity.rating.housing import Housing
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import balance
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
+from asperity.rating.iso14521.housed import uncounted
 from asperity.rating.iso14521.limits import implausible, violations
 from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
 from asperity.rating.result import Rating
@@ -99,6 +100,12 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             "viscosity is extrapolated beyond the 100 degC it is given at"
         )
     notes += _of_heat(given, values)
+    spectrum = given.operation.spectrum
+    if spectrum is not None and spectrum.oil != "each" and spectrum.oil_temperature is None:
+        notes.append(
+            "the oil has the mean temperature of all loads, as the cycles of S3 are alike: give "
+            "spectrum.oil_temperature = 'each' where a load comes in long blocks"
+        )
     if given.duty:
         notes.append(
             f"the duty cycle: wear adds up over its parts, {_SUMPS[_oil(given)]}, "
@@ -131,7 +138,9 @@ _MOST_BEYOND = 30.0  # W/(m2 K)
 
 def _of_heat(given: Inputs, values: Values) -> Iterator[str]:
     """Say where the sump's temperature by the standard and the heat balance contradict."""
-    housing, spectrum = given.operation.housing, given.operation.spectrum
+    if told := uncounted(given):
+        yield f"heat: {told}"
+    housing = given.operation.housing
     if housing is None:
         return
     if values.get("k_S_W_m2K", 0.0) > _MOST_BEYOND:
@@ -139,11 +148,6 @@ def _of_heat(given: Inputs, values: Values) -> Iterator[str]:
             f"heat: the sump's formula of ISO/TR 14521, which knows no losses, would have the "
             f"housing give off {values['k_S_W_m2K']:.0f} W/(m2 K); more than {_MOST_BEYOND:g} "
             "takes blown air: wear and film go by that formula, temperature by the balance"
-        )
-    if housing.capacity is None and spectrum is not None and spectrum.how.kind != "S1":
-        yield (
-            f"heat: spectrum.duty is {spectrum.duty!r}, but housing.heat_capacity is missing, so "
-            "that the housing is taken to be as warm as it gets all the time"
         )
 
 
@@ -156,7 +160,7 @@ _LIVES = {"life", "wheel_revolutions"}
 
 def _oil(given: Inputs) -> str:
     spectrum = given.operation.spectrum
-    return "each" if spectrum is None else spectrum.oil_temperature
+    return "each" if spectrum is None else spectrum.oil
 
 
 def _equations(given: Inputs) -> dict[str, str]:
@@ -220,13 +224,14 @@ def _equations(given: Inputs) -> dict[str, str]:
 
 def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
     """Return the equations of a housing's heat, by key."""
-    how = "S1" if given.operation.spectrum is None else given.operation.spectrum.how.kind
+    how = given.how.kind
     timed = housing.capacity is not None and how != "S1"
     equations = {"safety_temperature": "theta_Slim/theta_h"}
     if timed:
         equations["theta_h_degC"] = "theta_0 + dtheta_t"
         formula = balance.rise_in_cycles if how == "S3" else balance.rise_after
         equations["rise_top_K"] = formula.equation
+    equations["A_h_m2"] = balance.AREAS[housing.area_rule].equation
     if housing.area is not None:
         equations["A_h_m2"] = "input"
     if not given.duty:
@@ -254,10 +259,11 @@ def _sources(given: Inputs) -> dict[str, Source]:
         "W_ML": given.options.wear_factor, "sigma_HlimT_MPa": given.options.pitting_factor,
     }  # fmt: skip
     in_place |= {key: None if factor == 1.0 else factor for key, factor in changed.items()}
-    housing = operation.housing
+    housing, by_rule = operation.housing, {}
     if housing is not None:
         own = {"A_h_m2": "area", "loss_idle_W": "idle_loss", "loss_seal_W": "seal_loss"}
         in_place |= {key: getattr(housing, name) for key, name in own.items()}
+        by_rule = {"A_h_m2": balance.AREAS[housing.area_rule].source}
     return {
         "mu_0T": friction_constants(*law).source,
         "Y_W": wheel.source("material_factor"),
@@ -267,5 +273,6 @@ def _sources(given: Inputs) -> dict[str, Source]:
         "Z_oil": base.source("pitting_factor"),
         "sigma_HlimT_MPa": wheel.source("pitting_strength"),
         "tau_FlimT_MPa": wheel.source("shear_strength"),
+        **by_rule,
         **{key: GIVEN for key, value in in_place.items() if value is not None},
     }

@@ -23,6 +23,9 @@ CLEANLINESS = {
 """Factor e_C by a word, the least of its range; ``bronze`` is a proposal of our own for an oil bath
 that holds what a wheel of bronze wears off."""
 
+AT_REST: dict[Kind, float] = {"ball": 1.0, "roller": 1.5}
+"""Least static safety for normal running, from memory, `symbols.ISO_76_MEMORY`."""
+
 _MOST = 50.0
 _kinematic = Annotated[Real, Symbol("nu", "mm2/s", positive)]
 _reference = Annotated[Real, Symbol("nu_1", "mm2/s", positive)]

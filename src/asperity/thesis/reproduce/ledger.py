@@ -1,8 +1,11 @@
 """What of the thesis is reproduced, without making any of it: what runs have left, and what not."""
 
+from collections import Counter
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from asperity.results.table import Table
 from asperity.thesis import contents
 from asperity.thesis.contents import chapter_of
 from asperity.thesis.exhibits import CLAIM, FIGURE
@@ -10,14 +13,23 @@ from asperity.thesis.products import DIFFERS, Plain
 from asperity.thesis.reproduce.files import Collection, Shown
 from asperity.thesis.said import read_by_a_machine
 
+if TYPE_CHECKING:
+    from asperity.results.report import Section
 
-def ledger(folder: Path) -> dict[str, Any]:
+_CAME_OF_IT = "verdict", "ours", "why"
+
+
+def ledger(
+    folder: Path, elsewhere: Mapping[str, Mapping[str, Any]] | None = None
+) -> dict[str, Any]:
     """Return chapters, claims and figures, with what a run left of each in a folder.
 
     Parameters
     ----------
     folder : path
         What ``asperity thesis --out`` was given; it need not be there.
+    elsewhere : mapping, optional
+        By number of a claim: what came of it where it was made, told of one that was not made here.
 
     Returns
     -------
@@ -38,7 +50,9 @@ def ledger(folder: Path) -> dict[str, Any]:
             "line": f"asperity thesis --only {exhibit.number}",
         }
         if exhibit.kind == CLAIM:
-            claims.append(told | {"id": exhibit.number} | _claimed(found, exhibit.maker.words))
+            own = told | {"id": exhibit.number} | _claimed(found, exhibit.maker.words)
+            known = {} if found else (elsewhere or {}).get(exhibit.number, {})
+            claims.append(own | {key: known[key] for key in _CAME_OF_IT if key in known})
         else:
             words = exhibit.maker.words
             picture = found.files[".png"].name if found else ""
@@ -52,6 +66,63 @@ def ledger(folder: Path) -> dict[str, Any]:
         "figures": figures,
         "folder": str(folder),
     }
+
+
+def reported(told: Mapping[str, Any], folder: Path) -> str:
+    """Return a ledger as a page that prints: claims by chapter, and the figures that were made.
+
+    Parameters
+    ----------
+    told : mapping
+        From `ledger`.
+    folder : path
+        The same.
+    """
+    from asperity import __version__
+    from asperity.results.report import Heading, Section, report
+
+    claims = told["claims"]
+    count = Counter(one["verdict"] or "not made" for one in claims)
+    said = ", ".join(f"{verdict} {number}" for verdict, number in count.most_common())
+    kept = sum(one["kept"] for one in claims)
+    first = Section(
+        "",
+        (
+            f"Of {len(claims)} claims: {said}.",
+            f"{kept or 'None'} of them {'was' if kept < 2 else 'were'} made here; what stands of "
+            "others came of them where this version was made.",
+            told["read"],
+        ),
+    )
+    sections = [first, *(_chapter(chapter, told, folder) for chapter in told["chapters"])]
+    return report("What of the thesis is reproduced", sections, Heading(version=__version__))
+
+
+def _chapter(chapter: Mapping[str, Any], told: Mapping[str, Any], folder: Path) -> "Section":
+    from asperity.results.report import Picture, Section
+
+    own = [one for one in told["claims"] if one["chapter"] == chapter["number"]]
+    rows = [
+        (
+            one["id"],
+            f"{one['text']} Section {one['section']}.",
+            one["theirs"],
+            one["ours"] or "–",
+            one["verdict"] or "not made",
+            one["why"],
+        )
+        for one in own
+    ]
+    headings = ("claim", "what it says", "thesis", "here", "verdict", "why")
+    pictures = tuple(
+        Picture(f"Figure {one['number']}: {one['title']}", caption=one["caption"],
+                png=folder / one["picture"])
+        for one in told["figures"]
+        if one["chapter"] == chapter["number"] and one["picture"]
+    )  # fmt: skip
+    tables = (Table.of(headings, rows, left=len(headings)),) if rows else ()
+    title = f"{chapter['number']} {chapter['title']}"
+    return Section(title, (chapter["text"],), pictures, tables)
 
 
 def _claimed(found: Shown | None, words: Any) -> dict[str, Any]:

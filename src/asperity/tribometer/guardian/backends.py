@@ -1,11 +1,14 @@
 """The instruments of a configuration, by who makes them, their outputs owned by a guardian."""
 
+import concurrent.futures as cf
 import contextlib
 import dataclasses
 import json
 import subprocess
 import sys
-from typing import Any
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any, TypeVar
 
 from asperity.casefile import Case
 from asperity.errors import AsperityError
@@ -13,7 +16,7 @@ from asperity.tribometer.guardian import asked
 from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.devices import DRIVE, OUTPUTS, owned_by
 from asperity.tribometer.guardian.guard import Guard
-from asperity.tribometer.guardian.in_time import ScopeInTime
+from asperity.tribometer.guardian.in_time import ScopeInTime, beaten
 from asperity.tribometer.guardian.rig import Address, RigLine
 from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
@@ -38,6 +41,8 @@ from asperity.tribometer.instruments.protocols import (
 # Kinds of what an interlock says of a rig that somebody else has switched off.
 _AS_OFF = "vibration", "supply"
 REPLAY = "replay"
+_WORKING = 5.0  # s that a disk may take
+T = TypeVar("T")
 BACKENDS = "sim", REPLAY, "hardware", "manual"
 """All of it simulated; a run played back; all that can be had as hardware; a PicoScope, and a
 person for the rest."""
@@ -107,6 +112,17 @@ class GuardedBench(Bench):
         """Return what tells the guardian meanwhile that the procedure goes on."""
         return self.guard.beating()
 
+    def work(self, act: Callable[[], T]) -> T:
+        """Return what a piece of work gives; the guardian is told that the procedure waits for it.
+
+        What takes longer than a disk may is told no more, and ends as a procedure that hangs.
+        """
+        with cf.ThreadPoolExecutor(1) as pool:
+            future = pool.submit(act)
+            with contextlib.suppress(cf.TimeoutError):
+                return beaten(future, self.guard.here, _WORKING)
+            return future.result()
+
     def _scope_let_go(self) -> bool:
         try:
             self.scope.safe()
@@ -134,8 +150,17 @@ class GuardedBench(Bench):
             self.rig.close()
 
 
-def open_bench(case: Case, backend: str) -> GuardedBench:
-    """Return the instruments of a configuration, everything switched off by their guardian.
+def open_bench(case: Case, backend: str, folder: Path | None = None) -> GuardedBench:
+    """Return the instruments of a configuration, which their guardian begins to switch off.
+
+    Parameters
+    ----------
+    case : Case
+        The configuration.
+    backend : str
+        One of `BACKENDS`, but for a replay.
+    folder : Path, optional
+        Of the run.
 
     Raises
     ------
@@ -146,9 +171,9 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     """
     inputs = inputs_for(case)
     if backend == "sim":
-        return _simulated(case, simulated_of(inputs))
+        return _simulated(case, simulated_of(inputs), folder)
     person = Operator()
-    guard = Guard(case, backend, None)
+    guard = Guard(case, backend, None, folder)
     owned, _ = owned_by(case, backend)
     due = case.get(Table, Table()).due(simulated=False)
     sampled = case.get(Acquisition, Acquisition())
@@ -168,6 +193,7 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
             lambda: opened_scope(case, inputs),
             sampled.deadline(due),
             late=late,
+            beat=guard.here,
         ),
         vibration=vibration,
         motors=outputs,
@@ -179,11 +205,11 @@ def open_bench(case: Case, backend: str) -> GuardedBench:
     )
 
 
-def _simulated(case: Case, inputs: tuple[Input, ...]) -> GuardedBench:
+def _simulated(case: Case, inputs: tuple[Input, ...], folder: Path | None) -> GuardedBench:
     address = begun_rig(case)
     line = RigLine(address)
     try:
-        guard = Guard(case, "sim", address)
+        guard = Guard(case, "sim", address, folder)
     except BaseException:
         line.close()
         raise
@@ -193,7 +219,7 @@ def _simulated(case: Case, inputs: tuple[Input, ...]) -> GuardedBench:
     due = case.get(Table, Table()).due(simulated=True)
     outputs = {key: asked.AskedSupply(guard, key, name) for key, name in OUTPUTS.items()}
     return GuardedBench(
-        scope=ScopeInTime(name, inputs, lambda: scope, due),
+        scope=ScopeInTime(name, inputs, lambda: scope, due, beat=guard.here),
         vibration=_Vibration(guard),
         motors={key: outputs[key] for key in ("steel", "bronze")},
         tachometer=asked.AskedTachometer(line, "tachometer", "simulated tachometer"),

@@ -42,6 +42,8 @@ class Guard:
         Which instruments.
     rig : tuple, optional
         Where a simulated rig is.
+    folder : Path, optional
+        Of the run: what was not read back to be off is written there whatever becomes of it.
 
     Attributes
     ----------
@@ -49,8 +51,11 @@ class Guard:
         Which guardian it is: another is begun where one is lost.
     """
 
-    def __init__(self, case: Case, backend: str, rig: Address | None) -> None:
-        self._told = {"case": packed(case), "backend": backend, "rig": rig}
+    def __init__(
+        self, case: Case, backend: str, rig: Address | None, folder: Path | None = None
+    ) -> None:
+        where = None if folder is None else str(folder.absolute())
+        self._told = {"case": packed(case), "backend": backend, "rig": rig, "folder": where}
         table, simulated = case.get(Table, Table()), backend == "sim"
         # two attempts, the second as the end comes
         busy = 2.0 * longest(deadline_of(case, simulated=simulated))
@@ -65,6 +70,7 @@ class Guard:
     def _start(self) -> None:
         self.generation += 1
         self._tripped, self._kind = "", SWITCHED_OFF
+        self._found: Mapping[str, Any] | None = None
         self._number = 0
         self._waiting: float | None = None
         self._answers: queue.SimpleQueue[Head | None] = queue.SimpleQueue()
@@ -82,13 +88,6 @@ class Guard:
             pipe = self._heard if self._heard >= 0 else None
             self._wire.send(self._told | {"signals": pipe})
         threading.Thread(target=self._hear, args=(self._wire, self._answers), daemon=True).start()
-        try:
-            self._found = self._ask(_STARTING, "guardian", "started", ())
-        except InstrumentError as error:
-            if error.kind != LOST:
-                raise
-            why = "the guardian, which switches off, has ended as it began"
-            raise StillOnError.of(why, LOST, self._owned) from None
 
     @property
     def signals(self) -> int:
@@ -114,6 +113,7 @@ class Guard:
 
     def ask(self, to: str, do: str, *given: Any) -> Any:
         """Return what an object of the guardian gives; raises what it raises."""
+        self.begun()
         return self._ask(self._limit, to, do, given)
 
     def ask_bytes(self, to: str, do: str, *given: Any) -> tuple[Any, bytes]:
@@ -148,6 +148,11 @@ class Guard:
         self._look(self._limit)
         if error := self.switched_off():
             raise error
+
+    def here(self) -> None:
+        """Tell that the procedure goes on, whatever has become of the guardian."""
+        with contextlib.suppress(OSError, ValueError):
+            self._wire.send(_HERE)
 
     @contextlib.contextmanager
     def beating(self) -> Iterator[None]:
@@ -201,7 +206,21 @@ class Guard:
         self._wire.close()
 
     def begun(self) -> Mapping[str, Any]:
-        """Return what was read back when it made everything safe, which is its first act."""
+        """Return what was read back when it made everything safe, which is its first act.
+
+        Raises
+        ------
+        StillOnError
+            It has ended meanwhile.
+        """
+        if self._found is None:
+            try:
+                self._found = self._ask(_STARTING, "guardian", "started", ())
+            except InstrumentError as error:
+                if error.kind != LOST:
+                    raise
+                why = "the guardian, which switches off, has ended as it began"
+                raise StillOnError.of(why, LOST, self._owned) from None
         return dict(self._found)
 
     def off(self, why: str, *, listen: bool) -> Mapping[str, Any]:
@@ -213,9 +232,9 @@ class Guard:
                 raise
         try:
             self._start()
+            return self.begun()
         except InstrumentError as error:
             return {"still_on": [f"{name}: {error}" for name in self._owned]}
-        return dict(self._found)
 
     def close(self) -> None:
         """Let it end, everything off."""

@@ -10,31 +10,29 @@ import contextlib
 import queue
 import time
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.alarm import Alarm
-from asperity.tribometer.guardian.owned import LISTENER, Asked, Device, Verdict, unproven
+from asperity.tribometer.guardian.owned import LISTENER, Asked, Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
 from asperity.tribometer.guardian.stop import StopButton, named
 from asperity.tribometer.guardian.switching import Switching, longest
+from asperity.tribometer.guardian.verdicts import NOBODY, NOT_YET, Verdicts
 from asperity.tribometer.guardian.wire import Head, Wire
 from asperity.tribometer.guardian.writing import Writing
 from asperity.tribometer.instruments.off import said
 from asperity.tribometer.instruments.protocols import STOPPED, SWITCHED_OFF, InstrumentError
 
 BEAT = 0.1  #: s
-_OPENING = 20.0  # s that a device may take at the start
 _POLLED = 0.5  # s between two looks at a supply that is on
 _AGAIN = 1.0  # s between two attempts at what was not read back
-_ATTEMPT = 0.5  # s that one of these takes
 _TRIES = 3  # at switching off where it fails itself
 _ATTEMPTS = 10  # of these, when the procedure has ended
 _WRITTEN = 60.0  # s that the end waits for the journal and for recordings
 _CLOSED = 0.5  # s that it waits for a device to be let go of
 _STOPPED = "somebody asks for a stop"
-_NOT_YET = "nobody was asked yet to switch it off"
-_NOBODY = "nobody was asked to switch it off"
 
 
 class Guardian:
@@ -56,6 +54,8 @@ class Guardian:
         Cuts the power.
     trouble : str
         Why there is none, where there should be.
+    folder : Path, optional
+        Of the run, where its journal is, or will be.
     now : callable
         The computer's clock, s; it goes on while the computer sleeps.
     """
@@ -71,44 +71,43 @@ class Guardian:
         say: Callable[[str], None],
         relay: Relay | None = None,
         trouble: str = "",
+        folder: Path | None = None,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
         self._devices = devices
-        self._by_hand = frozenset(by_hand)
+        self._by_hand = tuple(by_hand)
         self._wire = wire
         self._patience, self._deadline = patience, deadline
         self._say = say
         self._alarm, self._trouble = Alarm(say, relay), trouble
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
+        self._stop_button = StopButton(self.stop)
+        self._writing = Writing(self._stop_button.watch, folder)
         self._switching = Switching(
             devices, by_hand, limit=longest(deadline), now=now, tick=self._tick
         )
+        self._verdicts = Verdicts(self._switching, self._writing, self._alarm, by_hand, say, now)
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._awaited: dict[cf.Future[Any], Asked] = {}
         self._on: set[str] = set()
-        self._tripped, self._unasked = "", ""
+        self._tripped, self._urgent = "", False
         self._kind = SWITCHED_OFF
-        self._event = now()  # that it was tripped by
-        self._proven: float | None = None  # when all was read back, since then
         self._switched = True  # whether that has had everything told to be off
         self._deserted: float | None = None
         self._failures = 0
-        self._heard = self._looked = self._tried = now()
-        self._stop_button = StopButton(self.stop)
-        self._writing = Writing(self._stop_button.watch)
-        self._last: Verdict | None = None
+        self._heard = self._looked = now()
         self._orderly = False
         self._left: int | None = None
 
     def signal(self, number: int) -> None:
         """Take a signal, as often as it comes; may be called from its handler."""
-        came = self._now()
+        came, self._urgent = self._now(), True
         self._events.put(lambda: self._trip(f"signal {named(number)}", came))
 
     def stop(self) -> None:
         """Take that somebody asks for an end; may be called from any thread."""
-        came = self._now()
+        came, self._urgent = self._now(), True
         self._events.put(lambda: self._trip(_STOPPED, came, kind=STOPPED))
 
     def message(self, head: Head) -> None:
@@ -118,14 +117,13 @@ class Guardian:
 
     def deserted(self) -> None:
         """Take that the procedure is there no more; may be called from any thread."""
-        came = self._now()
+        came, self._urgent = self._now(), True
         self._events.put(lambda: self._end(came))
 
     def work(self) -> int:
         """Make everything safe, then guard until the procedure has ended; returns an exit code."""
         try:
-            self._last = self._switching.off("start", self._now(), limit=_OPENING, listen=True)
-            self._writing.verdict(self._last)
+            self._verdicts.first(lambda: self._urgent)
         except Exception as error:
             self._failed(error)
         while self._left is None:
@@ -161,9 +159,8 @@ class Guardian:
 
     def _name_all(self, error: Exception) -> None:
         names = *(self._called(key) for key in self._of if key != LISTENER), *self._by_hand
-        after = self._now() - self._event
         with contextlib.suppress(Exception):
-            self._told(unproven(self._tripped, self._event, after, names, said(error)), last=True)
+            self._verdicts.fail(self._tripped, names, error)
 
     def _next(self) -> None:
         """Take what has come."""
@@ -177,12 +174,15 @@ class Guardian:
         """See that nothing is late."""
         now = self._now()
         if self._tripped:
-            if now - self._tried > _AGAIN:
-                self._again() if self._switched else self._trip(self._tripped, self._event)
+            if now - self._verdicts.tried > _AGAIN:
+                if self._switched:
+                    self._verdicts.again()
+                else:
+                    self._trip(self._tripped, self._verdicts.event)
             return
         if self._on and now - self._heard > self._patience:
             silent = f"the procedure has said nothing for {now - self._heard:.2g} s"
-            self._trip(silent, self._heard, unasked=_NOBODY)
+            self._trip(silent, self._heard, unasked=NOBODY)
             return
         for future, asked in list(self._awaited.items()):
             if now - asked.since > self._deadline and not future.done():
@@ -239,8 +239,10 @@ class Guardian:
             if "vibration" in self._on and not self._tripped and not waits:
                 self._begin(0, "vibration", lambda one: one.keep_alive())
         elif verb == "started":
-            assert self._last is not None
-            told = self._last.line() | ({"trouble": self._trouble} if self._trouble else {})
+            last = self._verdicts.last
+            assert last is not None
+            trouble = self._trouble or self._alarm.cut
+            told = last.line() | ({"trouble": trouble} if trouble else {})
             self._send({"n": number, "gave": told})
         elif verb == "off":
             why, listen = given
@@ -280,16 +282,16 @@ class Guardian:
         self._trip(str(error), event)
 
     def _trip(
-        self, why: str, event: float, kind: str = SWITCHED_OFF, unasked: str = _NOT_YET
+        self, why: str, event: float, kind: str = SWITCHED_OFF, unasked: str = NOT_YET
     ) -> None:
         """Switch everything off, for good."""
         if self._tripped and self._switched:
             return
         if not self._tripped:
             self._tripped, self._kind = why, kind
-            self._event, self._proven = event, None
-        why, event = self._tripped, self._event
-        self._tried, self._switched = self._now(), False
+            self._verdicts.began(event)
+        why, event = self._tripped, self._verdicts.event
+        self._verdicts.tried, self._switched = self._now(), False
         found = self._off(why, event, listen=False, unasked=unasked)
         self._switched = True
         self._send({"tripped": why, "kind": kind, "still_on": found.still_on})
@@ -306,75 +308,37 @@ class Guardian:
             elif asked.number:
                 self._send(wires.failed(asked.number, self._off_already()))
         self._awaited.clear()
-        self._unasked = unasked
-        found = self._switching.off(why, event, listen=listen, unasked=unasked)
-        self._told(found, last=last)
+        found = self._verdicts.off(why, event, listen=listen, unasked=unasked, last=last)
         self._on.clear()
         return found
 
-    def _told(self, found: Verdict, *, last: bool) -> None:
-        """Write down what was found, and tell a person what has to be switched off by hand."""
-        self._note(found)
-        unread = [one for one in found.found if not one.proven and (last or not one.unheard)]
-        # Without power nothing answers; a procedure that lives has yet to ask, and to read.
-        waits = self._unasked == _NOT_YET and all(one.name in self._by_hand for one in unread)
-        self._alarm.name(unread, cut=not waits)
-
-    def _note(self, found: Verdict) -> None:
-        """Write a verdict down, and when there was nothing more that was not read back."""
-        self._last, self._tried = found, self._now()
-        self._writing.verdict(found)
-        if found.still_on:
-            self._proven = None
-        elif self._proven is None:
-            self._proven = found.event + found.seconds
-
-    def _again(self, *, listen: bool = False) -> bool:
-        """Try once more what was not read back to be off; with nobody there it may listen.
-
-        Returns whether there was any: of what a person switches nothing can be read back.
-        """
-        last, self._tried = self._last, self._now()
-        if last is None or all(one.proven or one.name in self._by_hand for one in last.found):
-            return False
-        # Shortly: who asks meanwhile is not to wait long.
-        found = self._switching.off(
-            last.why, self._now(), limit=_ATTEMPT, listen=listen, unasked=self._unasked
-        ).since(self._event, last)
-        self._tried = self._now()
-        if found.still_on != last.still_on:
-            self._note(found)
-            if not found.still_on:
-                self._say(f"read back to be off at last: {found.names}")
-        return True
-
     def _end(self, came: float) -> None:
         """Leave, everything off."""
-        self._deserted = came
-        if self._orderly and self._last is not None and not self._on:
-            self._left = 4 if self._last.still_on else 0
+        self._deserted, verdicts = came, self._verdicts
+        if self._orderly and verdicts.last is not None and not self._on:
+            self._left = 4 if verdicts.last.still_on else 0
             return
         if not self._tripped:
-            self._event, self._proven = came, None
+            verdicts.began(came)
         why = self._tripped = self._tripped or "the procedure has ended without a word"
         self._switched = False
-        found = self._off(why, came, listen=False, unasked=_NOBODY, last=LISTENER not in self._of)
+        found = self._off(why, came, listen=False, unasked=NOBODY, last=LISTENER not in self._of)
         self._switched = True
         if LISTENER in self._of:
             heard = f"{why}, and the drive signal is heard"
-            found = self._off(heard, self._now(), listen=True, unasked=_NOBODY)
+            found = self._off(heard, self._now(), listen=True, unasked=NOBODY)
         self._writing.end(why, found)
         for _ in range(_ATTEMPTS if any(self._of) else 0):
-            if self._last is None or not self._last.still_on:
+            if verdicts.last is None or not verdicts.last.still_on:
                 break
             time.sleep(_AGAIN)
-            if not self._again(listen=True):
+            if not verdicts.again(listen=True):
                 break
-        if self._last is None or self._last.still_on or self._proven is None:
+        seconds = verdicts.took
+        if verdicts.last is None or seconds is None:
             self._left = 4
             return
-        seconds = self._proven - self._event
-        self._say(f"{why}; read back to be off within {seconds:.2g} s: {self._last.names}")
+        self._say(f"{why}; read back to be off within {seconds:.2g} s: {verdicts.last.names}")
         self._left = 0
 
     def _close(self) -> None:

@@ -11,6 +11,7 @@ import signal
 import sys
 import threading
 import time
+from pathlib import Path
 from typing import Any
 
 from asperity.tribometer.guardian.wire import Wire
@@ -98,7 +99,7 @@ def main() -> int:
         devices_of(case, backend, rig), owned_by(case, backend)[1], wire,
         patience=table.patient(simulated=simulated),
         deadline=deadline_of(case, simulated=simulated), say=words.say, relay=relay,
-        now=_clock, trouble=trouble,
+        now=_clock, trouble=trouble, folder=Path(told["folder"]) if told.get("folder") else None,
     )  # fmt: skip
     for number in held.early:
         guardian.signal(number)

@@ -38,6 +38,11 @@ class Switching:
         The computer's clock, s.
     tick : callable
         Called every now and then while it waits, ten times a second at least.
+
+    Attributes
+    ----------
+    limit : float
+        As given.
     """
 
     def __init__(
@@ -49,7 +54,7 @@ class Switching:
         now: Clock = time.monotonic,
         tick: Callable[[], None] = lambda: None,
     ) -> None:
-        self._limit = limit
+        self.limit = limit
         self._tick = tick
         self._devices = devices
         self._by_hand = by_hand
@@ -65,6 +70,7 @@ class Switching:
         limit: float | None = None,
         listen: bool,
         unasked: str = "",
+        meanwhile: Callable[[Verdict], bool] = lambda _: False,
     ) -> Verdict:
         """Switch everything off, and read back that it is.
 
@@ -81,8 +87,10 @@ class Switching:
         unasked : str
             Why no person has been asked to switch off what only a person can; none, where the
             procedure asks.
+        meanwhile : callable, optional
+            Takes what is found so far, at every look; ends it by returning True.
         """
-        end = self._now() + (self._limit if limit is None else limit)
+        end = self._now() + (self.limit if limit is None else limit)
         safes: dict[str, cf.Future[Any]] = {}
         for stage in STAGES:
             begun = {key: self._safe(key) for key in stage if key in self._of}
@@ -109,7 +117,10 @@ class Switching:
             if proven and (not listens or LISTENER in known):
                 break
             listening = LISTENER in asked and LISTENER not in known
-            if self._now() >= (patient if listening else end):
+            # Who was never heard keeps no other from being waited for.
+            if self._now() >= (max(patient, 0.0 if proven else end) if listening else end):
+                break
+            if meanwhile(self._verdict(why, event, found, came)):
                 break
             # What it may hear is to be known whatever else is absent.
             if self._hopeless(found) and (not listens or LISTENER in known):
@@ -120,14 +131,19 @@ class Switching:
                 [one for one in asked.values() if not one.done()],
                 timeout=max(0.0, min(_AGAIN, end - self._now())),
             )
-        if unasked:
-            found += [Off(name, False, unasked) for name in self._by_hand]
+        return self._verdict(why, event, found, came, unasked=unasked)
+
+    def _verdict(
+        self, why: str, event: float, found: Sequence[Off], came: Mapping[str, float], *,
+        unasked: str = "",
+    ) -> Verdict:  # fmt: skip
+        hands = [Off(name, False, unasked) for name in self._by_hand] if unasked else []
         named: dict[str, float] = {}
         # More may come meanwhile.
         for key, at in dict(came).items():
             named[self._named(key)] = max(at - event, named.get(self._named(key), 0.0))
         return Verdict(
-            why, event, self._now() - event, tuple(found), named,
+            why, event, self._now() - event, (*found, *hands), named,
             () if unasked else tuple(self._by_hand),
         )  # fmt: skip
 

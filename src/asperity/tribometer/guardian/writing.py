@@ -21,14 +21,21 @@ class Writing:
     Parameters
     ----------
     opened : callable
-        Takes the folder of a journal that was opened.
+        Takes the folder of the run.
+    folder : Path, optional
+        Of the run. What may be on is written there whoever is gone, or has yet to ask.
     """
 
-    def __init__(self, opened: Callable[[Path], None]) -> None:
+    def __init__(self, opened: Callable[[Path], None], folder: Path | None = None) -> None:
         self._opened = opened
+        self._folder = folder
         self._journal: Journal | None = None
+        self._was_open = False
         self._hand = Hand("journal")
         self._unwritten: list[Verdict] = []
+        if folder is not None:
+            # A stop may be asked for before there is a journal.
+            self._hand.begin(lambda: opened(folder))
 
     def asked(self, head: Head) -> "cf.Future[Any]":
         """Do what the procedure asks of the journal; returns what tells of it."""
@@ -36,10 +43,10 @@ class Writing:
         def act() -> Any:
             if head["do"] == "open":
                 folder = Path(head["with"][0])
-                self._journal = Journal(folder)
+                journal = self._open(folder)
                 self._write_down()
                 self._opened(folder)
-                return self._journal.lines
+                return journal.lines
             if self._journal is None:
                 raise InstrumentError("no journal is open")
             if head["do"] == "close":
@@ -64,7 +71,22 @@ class Writing:
         """Return what tells that everything so far is written."""
         return self._hand.begin(lambda: None)
 
+    def _open(self, folder: Path) -> Journal:
+        """Return the journal of a folder, which is held by one at a time."""
+        if self._journal is not None and self._journal.path.parent != folder:
+            self._journal.close()
+            self._journal = None
+        if self._journal is None:
+            self._journal = Journal(folder)
+        self._folder, self._was_open = folder, True
+        return self._journal
+
     def _write_down(self) -> None:
+        left = self._journal is None and self._folder is not None
+        if left and any(one.still_on or self._was_open for one in self._unwritten):
+            # Nobody else holds it: the procedure has yet to ask for it, or is done with it.
+            assert self._folder is not None
+            self._open(self._folder)
         while self._unwritten and self._journal is not None:
             self._journal.write("off", **self._unwritten[0].line())
             # What a full disk does not take is written when it does.
@@ -74,17 +96,18 @@ class Writing:
         journal = self._journal
         kinds = [] if journal is None else [line["kind"] for line in journal.lines]
         last = next((kind for kind in reversed(kinds) if kind != "off"), "")
-        if journal is None or last in ENDED:
+        # What has not begun cannot be gone on with; lines "off" say what may be on.
+        if journal is None or last in ENDED or "started" not in kinds:
             return
         if found.still_on:
             journal.write("latched", interlock="still on", reason=why, still_on=found.still_on)
-        elif "started" in kinds:
+        else:
             journal.write("interrupted", reason=why)
 
     def _join(self) -> None:
         """Make files of what the procedure had recorded."""
         if self._journal is None:
             return
-        from asperity.tribometer.recording.recorder import joined_all
+        from asperity.tribometer.recording.joining import joined_all
 
         joined_all(self._journal.path.parent)

@@ -1,6 +1,7 @@
 """What a reader of a format returns: columns with their headings and units, and the time."""
 
 import dataclasses
+import datetime
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -12,8 +13,8 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, shown
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.recording import Source
+from asperity.tribometer.recording.joining import Counts
 from asperity.tribometer.recording.layout import BEYOND, LARGEST, MISSING
-from asperity.tribometer.recording.recorder import Counts
 from asperity.tribometer.reduction.blocks import unit_scale
 from asperity.tribometer.signals import NEEDED, SIGNALS
 
@@ -46,6 +47,8 @@ class Columns:
         That wrote the file, where it is known.
     start : float
         Time of the first row, s.
+    began : tuple of datetime and str, optional
+        When that was, and what of the file tells it.
     """
 
     headings: tuple[str, ...]
@@ -57,6 +60,7 @@ class Columns:
     notes: tuple[str, ...] = ()
     program: str = ""
     start: float = 0.0
+    began: tuple[datetime.datetime, str] | None = None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,11 +1,13 @@
 """Which reader a file goes to, by its first bytes."""
 
+import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from asperity.errors import InputError, plain, shown
 from asperity.files import store
 from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.dates import said_to_begin
 from asperity.tribometer.importing.heads import Told
 from asperity.tribometer.importing.join import joined, renamed
 from asperity.tribometer.importing.mat import read_mat
@@ -21,12 +23,16 @@ _READERS: Mapping[str, Callable[[Path, str, Told], Columns]] = {
     TEXT: read_text, MAT: read_mat, TDMS: read_tdms, WAV: read_wav, SIGROK: read_sigrok,
     MDF: read_mdf,
 }  # fmt: skip
+_MEANT = {
+    ".sr": "session of sigrok", ".tdms": "TDMS file", ".mf4": "MDF file", ".wav": "WAV file",
+    ".nc": "recording", ".h5": "HDF5 file",
+}  # fmt: skip
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _HEAD = 256
 _MOST_RATE = 1e10
 
 
-def told_of(rate: str = "", columns: str = "", units: str = "") -> Told:
+def told_of(rate: str = "", columns: str = "", units: str = "", start: str = "") -> Told:
     """Read what somebody says of a file.
 
     Parameters
@@ -35,13 +41,18 @@ def told_of(rate: str = "", columns: str = "", units: str = "") -> Told:
         Samples a second, with its unit: ``20 kHz``.
     columns, units : str
         Of all columns in order, separated by commas; a column called ``-`` is left out.
+    start : str
+        When it began: a day, with or without its time.
 
     Raises
     ------
     InputError
-        A rate that is none, a column without a name, or two of one name.
+        A rate or a day that is none, a column without a name, or two of one name.
     """
-    found = to_si(rate, "Hz") if rate else 0.0
+    try:
+        found = to_si(rate, "Hz") if rate else 0.0
+    except InputError as error:
+        raise InputError(f'--rate: {error}, as in --rate "20 kHz"') from None
     if rate and not 0.0 < found <= _MOST_RATE:
         raise InputError(f"--rate is {shown(rate)}; it must be above 0 and at most 10 GHz")
     names = tuple(one.strip() for one in columns.split(",")) if columns else ()
@@ -50,7 +61,8 @@ def told_of(rate: str = "", columns: str = "", units: str = "") -> Told:
         raise InputError(
             f"--columns is {shown(columns)}; it must name every column once, - for one to leave out"
         )
-    return Told(found, names, tuple(one.strip() for one in units.split(",")) if units else ())
+    units_told = tuple(one.strip() for one in units.split(",")) if units else ()
+    return Told(found, names, units_told, said_to_begin(start) if start else None)
 
 
 def form_of(path: Path, name: str) -> str:
@@ -86,6 +98,11 @@ def form_of(path: Path, name: str) -> str:
     if head.startswith((b"MDF ", b"UnFinMF")):
         return MDF
     refuse_known(head, ending, name)
+    if what := _MEANT.get(ending):
+        raise InputError(
+            f"{name} is called {ending} and is no {what}, or a damaged one; export it again, or as "
+            "CSV"
+        )
     return TEXT
 
 
@@ -108,5 +125,15 @@ def read_export(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa:
 
 
 def read_joined(files: Sequence[str], told: Told) -> Columns:
-    """Read the files of one recording, a file some of its channels."""
-    return joined([(plain(one), read_export(Path(one), plain(one), told)) for one in files])
+    """Read the files of one recording, a file some of its channels.
+
+    Notes say by what it is dated, where it is.
+    """
+    read = joined([(plain(one), read_export(Path(one), plain(one), told)) for one in files])
+    if told.began is not None:
+        return dataclasses.replace(read, began=(told.began, "--start"))
+    if read.began is None:
+        return read
+    began, by = read.began
+    note = f"begun {began:%Y-%m-%d %H:%M:%S} UTC, by {by}"
+    return dataclasses.replace(read, notes=(*read.notes, note))

@@ -5,6 +5,7 @@ and headings, or a program's own words, which :mod:`asperity.tribometer.importin
 """
 
 import dataclasses
+import datetime
 from collections.abc import Mapping, Sequence
 
 from asperity.errors import InputError, choices, shown
@@ -45,11 +46,14 @@ class Told:
         Samples a second, Hz; 0 where the file tells times.
     columns, units : tuple of str
         Headings and units of its columns, all of them in order; empty: those of the file.
+    began : datetime, optional
+        When its recording began; None: as the file says.
     """
 
     rate: float = 0.0
     columns: tuple[str, ...] = ()
     units: tuple[str, ...] = ()
+    began: datetime.datetime | None = None
 
 
 @dataclasses.dataclass(frozen=True)

@@ -66,6 +66,7 @@ def joined(parts: Sequence[tuple[str, Columns]]) -> Columns:
     return Columns(
         tuple(headings), tuple(units), tuple(values), interval=interval, start=start,
         notes=tuple(notes), program=parts[0][1].program,
+        began=next((one.began for _, one in parts if one.began is not None), None),
     )  # fmt: skip
 
 

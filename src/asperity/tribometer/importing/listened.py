@@ -13,7 +13,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.tribometer.importing.columns import Sampled
 from asperity.tribometer.recording import Event, Recording
-from asperity.tribometer.recording.recorder import Counts
+from asperity.tribometer.recording.joining import Counts
 from asperity.tribometer.reduction.study import Reducible, heard_in
 
 
@@ -31,12 +31,12 @@ class _Held(Recording):
 # Bytes that were changed may be scales that no sensor has.
 @np.errstate(all="ignore")
 def findings(
-    found: Sampled, events: Sequence[Event], case: Case, name: str
+    found: Sampled, events: Sequence[Event], case: Case, name: str, began: datetime.datetime
 ) -> tuple[dict[str, Any], ...]:
     """Return what is wrong with what was heard; nothing where it cannot be reduced at all."""
     rows, _ = found.counts.shape
     held = _Held(
-        Path(name), found.sources, rows, found.interval, datetime.datetime.now(datetime.UTC), {},
+        Path(name), found.sources, rows, found.interval, began, {},
         tuple(events), (), simulated=False, counts=found.counts,
     )  # fmt: skip
     try:

@@ -1,6 +1,9 @@
 """The answer of ``asperity rig import``."""
 
+import contextlib
+import datetime
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -8,8 +11,19 @@ from asperity.results import Result, quantity
 from asperity.results.table import Table, table_of, table_of_rows
 from asperity.tribometer.importing.columns import Sampled
 from asperity.tribometer.recording import Event, Recorder
+from asperity.tribometer.recording.blocks import blocks_beside
 
 _BLOCK = 1 << 16
+
+
+@contextlib.contextmanager
+def _left_out(path: Path) -> Iterator[None]:
+    """Leave no blocks of a recording that could not be written: its file is there still."""
+    try:
+        yield
+    except BaseException:
+        blocks_beside(path).unlink(missing_ok=True)
+        raise
 
 
 class Imported(Result):
@@ -19,6 +33,8 @@ class Imported(Result):
     ----------
     sampled : Sampled
         Its counts.
+    began : datetime
+        When it began.
     configuration : str
         Of the rig, as JSON.
     events : tuple of Event
@@ -31,6 +47,7 @@ class Imported(Result):
     stem = "import"
 
     sampled: Sampled
+    began: datetime.datetime
     configuration: str
     events: tuple[Event, ...]
     simulated: bool = False
@@ -49,7 +66,10 @@ class Imported(Result):
             {"signal": one.signal, "units": one.units, "scale": one.scale}
             for one in self.sampled.sources
         ]
-        told = {"channels": channels, "findings": list(self.findings)}
+        told = {
+            "start": self.began.isoformat(timespec="seconds"), "channels": channels,
+            "findings": list(self.findings),
+        }  # fmt: skip
         return super().to_json() | told
 
     def tables(self) -> tuple[Table, ...]:
@@ -72,9 +92,9 @@ class Imported(Result):
         one = self.sampled
         made = Recorder(
             path, one.sources, one.interval, configuration=self.configuration, block=_BLOCK,
-            simulated=self.simulated,
+            simulated=self.simulated, start=self.began,
         )  # fmt: skip
-        with made:
+        with _left_out(path), made:
             for event in self.events:
                 made.event(event.time, event.kind, event.text)
             for first in range(0, len(one.counts), _BLOCK):

@@ -1,6 +1,7 @@
 """The command ``asperity rig import``: what a laboratory's program wrote, to a recording."""
 
 import dataclasses
+import datetime
 import json
 import os
 from collections.abc import Sequence
@@ -22,6 +23,10 @@ from asperity.tribometer.recording import Event, Recording
 from asperity.tribometer.recording.layout import BEYOND, MISSING
 from asperity.tribometer.tables import tables_of
 
+_UNDATED = (
+    "the file tells no date: its recording is dated by this import; say when it began by --start"
+)
+
 
 @dataclasses.dataclass(frozen=True)
 class Importable:
@@ -36,12 +41,12 @@ class Importable:
 
 def prepare(
     case: Case, *, file: str, join: Sequence[str] | None = None, rate: str = "",
-    columns: str = "", units: str = "",
+    columns: str = "", units: str = "", start: str = "",
 ) -> Importable:  # fmt: skip
     """Look at a file's first bytes; refuses one that cannot be read, or a configuration."""
     pair_of(case)
     case.require(Channels)
-    told = told_of(rate, columns, units)
+    told = told_of(rate, columns, units, start)
     files = (file, *(join or ()))
     names = [plain(one) for one in files]
     if len(set(map(os.path.realpath, files))) < len(files):
@@ -50,7 +55,7 @@ def prepare(
     if OWN in forms and (len(files) > 1 or told != Told()):
         raise InputError(
             f"{names[forms.index(OWN)]} is a recording; it is imported alone, without --join, "
-            "--rate, --columns or --units"
+            "--rate, --columns, --units or --start"
         )
     return Importable(files, names[0], forms[0], case, told)
 
@@ -60,10 +65,16 @@ def answer(problem: Importable, run: Run) -> Imported:
     case, simulated = problem.case, False
     told: tuple[Event, ...] = ()
     form = problem.form
+    undated: tuple[str, ...] = ()
     if form == OWN:
-        found, told, simulated = _own(problem)
+        found, told, simulated, began = _own(problem)
     else:
         columns = read_joined(problem.files, problem.told)
+        began = datetime.datetime.now(datetime.UTC)
+        if columns.began is not None:
+            began = columns.began[0]
+        else:
+            undated = (_UNDATED,)
         form = columns.program or form
         found = sampled(columns, case.require(Channels), problem.name)
     drives = pair_of(case).drives
@@ -79,19 +90,19 @@ def answer(problem: Importable, run: Run) -> Imported:
     rows, _ = found.counts.shape
     events = tuple(told) or set_values
     return Imported(
-        sampled=found, configuration=json.dumps(raw, default=str), events=events,
-        simulated=simulated, findings=findings(found, events, case, problem.name),
+        sampled=found, began=began, configuration=json.dumps(raw, default=str), events=events,
+        simulated=simulated, findings=findings(found, events, case, problem.name, began),
         source=" and ".join(plain(Path(one).name) for one in problem.files), form=form,
         samples=rows, sample_interval=found.interval,
         duration=rows * found.interval, missing=int(np.count_nonzero(found.counts == MISSING)),
         beyond=int(
             np.count_nonzero(found.counts == BEYOND) + np.count_nonzero(found.counts == -BEYOND)
         ),
-        notes=found.notes,
+        notes=(*found.notes, *undated),
     )  # fmt: skip
 
 
-def _own(problem: Importable) -> tuple[Sampled, tuple[Event, ...], bool]:
+def _own(problem: Importable) -> tuple[Sampled, tuple[Event, ...], bool, datetime.datetime]:
     """Read a recording again, under another configuration."""
     recording = Recording.open(Path(problem.files[0]))
     parts = [counts for _, counts in recording.stretches()]
@@ -99,4 +110,4 @@ def _own(problem: Importable) -> tuple[Sampled, tuple[Event, ...], bool]:
         raise InputError(f"{problem.name} holds no samples")
     notes = tuple(f"at {gap.time:.3g} s: {gap.reason}" for gap in recording.gaps)
     found = Sampled(recording.sources, np.concatenate(parts), recording.sample_interval, notes)
-    return found, recording.events, recording.simulated
+    return found, recording.events, recording.simulated, recording.start

@@ -1,15 +1,18 @@
 """National Instruments' TDMS, by npTDMS, which is imported when such a file is read."""
 
 import logging
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from asperity.errors import InputError, MissingExtraError, plain
 from asperity.tribometer.importing.columns import Columns, unit_in
+from asperity.tribometer.importing.dates import Moment, begun_by_stamp
 from asperity.tribometer.importing.heads import Told
 
-_INTERVAL, _UNIT = "wf_increment", "unit_string"
+_INTERVAL, _UNIT, _START = "wf_increment", "unit_string", "wf_start_time"
 
 
 def read_tdms(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
@@ -56,4 +59,10 @@ def read_tdms(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
         interval=float(step),
         notes=notes,
         program="TDMS",
+        began=next((one for n in kept if (one := _began(properties[n]))), None),
     )
+
+
+def _began(properties: Mapping[str, Any]) -> Moment | None:
+    stamp = properties.get(_START)
+    return None if stamp is None else begun_by_stamp(stamp, f"its {_START}")

@@ -24,6 +24,7 @@ from asperity.tribometer.importing.cells import (
     trimmed,
 )
 from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.dates import begun_in
 from asperity.tribometer.importing.heads import (
     ONE_COLUMN,
     Layout,
@@ -95,6 +96,10 @@ def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
             if layout.clock
             else to_si(f"1 {layout.units[layout.time]}", "s") * told_times.to_numpy()
         )
+    start = layout.start if times is None else float(times[0]) if count else 0.0
+    first = rows_shown[0] if rows_shown else []
+    began, doubtful = begun_in(head[: layout.begin], first, start)
+    notes += doubtful
     units = [layout.units[place] for place in columns]
     if not all(units) and (any(units) or layout.time is not None):
         notes.append("columns without a unit are taken as volts")
@@ -102,7 +107,7 @@ def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
         tuple(plain(layout.headings[place]) for place in columns), tuple(units),
         tuple(values[place][:count] for place in columns), interval=layout.interval, times=times,
         first_row=layout.begin + 1, notes=tuple(notes), program=layout.program,
-        start=layout.start if times is None else float(times[0]) if count else 0.0,
+        start=start, began=began,
     )  # fmt: skip
 
 

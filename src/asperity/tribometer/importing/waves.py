@@ -11,6 +11,7 @@ import numpy as np
 
 from asperity.errors import InputError, MissingExtraError, plain
 from asperity.tribometer.importing.columns import Columns
+from asperity.tribometer.importing.dates import begun_by_stamp
 from asperity.tribometer.importing.heads import Told
 from asperity.units import to_si
 
@@ -125,6 +126,7 @@ def read_mdf(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
         raise MissingExtraError("MDF needs asammdf; install it: pip install asammdf") from None
     try:
         with MDF(path) as file:
+            stamp = file.header.start_time
             signals = [
                 one for one in file.iter_channels()
                 if one.samples.dtype.kind in "fiu" and one.samples.ndim == 1 and len(one) > 1
@@ -142,7 +144,7 @@ def read_mdf(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
     return Columns(
         tuple(plain(one.name) for one in same), tuple(one.unit or "V" for one in same),
         tuple(one.samples for one in same), times=np.asarray(first, dtype=float),
-        program="MDF", start=float(first[0]),
+        program="MDF", start=float(first[0]), began=begun_by_stamp(stamp, "its header"),
     )  # fmt: skip
 
 

@@ -2,7 +2,8 @@
 
 import contextlib
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import TypeVar
 
 from asperity.tribometer.instruments import off
 from asperity.tribometer.instruments.off import Off
@@ -20,6 +21,8 @@ from asperity.tribometer.instruments.protocols import (
     VibrationDrive,
     WallClock,
 )
+
+T = TypeVar("T")
 
 
 class MadeSafe(KeyboardInterrupt):
@@ -147,6 +150,10 @@ class Bench:
     def waiting(self) -> contextlib.AbstractContextManager[None]:
         """Return what holds while a person is waited for, everything read back to be off."""
         return contextlib.nullcontext()
+
+    def work(self, act: Callable[[], T]) -> T:
+        """Return what a piece of work gives that takes its time, as a disk does."""
+        return act()
 
     def close(self) -> None:
         """Let go of all of them."""

@@ -27,12 +27,15 @@ class Off:
         What was read back, or why nothing was.
     unheard : bool
         Whether nothing speaks against it, and it has yet to be listened to.
+    on : bool
+        Whether what was read says that it is on.
     """
 
     name: str
     proven: bool
     evidence: str
     unheard: bool = False
+    on: bool = False
 
     def __str__(self) -> str:
         return f"{self.name}: {self.evidence}"
@@ -67,16 +70,18 @@ def supply_off(name: str, found: tuple[bool | None, Reading] | Exception) -> Off
     measured = _measured(given.current, "A")
     if given.current is None:
         state = {True: "on", False: "off", None: "not asked"}[on]
-        return Off(name, False, f"not proven off: its state is {state}, {measured}")
+        return Off(name, False, f"not proven off: its state is {state}, {measured}", on=bool(on))
     if on:
-        return Off(name, False, f"its output's state is on, {measured}")
+        return Off(name, False, f"its output's state is on, {measured}", on=True)
     # Of a comparison with what is no number nothing is proven.
     still = abs(given.current) <= STILL_CURRENT
+    flows = abs(given.current) > STILL_CURRENT
     if on is None:
         still = still and given.voltage is not None and abs(given.voltage) <= STILL_VOLTAGE
         volts = _measured(given.voltage, "V").removesuffix(" measured")
-        return Off(name, still, f"its output's state cannot be asked, {volts}, {measured}")
-    return Off(name, still, f"its output's state is off, {measured}")
+        told = f"its output's state cannot be asked, {volts}, {measured}"
+        return Off(name, still, told, on=flows)
+    return Off(name, still, f"its output's state is off, {measured}", on=flows)
 
 
 def _measured(value: float | None, unit: str) -> str:
@@ -119,9 +124,9 @@ def drive_off(
         told.append(f"its signal {'moves' if moves else 'is still'}")
     if moved and not isinstance(moves, bool):
         told.append("its signal moved when it was heard last")
-        return Off(name, False, ", ".join(told))
+        return Off(name, False, ", ".join(told), on=True)
     if state is True or moves is True:
-        return Off(name, False, ", ".join(told))
+        return Off(name, False, ", ".join(told), on=True)
     if state is False or moves is False:
         return Off(name, True, ", ".join(told))
     if state is None and amplifier is not None and amplifier.proven:

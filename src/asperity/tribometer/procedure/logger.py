@@ -233,13 +233,13 @@ class Logger:
     def keep(self) -> None:
         """Bring what is recorded so far to the disk."""
         if self._recorder is not None:
-            self._recorder.flush()
+            self._bench.work(self._recorder.flush)
 
     def close(self) -> None:
-        """End stream and recording; it is not compressed yet."""
+        """End stream and recording, which is left in its blocks: to join them takes its time."""
         self._stream.stop()
         if self._recorder is not None:
-            self._recorder.close(compress=False)
+            self._bench.work(self._recorder.leave)
 
     def abandon(self) -> None:
         """Leave the recording as it stands on the disk; nothing that goes wrong is raised."""

@@ -33,7 +33,8 @@ from asperity.tribometer.parameters import Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.approach import Approach
-from asperity.tribometer.procedure.interlock import Expected, Interlock
+from asperity.tribometer.procedure.driving import Driving
+from asperity.tribometer.procedure.interlock import Interlock
 from asperity.tribometer.procedure.logger import Logger, configuration_of
 from asperity.tribometer.procedure.packer import Packer
 from asperity.tribometer.procedure.steps import Action, file_of
@@ -98,6 +99,7 @@ class Machine:
         units = units_of([one.signal for one in bench.scope.inputs])
         self._preview = Preview(folder, units, simulated=bench.simulated)
         self._approach = Approach(bench, self._new_logger, self._preview.told)
+        self._driving = Driving(bench, self._plan, self._approach.ran, self._preview.told)
 
     def go(self) -> AsperityError | None:
         """Do what is left.
@@ -131,9 +133,10 @@ class Machine:
                         "done", action=action.key, steps=list(action.steps), **told, **self._held()
                     )
                     self._done_cells += action.act == "cell"
+                # Nothing is on while the last recordings are packed.
+                failures = self._bench.safe()
         except BaseException as error:
             return self._ended(error)
-        failures = self._bench.safe()
         self._preview.end("latched" if failures else "finished")
         if not failures:
             return None
@@ -167,6 +170,7 @@ class Machine:
         still = {"still_on": list(failures)} if failures else {}
         if self._logger is not None:
             self._logger.abandon()
+        self._packer.join_left()
         error = self._bench.cause_of(error)
         kind = getattr(error, "kind", "")
         if kind == STOPPED or (self._signals.heard and kind == SWITCHED_OFF):
@@ -252,7 +256,7 @@ class Machine:
         def checked(logger: Logger) -> dict[str, Any]:
             rest = logger.levels(logger.watch(_REST))
             checks.check_zeros(rest)
-            self._energise(logger, one)
+            self._driving.energise(logger, one)
             running = logger.levels(logger.watch(_TRIAL, skip=_TRIAL - _TRIAL_MEAN))
             given = {
                 name: logger.during(supply, supply.reading)
@@ -266,7 +270,7 @@ class Machine:
             }
             pulses = self._pair.drives.encoder_pulses
             checks.check_speeds(running, measured, 2.0 * np.pi / pulses)
-            self._still(logger)
+            self._driving.still(logger)
             return {"running": running, "tachometer_rad_per_s": measured}
 
         return self._tried(action, checked)
@@ -281,7 +285,7 @@ class Machine:
                 # Only what a check found may be tried again; an interlock stays tripped.
                 if left == 0 or error.kind not in _PUT_RIGHT:
                     raise
-                self._still(logger)
+                self._driving.still(logger)
                 self._journal.write("check", action=action.key, reason=str(error))
                 logger.close()
                 with self._approach.safe(), self._signals.raising():
@@ -305,22 +309,14 @@ class Machine:
             raise AssertionError
         logger, plan = self._recording(one), self._plan
         logger.event("cell", str(cell.number))
-        drive = self._bench.vibration
-        logger.during(drive, lambda: drive.configure(one.waveform, cell.frequency))
-        self._energise(logger, one)
+        self._driving.configure(logger, one, cell)
+        self._driving.energise(logger, one)
         before = logger.watch(plan.before, skip=min(self._settling, 0.5 * plan.before))
-        if self._bench.amplifier is not None:
-            # Made safe, it is off.
-            self._bench.amplifier.on()
-            self._preview.told({self._bench.amplifier.name: "on"})
-        logger.during(drive, drive.on)
-        volts = logger.expected.volts
-        logger.expect(Expected(cell.frequency, one.waveform, volts))
-        logger.event("vibration", f"{one.waveform} {cell.frequency:g} Hz")
+        self._driving.shake(logger, one, cell)
         shaken = logger.watch(
             plan.shaken, skip=min(self._settling, 0.5 * plan.shaken), crc32=before.crc32
         )
-        self._still(logger)
+        self._driving.still(logger)
         if plan.idle:
             logger.watch(plan.idle)
         # The journal is not to tell of samples that a kill would still cost.
@@ -347,27 +343,6 @@ class Machine:
         if logger.path is not None:
             self._packer.pack(logger.path)
         return {"recording": _name(logger), "samples": logger.samples}
-
-    def _energise(self, logger: Logger, one: PlannedFile) -> None:
-        volts = {"steel": one.steel_supply, "bronze": self._plan.bronze_supply}
-        self._approach.ran()
-        for name, supply in self._bench.motors.items():
-            logger.during(supply, functools.partial(supply.set, volts[name]))
-        for name, supply in self._bench.motors.items():
-            logger.during(supply, supply.on)
-            logger.event(f"{name}_supply", f"{volts[name]:g} V")
-        logger.expect(Expected(volts=volts))
-
-    def _still(self, logger: Logger) -> None:
-        """Vibration off, then motors off."""
-        if logger.expected.frequency:
-            logger.during(self._bench.vibration, self._bench.vibration.off)
-            logger.event("vibration", "off")
-        if logger.expected.volts:
-            for name, supply in self._bench.motors.items():
-                logger.during(supply, supply.off)
-                logger.event(f"{name}_supply", "off")
-        logger.expect(Expected())
 
     def _recording(self, one: PlannedFile) -> Logger:
         """Return the recording of a file that runs, or begin a part of it."""

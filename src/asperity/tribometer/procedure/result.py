@@ -16,6 +16,8 @@ class RunResult(Result):
     title = "run of a plan on a disc-on-disc rig"
     stem = "run"
     drawings: ClassVar[Mapping[str, str]] = {"run": "asperity.tribometer.plots:plot_run"}
+    # Its recordings have one, which `asperity rig report` puts into the same folder.
+    reported = False
 
     lines: tuple[Mapping[str, Any], ...]
     latch: AsperityError | None = None

@@ -1,5 +1,6 @@
 """The command ``asperity rig run``: carry out a plan by the procedure."""
 
+import contextlib
 import dataclasses
 from pathlib import Path
 from typing import Any
@@ -31,7 +32,7 @@ from asperity.tribometer.procedure.kept import check_kept
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
-from asperity.tribometer.recording.recorder import joined_all
+from asperity.tribometer.recording.joining import joined_all
 from asperity.tribometer.signals import SIMULATED
 from asperity.tribometer.twin.plants import plant_of
 from asperity.tribometer.twin.provenance import standing
@@ -139,7 +140,7 @@ def answer(problem: RunProblem, run: Run) -> RunResult:
             return _run(problem, bench, run, run.folder)
         with signals.listening():
             # Raised nowhere but where nothing is on; what is on, the guardian switches off at once.
-            guarded = open_bench(problem.case, problem.backend)
+            guarded = open_bench(problem.case, problem.backend, run.folder)
             try:
                 with signals.told_to(guarded.guard.signals):
                     return _run(problem, guarded, run, run.folder, signals)
@@ -162,8 +163,9 @@ def _listening(
     failures = bench.begun()
     if failures:
         if isinstance(bench, GuardedBench):
-            # Opened, it takes what the guardian found.
-            GuardedJournal(bench.guard, folder).close()
+            # Opened, it takes what the guardian found; one that is damaged hides nothing.
+            with contextlib.suppress(AsperityError):
+                GuardedJournal(bench.guard, folder).close()
         raise StillOnError(
             f"not everything was read back to be off: {'; '.join(failures)}; switch it off by hand "
             "and look at the instruments",
@@ -175,10 +177,7 @@ def _listening(
     if not (folder / NAME).exists():
         if problem.resume:
             raise InputError(f"{folder} holds no run to go on with; leave --resume out")
-        joined_all(folder)
-        files = (folder / f"{one.name}.nc" for one in problem.files)
-        if there := next(filter(Path.exists, files), None):
-            raise InputError(f"{there} is there already, of another run; choose another --out")
+        _refuse_others(problem, folder)
     journal: Lines = (
         GuardedJournal(bench.guard, folder) if isinstance(bench, GuardedBench) else Journal(folder)
     )
@@ -199,6 +198,14 @@ def _listening(
     return _result(problem, journal, latch)
 
 
+def _refuse_others(problem: RunProblem, folder: Path) -> None:
+    """See that no recording of another run stands where one of this run will."""
+    joined_all(folder)
+    files = (folder / f"{one.name}.nc" for one in problem.files)
+    if there := next(filter(Path.exists, files), None):
+        raise InputError(f"{there} is there already, of another run; choose another --out")
+
+
 def _opened(problem: RunProblem, journal: Lines) -> None:
     """Begin a journal, or go on with it if it is of this run and nothing stands in the way."""
     name = key("rig run", problem.case.canonical(), problem.backend)
@@ -208,6 +215,8 @@ def _opened(problem: RunProblem, journal: Lines) -> None:
             raise InputError(
                 f"{journal.path} holds a run; go on with it by --resume, or choose another --out"
             )
+        # One that tells of no more than what was on when it was to begin.
+        _refuse_others(problem, journal.path.parent)
         journal.write("started", key=name, backend=problem.backend, cells=_cells(problem.files))
         return
     if not begun:

@@ -58,7 +58,6 @@ class Report(Result):
 
     title = "Tests on a disc-on-disc rig"
     stem = "report"
-    reported = True
 
     reduced: Reduced
     conditions: tuple[tuple[str, str], ...]

@@ -4,6 +4,7 @@ No solid is cut from another, but for keyways: every face is a spline surface th
 or a plane, and faces that meet have the same curve there.
 """
 
+import dataclasses
 import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -71,6 +72,12 @@ def solid(body: Body) -> Solid:
     ConvergenceError
         The faces do not close, or the solid is not valid.
     """
+    apart = [each for each in body.turned if body.patches and each[0][0] == each[-1][0] == 0.0]
+    if apart:
+        # A shaft thicker than the root of the threads it begins at.
+        rest = [each for each in body.turned if not any(each is one for one in apart)]
+        made = solid(dataclasses.replace(body, turned=rest))
+        return _fused(made, [solid(Body(body.name, [], [], [each])) for each in apart])
     require_cad()
     from OCP.BRepBuilderAPI import BRepBuilderAPI_MakeSolid, BRepBuilderAPI_Sewing
     from OCP.BRepLib import BRepLib
@@ -102,6 +109,27 @@ def solid(body: Body) -> Solid:
             reached={"free_edges": found.free_edges, "faces": found.faces},
         )
     return Solid(body.name, shape, found)
+
+
+def _fused(made: Solid, others: Sequence[Solid]) -> Solid:
+    """Return one solid of several that touch; raises ConvergenceError where there is none."""
+    from OCP.BRepAlgoAPI import BRepAlgoAPI_Fuse
+    from OCP.TopAbs import TopAbs_ShapeEnum
+    from OCP.TopExp import TopExp_Explorer
+    from OCP.TopoDS import TopoDS
+
+    shape = made.shape
+    for other in others:
+        found = TopExp_Explorer(
+            BRepAlgoAPI_Fuse(shape, other.shape).Shape(), TopAbs_ShapeEnum.TopAbs_SOLID
+        )
+        if not found.More():
+            raise ConvergenceError(f"the {made.name} and its shaft do not join")
+        shape = TopoDS.Solid(found.Current())
+    seen = check(shape)
+    if not seen.valid or seen.free_edges:
+        raise ConvergenceError(f"the {made.name} and its shaft do not join to a valid solid")
+    return Solid(made.name, shape, seen)
 
 
 def check(shape: Any) -> Check:

@@ -11,12 +11,12 @@ from typing import Any
 
 from asperity.files.store import write_text
 from asperity.flanks.export.extras import require_draw
-from asperity.flanks.export.turned import shaft_sections, wheel_section, wheel_sizes
+from asperity.flanks.export.turned import Beside, Bodies, blanks_of, worm_shape
 from asperity.flanks.measuring.drawing import Datum, on_drawing
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.worm.setting import Pair
-from asperity.gearset.drawing import draw_along, draw_through, scale_of
+from asperity.gearset.blanks import Blanks, wheel_sizes
 from asperity.results.svg import Point, Words, scale_text
+from asperity.shafts.drawing import along_with_shafts, scale_with, through_with_shafts
 
 NAME = "gearset.dxf"
 """Of the file."""
@@ -93,7 +93,7 @@ class Sheet:
         upright = abs(one[0] - other[0]) < 1e-9 or (abs(one[0] - other[0]) < abs(one[1] - other[1]))
         said = str(words[0])
         text = "%%c<>" if "\u2300" in said else "<>"
-        if said.split()[0] == "a" and self.deviation:
+        if said.split()[:1] == ["a"] and self.deviation:
             text += f" %%p{self.deviation:.4g}"
         base = self._at((at, one[1]) if upright else (one[0], at))
         self._space.add_linear_dim(
@@ -118,7 +118,7 @@ def write_dxf(
     pair: Pair,
     data: Sequence[Datum],
     *,
-    blanks: Blanks | None = None,
+    beside: Beside = None,
     deviation: float = 0.0,
     name: str = "",
 ) -> str:
@@ -132,7 +132,7 @@ def write_dxf(
         Worm and wheel.
     data : sequence of Datum
         What stands beside the views.
-    blanks : Blanks, optional
+    beside : Blanks or Bodies, optional
         What both are beside their teeth.
     deviation : float
         Of the centre distance to either side, mm.
@@ -144,24 +144,20 @@ def write_dxf(
     MissingExtraError
         The ``draw`` extra is not installed.
     """
-    g = pair.geometry
-    s = scale_of(g)
+    g, blanks = pair.geometry, blanks_of(beside) or Blanks()
+    worm = worm_shape(pair, beside)
+    wheel = beside.wheel if isinstance(beside, Bodies) else None
+    s = scale_with(g, worm, wheel)
     sheet = Sheet(s, deviation)
-    draw_along(sheet, g, s)
-    for section in shaft_sections(pair, blanks):
-        outline = [(s * z, s * r) for r, z in section]
-        ends = [(x, -s * g.centre_distance - y) for x, y in outline]
-        back = [(x, -s * g.centre_distance + y) for x, y in reversed(outline)]
-        sheet.line([*ends, *back], closed=True)
+    along_with_shafts(sheet, g, s, pair.hand, worm, wheel)
     sheet.origin = (sheet.reach + _APART, 0.0)
+    if wheel is not None:
+        sheet.origin = (sheet.origin[0] + s * (wheel.length - wheel.mesh), 0.0)
     left = sheet.origin[0]
-    draw_through(sheet, g, s)
-    for side in (-1.0, 1.0):
-        blank = [(s * z, side * s * r) for r, z in wheel_section(g, blanks)]
-        sheet.line(blank, closed=True)
-        sheet.hatch(blank)
+    through_with_shafts(sheet, g, s, wheel, blanks)
     sizes = wheel_sizes(g, blanks)
-    wide = s * max(0.5 * g.worm_tip_diameter, 0.5 * sizes["hub_width"])
+    beyond = 0.0 if wheel is None else wheel.mesh
+    wide = s * max(0.5 * g.worm_tip_diameter, 0.5 * sizes["hub_width"], beyond)
     for step, key in enumerate(("bore", "hub_diameter"), 1):
         high = s * 0.5 * sizes[key]
         edge = s * 0.5 * sizes["hub_width"]

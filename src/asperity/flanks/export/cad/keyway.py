@@ -1,4 +1,4 @@
-"""Keyways of DIN 6885-1 in the wheel's bore and the driven end of the worm's shaft.
+"""Keyways of DIN 6885-1 in the solids of shafts and of the wheel's bore.
 
 Solids are made without a cut; a keyway, of planes alone, is cut from one that is closed.
 """
@@ -7,93 +7,52 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.export.turned import shaft_sizes, wheel_sizes
-from asperity.flanks.parameters import Blanks
+from asperity.flanks.export.turned import Beside, Bodies, blanks_of, worm_shape
 from asperity.flanks.worm.setting import Pair
-from asperity.sources import Source
+from asperity.gearset.blanks import wheel_sizes
+from asperity.gearset.keys import key_of
+from asperity.shafts.shape import Shape
 
 if TYPE_CHECKING:
     from asperity.flanks.export.cad.brep import Solid
 
-SOURCE = Source("DIN 6885-1:1968", "from memory", "width and depths of parallel keys by diameter")
-"""Where the sizes come from."""
-
-# Diameter up to which they hold, width, depth in the shaft and in the hub, mm.
-_SIZES = (
-    (8.0, 2.0, 1.2, 1.0), (10.0, 3.0, 1.8, 1.4), (12.0, 4.0, 2.5, 1.8), (17.0, 5.0, 3.0, 2.3),
-    (22.0, 6.0, 3.5, 2.8), (30.0, 8.0, 4.0, 3.3), (38.0, 10.0, 5.0, 3.3), (44.0, 12.0, 5.0, 3.3),
-    (50.0, 14.0, 5.5, 3.8), (58.0, 16.0, 6.0, 4.3), (65.0, 18.0, 7.0, 4.4), (75.0, 20.0, 7.5, 4.9),
-    (85.0, 22.0, 9.0, 5.4), (95.0, 25.0, 9.0, 5.4), (110.0, 28.0, 10.0, 6.4),
-    (130.0, 32.0, 11.0, 7.4),
-)  # fmt: skip
-_LEAST = 6.0
 _BEYOND = 1.0
-_FROM_END, _LENGTH = 0.1, 0.7
 
 
-class Key(NamedTuple):
-    """Width of a parallel key, and its depths in shaft and hub, mm."""
+class _Cut(NamedTuple):
+    """What is cut away: a corner and the size of a box, mm; and the volume of it that is solid."""
 
-    width: float
-    in_shaft: float
-    in_hub: float
-
-
-def key_of(diameter: float, what: str) -> Key:
-    """Return the key of a diameter, mm.
-
-    Raises
-    ------
-    InputError
-        There is none of that diameter.
-
-    Examples
-    --------
-    >>> key_of(25.0, "blank.bore")
-    Key(width=8.0, in_shaft=4.0, in_hub=3.3)
-    """
-    if not _LEAST < diameter <= _SIZES[-1][0]:
-        raise InputError(
-            f"{what} is {diameter:g} mm; keys are known above {_LEAST:g} and up to "
-            f"{_SIZES[-1][0]:g} mm: leave blank.keyways out"
-        )
-    return next(Key(*sizes) for most, *sizes in _SIZES if diameter <= most)
+    corner: tuple[float, float, float]
+    size: tuple[float, float, float]
+    volume: float
 
 
-def require_keys(pair: Pair, blanks: Blanks | None) -> None:
+def require_keys(pair: Pair, beside: Beside) -> None:
     """Refuse keyways for which there is no key or no room; raises InputError."""
-    wanted = "none" if blanks is None else blanks.keyways
-    if wanted in ("wheel", "both"):
+    blanks = blanks_of(beside)
+    if blanks is not None and blanks.keyways in ("wheel", "both"):
         sizes = wheel_sizes(pair.geometry, blanks)
         key = key_of(sizes["bore"], "blank.bore")
         room = 0.5 * (sizes["hub_diameter"] - sizes["bore"])
         if key.in_hub >= room:
             raise InputError(
-                f"blank.keyways is {wanted!r}; the hub's wall is {room:.4g} mm and its keyway "
-                f"{key.in_hub:g} mm deep: take a larger blank.hub_diameter"
+                f"blank.keyways is {blanks.keyways!r}; the hub's wall is {room:.4g} mm and its "
+                f"keyway {key.in_hub:g} mm deep: take a larger blank.hub_diameter"
             )
-    if wanted in ("worm", "both"):
-        own = shaft_sizes(pair, blanks)
-        key_of(own["shaft_diameter"], "blank.shaft_diameter")
-        if own["drive_end"] <= 0.0:
-            raise InputError(
-                f"blank.keyways is {wanted!r}; the worm has no shaft at its driven end: give "
-                "blank.drive_end"
-            )
+    worm_shape(pair, beside)
 
 
-def keyed(made: "Solid", pair: Pair, blanks: Blanks | None) -> "Solid":
-    """Return a solid of worm or wheel with its keyway, where one is wanted.
+def keyed(made: "Solid", pair: Pair, beside: Beside) -> "Solid":
+    """Return a solid of worm, wheel or the wheel's shaft with its keyways, where there are any.
 
     Raises
     ------
     ConvergenceError
         What is left is no valid solid.
     """
-    wanted = "none" if blanks is None else blanks.keyways
-    if wanted not in (made.name, "both") or made.name not in ("worm", "wheel"):
+    cuts = _cuts(made.name, pair, beside)
+    if not cuts:
         return made
-    corner, size = _seat(made.name, pair, blanks)
     from OCP.BRepAlgoAPI import BRepAlgoAPI_Cut
     from OCP.BRepPrimAPI import BRepPrimAPI_MakeBox
     from OCP.gp import gp_Pnt
@@ -103,50 +62,55 @@ def keyed(made: "Solid", pair: Pair, blanks: Blanks | None) -> "Solid":
 
     from asperity.flanks.export.cad.brep import Solid, check
 
-    box = BRepPrimAPI_MakeBox(gp_Pnt(*corner), *size).Shape()
-    found = TopExp_Explorer(BRepAlgoAPI_Cut(made.shape, box).Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
-    if not found.More():
-        raise ConvergenceError(f"the keyway leaves no solid of the {made.name}")
-    shape: Any = TopoDS.Solid(found.Current())
+    shape: Any = made.shape
+    for corner, size, _ in cuts:
+        box = BRepPrimAPI_MakeBox(gp_Pnt(*corner), *size).Shape()
+        found = TopExp_Explorer(BRepAlgoAPI_Cut(shape, box).Shape(), TopAbs_ShapeEnum.TopAbs_SOLID)
+        if not found.More():
+            raise ConvergenceError(f"the keyway leaves no solid of the {made.name}")
+        shape = TopoDS.Solid(found.Current())
     seen = check(shape)
     if not seen.valid:
         raise ConvergenceError(f"the {made.name} with its keyway is no valid solid")
     return Solid(made.name, shape, seen)
 
 
-def _seat(
-    name: str, pair: Pair, blanks: Blanks | None
-) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Return a corner and the size of what is cut away, mm, in the frame of the body."""
-    if name == "wheel":
-        sizes = wheel_sizes(pair.geometry, blanks)
-        key, width = key_of(sizes["bore"], "blank.bore"), sizes["hub_width"]
-        outer = 0.5 * sizes["bore"] + key.in_hub
-        half = 0.5 * width + _BEYOND
-        return (0.0, -0.5 * key.width, -half), (outer, key.width, 2.0 * half)
-    own = shaft_sizes(pair, blanks)
-    radius, drive = 0.5 * own["shaft_diameter"], own["drive_end"]
-    key = key_of(own["shaft_diameter"], "blank.shaft_diameter")
-    high = 0.5 * pair.geometry.worm_face_width + drive * (1.0 - _FROM_END)
-    length = _LENGTH * drive
-    # A left-handed worm is the mirror image of a right-handed one, along its axis.
-    low = high - length if pair.mirror > 0 else -high
-    deep = radius - key.in_shaft
-    return (deep, -0.5 * key.width, low), (key.in_shaft + _BEYOND, key.width, length)
+def cut_volume(name: str, pair: Pair, beside: Beside) -> float:
+    """Return the volume that keyways take from a body, chamfers left out, mm^3."""
+    return sum(cut.volume for cut in _cuts(name, pair, beside))
 
 
-def cut_volume(name: str, pair: Pair, blanks: Blanks | None) -> float:
-    """Return the volume that a keyway takes from worm or wheel, chamfers left out, mm^3."""
-    _, (_, width, length) = _seat(name, pair, blanks)
+def _cuts(name: str, pair: Pair, beside: Beside) -> list[_Cut]:
+    """Return what is cut away from a body, in its frame."""
+    if name == "worm":
+        return _of_shaft(worm_shape(pair, beside), pair.mirror)
+    if name == "wheel_shaft":
+        wheel = beside.wheel if isinstance(beside, Bodies) else None
+        return [] if wheel is None else _of_shaft(wheel, 1)
+    blanks = blanks_of(beside)
+    if name != "wheel" or blanks is None or blanks.keyways not in ("wheel", "both"):
+        return []
+    sizes = wheel_sizes(pair.geometry, blanks)
+    key, width = key_of(sizes["bore"], "blank.bore"), sizes["hub_width"]
+    outer = 0.5 * sizes["bore"] + key.in_hub
+    half = 0.5 * width + _BEYOND
+    volume = width * (outer * key.width - _segment(0.5 * sizes["bore"], key.width))
+    return [_Cut((0.0, -0.5 * key.width, -half), (outer, key.width, 2.0 * half), volume)]
+
+
+def _of_shaft(shape: Shape, mirror: int) -> list[_Cut]:
+    made = []
+    for way in shape.keyways:
+        # A left-handed worm is the mirror image of a right-handed one, along its axis.
+        low = shape.mesh - way.end if mirror > 0 else way.start - shape.mesh
+        deep, length = 0.5 * way.diameter - way.depth, way.end - way.start
+        volume = length * (_segment(0.5 * way.diameter, way.width) - deep * way.width)
+        size = way.depth + _BEYOND, way.width, length
+        made.append(_Cut((deep, -0.5 * way.width, low), size, volume))
+    return made
+
+
+def _segment(radius: float, width: float) -> float:
+    """Return the area between a circle and a line across it through its middle, mm^2."""
     half = 0.5 * width
-    if name == "wheel":
-        sizes = wheel_sizes(pair.geometry, blanks)
-        radius, length = 0.5 * sizes["bore"], sizes["hub_width"]
-        deep = radius + key_of(sizes["bore"], "blank.bore").in_hub
-        segment = half * math.sqrt(radius**2 - half**2) + radius**2 * math.asin(half / radius)
-        return length * (deep * width - segment)
-    own = shaft_sizes(pair, blanks)
-    radius = 0.5 * own["shaft_diameter"]
-    deep = radius - key_of(own["shaft_diameter"], "blank.shaft_diameter").in_shaft
-    segment = half * math.sqrt(radius**2 - half**2) + radius**2 * math.asin(half / radius)
-    return length * (segment - deep * width)
+    return half * math.sqrt(radius**2 - half**2) + radius**2 * math.asin(half / radius)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.cad.brep import solid
@@ -15,8 +16,8 @@ from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.patch import Body
 from asperity.flanks.export.space.scene import BRONZE, STEEL
 from asperity.flanks.export.tooth import tooth_body, wheel_body
+from asperity.flanks.export.turned import Beside, Bodies, sections_of
 from asperity.flanks.export.worm import whole_worm
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
 
 _BOTH = "worm", "wheel"
@@ -29,7 +30,7 @@ class Solids:
     Attributes
     ----------
     parts : mapping of str to Component
-        ``tooth``, ``worm`` and ``wheel``, those that close.
+        ``tooth``, ``worm``, ``wheel`` and, where there is one, ``wheel_shaft``: what closes.
     refused : mapping of str to str
         Why one of them is missing.
     """
@@ -38,24 +39,29 @@ class Solids:
     refused: Mapping[str, str]
 
     @classmethod
-    def of(cls, wheel: Wheel, assembly: Assembly, blanks: Blanks | None = None) -> "Solids":
+    def of(cls, wheel: Wheel, assembly: Assembly, beside: Beside = None) -> "Solids":
         """Make the solids of a gearset; raises MissingExtraError without the ``cad`` extra."""
         require_cad()
         middle, still = np.zeros(3), np.eye(3)
         bodies: dict[str, Callable[[], Body]] = {
             "tooth": lambda: tooth_body(wheel),
-            "worm": lambda: whole_worm(assembly.pair, blanks),
-            "wheel": lambda: wheel_body(wheel, blanks),
+            "worm": lambda: whole_worm(assembly.pair, beside),
+            "wheel": lambda: wheel_body(wheel, beside),
         }
         stands = {
             "tooth": (still, middle, BRONZE),
             "worm": (assembly.worm_rotation, assembly.worm_place, STEEL),
             "wheel": (assembly.wheel_rotation, middle, BRONZE),
         }
+        shaft = beside.wheel if isinstance(beside, Bodies) else None
+        if shaft is not None:
+            sections = sections_of(shaft)
+            bodies["wheel_shaft"] = lambda: Body("wheel_shaft", [], [], sections)
+            stands["wheel_shaft"] = _along_the_wheel(assembly), middle, STEEL
         parts, refused = {}, {}
         for name, body in bodies.items():
             try:
-                parts[name] = Component(keyed(solid(body()), assembly.pair, blanks), *stands[name])
+                parts[name] = Component(keyed(solid(body()), assembly.pair, beside), *stands[name])
             except ConvergenceError as error:
                 refused[name] = str(error)
         return cls(parts, refused)
@@ -82,5 +88,18 @@ class Solids:
             write_step(folder / names[-1], component.solid)
         if self.refused.keys().isdisjoint(_BOTH):
             names.append("gearset.step")
-            write_assembly(folder / names[-1], name, [self.parts[part] for part in _BOTH])
+            mounted = [part for part in (*_BOTH, "wheel_shaft") if part in self.parts]
+            write_assembly(folder / names[-1], name, [self.parts[part] for part in mounted])
         return names
+
+
+def _along_the_wheel(assembly: Assembly) -> FloatArray:
+    """Return how the wheel's shaft is turned: its end that drives to where z of the forces points.
+
+    These go along the worm to its driven end and from the wheel to the worm; it turns with the
+    wheel.
+    """
+    driven = assembly.worm_rotation @ [0.0, 0.0, float(assembly.pair.mirror)]
+    if np.cross(driven, assembly.worm_place)[2] > 0.0:
+        return assembly.wheel_rotation
+    return assembly.wheel_rotation @ np.diag([1.0, -1.0, -1.0])

@@ -20,12 +20,12 @@ from asperity.errors import InputError
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.patch import Body
 from asperity.flanks.export.tooth import beside_flanks, shown_tooth
-from asperity.flanks.export.turned import wheel_section
+from asperity.flanks.export.turned import Beside, blanks_of
 from asperity.flanks.export.worm import SHOWN, whole_worm
 from asperity.flanks.meshing.analysis import MICROMETRES, Analysis, FlankAnalysis
 from asperity.flanks.meshing.lubrication import LoadedLines
-from asperity.flanks.parameters import Blanks
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.gearset.blanks import wheel_section
 from asperity.mesh.packed import Arrays, floats, indices, packed, size_of
 from asperity.mesh.surface import Surface
 
@@ -66,12 +66,12 @@ LAYERS = (
 
 
 def drawn_from(
-    name: str, wheel: Wheel, analysis: Analysis, assembly: Assembly, blanks: Blanks | None = None
+    name: str, wheel: Wheel, analysis: Analysis, assembly: Assembly, beside: Beside = None
 ) -> bytes:
     """Return what draws a gearset: at most `MOST_BYTES` and `MOST_TRIANGLES`."""
     pair = analysis.pair
     pitch = 2.0 * math.pi / pair.geometry.starts
-    arrays = dict(_bodies(wheel, analysis, blanks))
+    arrays = dict(_bodies(wheel, analysis, beside))
     sides = {}
     for side, flank in analysis.flanks.items():
         loaded = _loaded(flank)
@@ -101,13 +101,13 @@ def drawn_from(
     return packed(header, found)
 
 
-def _bodies(wheel: Wheel, analysis: Analysis, blanks: Blanks | None) -> Named:
+def _bodies(wheel: Wheel, analysis: Analysis, beside: Beside) -> Named:
     """Yield points and triangles of worm, hub, a coarse tooth, and what is round fine flanks."""
     pair = analysis.pair
     columns = analysis.flanks[1].grid.z[0]
-    hub = Body("hub", [], [], [wheel_section(pair.geometry, blanks)])
+    hub = Body("hub", [], [], [wheel_section(pair.geometry, blanks_of(beside))])
     for name, body in (
-        ("worm", whole_worm(pair, blanks, SHOWN)),
+        ("worm", whole_worm(pair, beside, SHOWN)),
         ("hub", hub),
         ("tooth", shown_tooth(wheel)),
         ("beside", beside_flanks(wheel, columns)),

@@ -9,10 +9,10 @@ import numpy as np
 from asperity.flanks.export import tooth, worm
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.patch import Body
-from asperity.flanks.export.turned import wheel_section
-from asperity.flanks.parameters import Blanks
+from asperity.flanks.export.turned import Beside, blanks_of
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import turned
+from asperity.gearset.blanks import wheel_section
 from asperity.mesh.glb import Node, write_glb
 
 STEEL, BRONZE = (0.68, 0.71, 0.75), (0.85, 0.66, 0.38)
@@ -22,7 +22,7 @@ _SECONDS = 6.0
 """For a turn of the worm."""
 
 
-def gearset_scene(wheel: Wheel, assembly: Assembly, blanks: Blanks | None = None) -> Node:
+def gearset_scene(wheel: Wheel, assembly: Assembly, beside: Beside = None) -> Node:
     """Return worm and whole wheel in mesh, upright, z being up.
 
     A tooth is there once. In a cycle the worm turns once, and the wheel by as many teeth as the
@@ -31,7 +31,7 @@ def gearset_scene(wheel: Wheel, assembly: Assembly, blanks: Blanks | None = None
     pair = assembly.pair
     starts, teeth = pair.geometry.starts, pair.geometry.wheel_teeth
     one = tooth.shown_tooth(wheel).surface()
-    section = wheel_section(pair.geometry, blanks)
+    section = wheel_section(pair.geometry, blanks_of(beside))
     ring = [
         Node(f"tooth {number + 1}", one, turned(2.0 * math.pi * number / teeth), colour=BRONZE)
         for number in range(teeth)
@@ -40,7 +40,7 @@ def gearset_scene(wheel: Wheel, assembly: Assembly, blanks: Blanks | None = None
     nodes = [
         Node(
             "worm",
-            worm.whole_worm(pair, blanks, worm.SHOWN).surface(),
+            worm.whole_worm(pair, beside, worm.SHOWN).surface(),
             assembly.worm_rotation,
             assembly.worm_place,
             turns=1.0,

@@ -19,6 +19,7 @@ _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vib
 _ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be told
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
 _FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are together
+_CARRIES = 0.6, 1.6  # of what a motor takes for its drag and the torque, by [twin]
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
 _FITS = 3.0  # times better do speeds fit their supplies the other way round
 _TEETH = 0.05  # of the wheel's speed, by which it may be off what the worm's has it
@@ -38,6 +39,7 @@ def findings(of: Material) -> Iterator[Finding]:
         yield from told or _other_way_round(of)
         yield from _exchanged(of, "current")
         yield from _supplied(of)
+        yield from _carried(of)
 
 
 def _teeth(of: Material) -> Iterator[Finding]:
@@ -260,3 +262,33 @@ def _supplied(of: Material) -> Iterator[Finding]:
                 "look at its scale and channel, at the supply's volts, and at twin.motor_constant",
                 (name,), of.course(name), spoils=disc == "steel" or back + drop > _FASTER * volts,
             )  # fmt: skip
+
+
+def _carried(of: Material) -> Iterator[Finding]:
+    """Yield currents that are not what the motor takes for its drag and the disc's torque.
+
+    A motor gives k i; of that its drag is taken, and the rest times ratio and efficiency of the
+    gear is the disc's torque. That its worm carries no load is taken of the bronze disc's.
+    """
+    twin = of.case.get(Twin)
+    if twin is None:
+        return
+    torque = abs(_middle(of, "torque_steel")[0])
+    carried = torque / (of.pair.drives.gear_ratio * twin.gear_efficiency)
+    for disc, drag, load in (
+        ("steel", twin.motor_drag, carried), ("bronze", twin.bronze_drag, 0.0),
+    ):  # fmt: skip
+        name = f"current_{disc}"
+        # A drag that nobody told is not nothing.
+        if drag <= 0.0 or not of.has(name):
+            continue
+        current, wanted = _middle(of, name)[0], (drag + load) / twin.motor_constant
+        if current < least_of(name) or _CARRIES[0] <= current / wanted <= _CARRIES[1]:
+            continue
+        yield Finding(
+            f"{name} does not fit its motor",
+            f"{current:.3g} A, where {drag:.2g} N m of drag and {load:.2g} N m of load take "
+            f"{wanted:.3g} A by [twin]",
+            "look at the calibration of its clamp, and at motor_constant and drags of [twin]",
+            (name,), of.course(name), spoils=disc == "steel",
+        )  # fmt: skip

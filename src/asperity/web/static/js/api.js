@@ -59,7 +59,10 @@ export async function post(path, body, { signal: stop } = {}) {
 
 /**
  * Ask a live verb.
- * @param {string} verb @param {{case?: string, settings?: object}} body @param {{signal?: AbortSignal}} [options]
+ * @param {string} verb
+ * @param {{case?: string, settings?: object, options?: object, report?: boolean}} body
+ *   `report`: as a page that prints, of those that have one
+ * @param {{signal?: AbortSignal}} [options]
  */
 export const call = (verb, body, options) => post(`/api/do/${verb}`, body, options);
 
@@ -197,6 +200,10 @@ export function forgetCase(name) {
 /** Answers that ship, of what screens ask as they open: until what computes has started, they are what it answers. */
 const shipped = signal([]);
 get("shown/live/index.json").then((found) => (shipped.value = found), () => {});
+
+/** Answers that ship, of jobs: what was asked, and the folder they stand in. Asked for before any screen is there. */
+export const shippedJobs = signal([]);
+get("shown/index.json").then((found) => (shippedJobs.value = found), () => {});
 
 /** Where the answer to what is asked ships; "" where none does. */
 const shippedAt = (verb, text) => {

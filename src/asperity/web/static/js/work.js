@@ -1,17 +1,21 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
-import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
-import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
+import { html, useEffect, useState } from "../vendor/preact.js";
+import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, shippedJobs, useAsked,
+  useLive } from "./api.js";
 import { download } from "./figure.js";
 import { Notes } from "./shell.js";
 import { route, setParam } from "./state.js";
 
 /** Files that are shown without asking for more. */
 const FEW = 6;
-const ENDED = ["stopped", "done", "failed"];
-const REPORT = "report.html";
+export const ENDED = ["stopped", "done", "failed"];
+/** What a job is told in on paper; its name. */
+export const REPORT = "report.html";
 
 /** Hand a file of a job over. */
-const take = async (id, name) => download(name, await (await fetchRaw(placeOf(id, encodeURIComponent(name)))).blob());
+export async function take(id, name) {
+  download(name, await (await fetchRaw(placeOf(id, encodeURIComponent(name)))).blob());
+}
 
 /** Jobs that were begun here, by what was asked: another visit finds them again. */
 const begun = {};
@@ -27,10 +31,6 @@ export function nameOf(body) {
   return sum.toString(36);
 }
 
-/** Answers that ship, of what the screens open with: what was asked, and the folder they stand in. */
-const shipped = signal([]);
-get("shown/index.json").then((found) => (shipped.value = found), () => {});
-
 /** What a case is called on the page. */
 const aliasOf = (name) => about.value?.cases.find((each) => each.name === name)?.alias || name;
 
@@ -44,7 +44,7 @@ function exampleOf(asked, slot, any) {
   const named = (name) => about.value?.cases.find(({ alias }) => alias && alias === name)?.name ?? name;
   // What was read from a file is an answer to no other.
   const kind = ({ command, options, arguments: given }) => nameOf({ command, options, given });
-  const alike = shipped.value.filter((each) => each.slot === slot && kind(each.asked) === kind(asked));
+  const alike = shippedJobs.value.filter((each) => each.slot === slot && kind(each.asked) === kind(asked));
   const own = alike.find((each) => named(each.asked.case) === named(asked.case));
   const found = own ?? (any ? alike[0] : null);
   const same = own && nameOf({ ...own.asked, case: asked.case });
@@ -53,7 +53,7 @@ function exampleOf(asked, slot, any) {
 
 /** The answer that ships for a command, whatever is set: its id and what it is; null until it is there, or unwanted. */
 export function useShipped(command, wanted) {
-  const example = wanted && shipped.value.find(({ asked }) => asked.command === command);
+  const example = wanted && shippedJobs.value.find(({ asked }) => asked.command === command);
   const id = example ? `shown/${example.at}` : "";
   const data = useAsked(id && answerOf(id), (leave) => get(answerOf(id), leave)).found;
   return data && { ...example, id, data };
@@ -140,6 +140,17 @@ export function useTaken(work, command, body) {
   return work.stale ? now : { ...now, ...work.data };
 }
 
+/** Whether something has been there and was drawn: what stands below it waits for that. @param {boolean} there */
+export function useAfter(there) {
+  const [drawn, setDrawn] = useState(false);
+  useEffect(() => {
+    if (!there) return;
+    const frame = requestAnimationFrame(() => setTimeout(() => setDrawn(true)));
+    return () => cancelAnimationFrame(frame);
+  }, [there]);
+  return drawn;
+}
+
 /** Variables of what a job left, null until they are there. @param {Job} work */
 export function useData({ from, job }, names) {
   const path = from && (isShipped(from) || job?.state === "done") ? dataOf(from, names) : "";
@@ -155,7 +166,7 @@ export function lasting(seconds) {
 }
 
 /** Draw anew every second while something goes on. */
-function useTicking(on) {
+export function useTicking(on) {
   const [, setCount] = useState(0);
   useEffect(() => {
     const timer = on ? setInterval(() => setCount((old) => old + 1), 1000) : 0;
@@ -216,36 +227,11 @@ export const firstError = (...works) => works.map(({ error }) => error).find(Boo
 /** What a job has left, to take along. @param {{job: any}} props */
 export function Files({ job }) {
   if (!job?.files?.length || job.shipped) return null;
-  const buttons = job.files.map((name) => html`<button type="button" class="quiet" key=${name}
+  // What people read stands before what programs do.
+  const names = job.files.toSorted((one, other) => Number(other === REPORT) - Number(one === REPORT));
+  const buttons = names.map((name) => html`<button type="button" class="quiet" key=${name}
     onClick=${() => take(job.id, name)}>${name}</button>`);
   return html`<p class="row"><span class="says">files:</span> ${buttons.slice(0, FEW)}</p>
     ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more files</summary>
       ${buttons.slice(FEW)}</details>` : null}`;
-}
-
-/**
- * A report of what is set, made by a job and handed over when it is there.
- * @param {{command: string, body: object | null, files?: boolean}} props of a command that leaves `report.html`;
- *   `files`: whether its other files stand beneath
- */
-export function Report({ command, body, files = false }) {
-  const work = useJob(command, body, "-report");
-  const wanted = useRef(false);
-  const { id, job, asking, can, stale, start } = work;
-  const there = job?.state === "done" && !stale && job.files.includes(REPORT);
-  const running = asking || (job && !ENDED.includes(job.state));
-  useEffect(() => {
-    if (!there || !wanted.current) return;
-    wanted.current = false;
-    take(id, REPORT);
-  }, [there, id]);
-  const ask = () => {
-    if (there) return take(id, REPORT);
-    wanted.current = true;
-    start();
-  };
-  return html`<button type="button" disabled=${running || !can} onClick=${ask}>
-      ${running ? "report is being written" : "report"}</button>
-    ${there && files ? html`<${Files} job=${job} />` : null}
-    ${work.error ? html`<span class="bad" role="alert">✗ ${work.error.message}</span>` : null}`;
 }

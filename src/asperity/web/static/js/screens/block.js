@@ -8,6 +8,7 @@ import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { unpacked } from "../packed.js";
 import { Plot } from "../plot.js";
+import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { useCase } from "../state.js";
 import { inWords } from "../symbols.js";
@@ -38,7 +39,7 @@ export function view() {
   const mesh = useMesh();
   return html`<${Screen} title="Elastic block" kinds=${["block"]} first="block-shaken-along" start=${START}
     lead="The same body, elastic: meshed with solid elements, pressed, pulled and shaken."
-    error=${firstError(settled, marched)}
+    error=${firstError(settled, marched)} actions=${html`<${Report} work=${settled} />`}
     answer=${{ ...taken, notes: [] }}>
     <div class="columns headed moving">
       <section class="controls" aria-label="what is set">

@@ -4,17 +4,19 @@ import { useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
 import { span } from "../colours.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
+import { Further } from "../further.js";
 import { Gears, Way } from "../gears.js";
 import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
 import { Plot } from "../plot.js";
+import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { Strips } from "../strips.js";
 import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, Report, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { firstError, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -156,9 +158,11 @@ export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: {} } : null;
   const shaken = useJob("drive", body, "", true);
-  const loaded = useJob("drive", body && { ...body, options: { static: true } }, "-static", true);
-  const ways = useJob("directions", body, "", true);
-  const held = useJob("locking", body, "", true);
+  // The answer and its picture come first, what stands below them after that.
+  const below = useAfter(Boolean(shaken.data || shaken.error || shaken.job)) ? body : null;
+  const loaded = useJob("drive", below && { ...below, options: { static: true } }, "-static", true);
+  const ways = useJob("directions", below, "", true);
+  const held = useJob("locking", below, "", true);
   const { geometry } = useLive("rate", body && { case: name, settings }, 200).data?.answer ?? {};
   const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const mode = useValue("vibration.mode").text;
@@ -172,7 +176,7 @@ export function view() {
   const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
       answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}
-      actions=${html`<${Report} command="drive" body=${body} />`}
+      actions=${html`<${Report} work=${shaken} />`}
       lead="A gearset under load, shaken: what the motor is spared, what that costs, and what it does to the teeth.">
     <div class="columns headed moving"><section class="controls" aria-label="what is set">
       <${Slider} path="vibration.frequency" low=${100} high=${100000} unit="Hz" log />
@@ -198,6 +202,7 @@ export function view() {
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
           says="A minute or several: it is marched at several amplitudes.">
         ${held.data ? html`<${Locking} answer=${held.data.answer} found=${holding} data=${creep} />` : null}<//>
+      <${Further} name=${name} settings=${settings} />
     </section></div>
   <//>`;
 }

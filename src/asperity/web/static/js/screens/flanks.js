@@ -11,11 +11,12 @@ import { unpacked } from "../packed.js";
 import * as pictures from "../pictures.js";
 import { Plot } from "../plot.js";
 import { nearest, stage } from "../scene.js";
+import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
-import { Files, placeOf, Report, useJob, useTaken, Work } from "../work.js";
+import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
@@ -231,7 +232,7 @@ export function view() {
   const shown = { part, layer: told?.key, side, worm, ...values };
   return html`<${Screen} title="Flanks" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${taken} error=${work.error ?? packed.error}
-      actions=${html`<${Report} command="flank" body=${body} />`}
+      actions=${html`<${Report} work=${work} />`}
       lead="The wheel cut exactly as its hob cuts it: where it touches the worm, and what that does.">
     <div class="columns headed moving">
       <section class="controls" aria-label="what is set"><${Work} work=${work} label="cut the wheel" />

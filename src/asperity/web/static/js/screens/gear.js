@@ -6,12 +6,12 @@ import { Beneath } from "../figure.js";
 import { Box, Folded, Form, useValue, words } from "../form.js";
 import { Gears } from "../gears.js";
 import { AllNumbers, byKey, Num } from "../number.js";
+import { ReportOf } from "../report.js";
 import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { printed, symbol } from "../symbols.js";
 import { Table } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
-import { Report } from "../work.js";
 
 /** What stands side by side: a meaning, and its key by each standard. */
 const SIDE_BY_SIDE = [
@@ -76,10 +76,11 @@ function Travel({ error, setAll }) {
 /** The ratio; another one is a question for Size, with the torque and speed that are set. */
 function Ratio({ geometry }) {
   const [torque, speed] = ["output_torque", "worm_speed"].map((key) => useValue(`operation.${key}`).text);
-  const ask = (ratio) => go("size", { ...caseParams(route.peek().params), ratio, output_torque: torque,
+  // What is set may not be known yet, though an answer that ships is shown.
+  const ask = (ratio) => torque && go("size", { ...caseParams(route.peek().params), ratio, output_torque: torque,
     worm_speed: speed });
   return html`<div class="field"><label for="ratio">ratio</label>
-    <${Box} id="ratio" text=${geometry ? digits(geometry.gear_ratio) : ""} onSet=${ask} describedby="ratio-says" />
+    <${Box} id="ratio" text=${geometry && torque ? digits(geometry.gear_ratio) : ""} onSet=${ask} describedby="ratio-says" />
     <p class="says" id="ratio-says">another ratio: gearsets that hold at this torque and speed are proposed</p></div>`;
 }
 
@@ -227,7 +228,7 @@ export function view() {
   }));
   return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${data} error=${error} busy=${busy} late=${late} now=${now}
-      actions=${html`<${Report} command="rate" body=${body} files />`}
+      actions=${html`<${ReportOf} command="rate" body=${body} />`}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
     <${Travel} error=${error} setAll=${setAll} />
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />

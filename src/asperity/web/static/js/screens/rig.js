@@ -5,6 +5,7 @@ import { Field, words } from "../form.js";
 import { Law } from "../law.js";
 import { Live } from "../live.js";
 import { Plot } from "../plot.js";
+import { Report } from "../report.js";
 import { Screen, tell } from "../shell.js";
 import { OWN, Refusals, Signals } from "../signals.js";
 import { go, route, setParam, useCase } from "../state.js";
@@ -42,7 +43,7 @@ export function view() {
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
       answer=${rec ? seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }
         : example && { ...example.reduced, notes: [] }}
-      error=${rec ? (seen.error ?? reduced.error) : null}>
+      error=${rec ? (seen.error ?? reduced.error) : null} actions=${html`<${Report} work=${reduced} />`}>
     <${Live} />
     ${found || example ? html`<${Most} segments=${(found ?? example).segments} />` : null}
     <${Bring} name=${name} rec=${rec} />

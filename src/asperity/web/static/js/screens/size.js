@@ -2,8 +2,9 @@
 import { html } from "../../vendor/preact.js";
 import { call, useAsked, useCaseFile, useLive } from "../api.js";
 import { STANDARDS, Verdict } from "../bars.js";
-import { Box, Field, words } from "../form.js";
+import { Box, Field, useValue, words } from "../form.js";
 import { Plot } from "../plot.js";
+import { ReportNow } from "../report.js";
 import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
@@ -21,6 +22,10 @@ const COLUMNS = [
 /** Of what is kept beside the safeties; the ratio is asked above. */
 const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs",
   "safety"];
+/** Tables of the case that go into what is asked. */
+const ASKING = ["gearset", "operation", "rating", "requirements", "spectrum", "housing", "tolerances"];
+/** What is set of a load spectrum. */
+const LOADS = ["duty_class", "duty", "cycle", "hours_per_day", "shock"];
 const RANKS = ["size", "efficiency", "margin"];
 const THROUGH = "operation.through_travel_torque";
 /** What is proposed, and what is asked: all else is as the case has it. */
@@ -42,6 +47,7 @@ function smallest(proposals) {
 
 const limit = (path) => {
   const [standard, key] = path.split(".");
+  if (!key) return path;
   return `${STANDARDS[standard]}: ${key.replace("safety_", "")}`;
 };
 
@@ -56,13 +62,27 @@ function useRest() {
   const { name, settings } = useCase();
   const file = useCaseFile(name);
   if (!file) return {};
-  const written = ["gearset", "operation", "rating", "requirements"].flatMap((table) =>
+  const written = ASKING.flatMap((table) =>
     Object.entries(file.tables[table] ?? {}).map(([key, text]) => [`${table}.${key}`, text]));
   const all = { ...Object.fromEntries(written), ...settings };
   const kept = Object.entries(all).filter(([path]) => !OWN.includes(path) && path !== "requirements.ratio");
   // Of a valve a third of the rated torque stands through the travel, else all of it.
   const parts = /valve/.test(all["operation.service"] ?? "") ? 3 : 1;
-  return { rest: Object.fromEntries(kept), asked: all["requirements.ratio"], through: all[THROUGH], parts };
+  const loads = loadsOf(all);
+  const turns = Number(all["gearset.wheel_teeth"]) / Number(all["gearset.starts"]);
+  // What a case says of its loads belongs to its own torque and speed.
+  const own = loads ? { ratio: turns ? digits(turns, 5) : undefined, output_torque: all["operation.output_torque"],
+    worm_speed: all["operation.worm_speed"] } : {};
+  const asked = { ...own, ...(all["requirements.ratio"] && { ratio: all["requirements.ratio"] }) };
+  return { rest: Object.fromEntries(kept), asked, through: all[THROUGH], parts, loads };
+}
+
+/** The load spectrum in words; "" without one. @param {Record<string, string>} all */
+function loadsOf(all) {
+  const { "spectrum.step": steps = "", "spectrum.duty_class": ofClass } = all;
+  if (!steps) return ofClass ?? "";
+  const count = stepsOf(steps).split(";").filter((each) => each.trim()).length;
+  return `${count} ${count === 1 ? "step" : "steps"}${all["spectrum.duty"] ? `, ${all["spectrum.duty"]}` : ""}`;
 }
 
 function Proposals({ found, options, through, parts }) {
@@ -147,7 +167,7 @@ function TradeOff({ answer }) {
       series=${[
         { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
         single(designs[0], 1), single(designs[1], 2)]} />
-    <p class="says">A click on the curve opens that gearset.</p>
+    <p class="says to-press">A click on the curve opens that gearset.</p>
     <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
       ["open", take], ["design", ({ says }) => says],
       ["permissible torque (N m)", ({ torque }) => digits(torque, 4), "right"],
@@ -155,10 +175,30 @@ function TradeOff({ answer }) {
     ]} />`;
 }
 
+/** Steps as one types them, also where a file has them as a list of tables. @param {string} text */
+function stepsOf(text) {
+  if (!text.startsWith("[")) return text;
+  return [...text.matchAll(/\{([^}]*)\}/g)].map(([, step]) =>
+    [...step.matchAll(/= *("?)([^",]*)\1/g)].map(([, , value]) => value.trim()).join(", ")).join("; ");
+}
+
+/** The loads of its life, folded away while there is one only. @param {{loads: string}} props */
+function Loads({ loads }) {
+  const { set, unset } = useCase();
+  const { text } = useValue("spectrum.step");
+  const put = (typed) => (typed ? set("spectrum.step", typed) : unset("spectrum.step"));
+  return html`<details open=${Boolean(loads) && innerWidth > 900}><summary>load spectrum: ${
+      loads || "none, the torque above all of its life"}</summary>
+    <label class="asked steps">steps of the whole life, as 250 N m, 1400 rpm, 500 h; 60 N m, 700 rpm, 3000 h
+      <${Box} text=${stepsOf(text)} label="steps" onSet=${put} /></label>
+    <div class="grid keeps">${LOADS.map((key) => html`<${Field} key=${key} path=${`spectrum.${key}`} />`)}</div>
+    </details>`;
+}
+
 /** What a gearset must keep beside its safeties, folded away while nothing is asked. */
 function Kept({ rest }) {
   const said = KEPT.map((key) => [key, rest?.[`requirements.${key}`]]).filter(([, text]) => text !== undefined);
-  return html`<details open=${said.length > 0}><summary>what must be kept${said.length
+  return html`<details open=${said.length > 0 && innerWidth > 900}><summary>what must be kept${said.length
     ? `: ${said.map(([key, text]) => `${words(key)} ${text}`).join(", ")}` : ""}</summary>
     <div class="grid keeps">${KEPT.map((key) => html`<${Field} key=${key} path=${`requirements.${key}`} />`)}</div>
     </details>`;
@@ -167,17 +207,19 @@ function Kept({ rest }) {
 export function view() {
   const { name, settings } = useCase();
   const { params } = route.value;
-  const { rest, asked, through, parts } = useRest();
+  const { rest, asked, through, parts, loads } = useRest();
   const options = Object.fromEntries(ASKED.map(([key, , usual]) =>
-    [key, params[key] ?? (key === "ratio" && asked ? asked : usual)]));
+    [key, params[key] || asked?.[key] || usual]));
   const rank = params.rank ?? "size";
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
   const body = name ? { case: name, settings } : null;
+  const write = rest && (() => call("size", { settings: rest, options: { ...options, rank }, report: true }));
   const work = useJob("optimise", body);
   const { toml } = useTaken(work, "optimise", body);
   const answer = sized.data?.answer;
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy} now=${sized.now}
+      actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
     ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold by every standard${
       smallest(answer.proposals)}.</p>` : null}
@@ -188,11 +230,12 @@ export function view() {
         <select id="rank" value=${rank} onChange=${(event) => setParam("rank", event.target.value)}>
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
-      <${Kept} rest=${rest} />
+      <${Loads} loads=${loads} /><${Kept} rest=${rest} />
       ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil,
-          materials, roughness and life are the case's${through ? html`; its torque through the travel, ${through}, is
-          not, since it goes with another torque: ${parts === 3 ? "a third" : "all"} of the torque above is
-          taken, as where none is given` : null}.</p>
+          materials, roughness and life are the case's${loads ? html`, and so are its loads (${loads}), which
+          wear, pitting and heat are judged by; strength is by the torque above` : null}${through
+          ? html`; its torque through the travel, ${through}, is not, since it goes with another torque: ${parts === 3
+          ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>
         <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
         : html`<p class="wait">One moment.</p>`}
     </section>

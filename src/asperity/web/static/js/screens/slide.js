@@ -5,6 +5,7 @@ import { AllKeys, Amplitude, Field, Folded, Slider, useValue, words } from "../f
 import { Flow } from "../flow.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Plot } from "../plot.js";
+import { ReportOf } from "../report.js";
 import { Screen } from "../shell.js";
 import { moment, Stage } from "../stage.js";
 import { route, setParam, useCase } from "../state.js";
@@ -63,6 +64,7 @@ export function view() {
   return html`<${Screen} title="Sliding body"
     lead="Shake what a body slides on, and less force pulls it. Drag a slider; every number opens where it comes from."
     kinds=${["slide"]} first="body-shaken-along" start=${START}
+    actions=${html`<${ReportOf} command="slide" body=${name ? { case: name, settings } : null} />`}
     answer=${point.data} error=${point.error} busy=${point.busy} late=${point.late} now=${point.now}>
     <div class="columns headed moving">
       <section class="controls" aria-label="what is set"><${Folded}>
@@ -246,7 +248,7 @@ function Curves({ k, ratio, failed }) {
       marks=${failed || ratio === undefined || ratio === null ? [] : [{ x: at, y: ratio }]} />` : null}
     ${curve && ratio !== null ? html`<${Best} curve=${curve} ratio=${ratio} over=${over} pick=${pick} />` : null}
     <p class="says">${shaky.length ? "Shaded: no stable state was found there. " : ""}
-      Click into the curve to go there.</p>
+      <span class="to-press">Click into the curve to go there.</span></p>
   </section>`;
 }
 

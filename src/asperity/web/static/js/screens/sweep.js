@@ -5,6 +5,7 @@ import { commandLine, forms, get, useCaseFile, useLive } from "../api.js";
 import { AllKeys, Box, fieldOf, words } from "../form.js";
 import { Heat } from "../heat.js";
 import { Plot } from "../plot.js";
+import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { inWords, plain, printed } from "../symbols.js";
@@ -48,6 +49,7 @@ export function view() {
     lead="A case at every point of a grid. What is solved is kept: stop when you like, and go on later."
     answer=${{ toml: one.data?.toml, ...(work.stale ? null : work.data), notes: running ? work.job.notes : [],
       command: body && commandLine("sweep", body) }}
+    actions=${html`<${Report} work=${work} />`}
     error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}
     now=${one.now && !refused}>
     <div class="columns answer-first">

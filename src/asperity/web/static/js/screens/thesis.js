@@ -2,6 +2,7 @@
 import { html, useState } from "../../vendor/preact.js";
 import { fetchRaw, get, useAddress, useAsked } from "../api.js";
 import { Beneath } from "../figure.js";
+import { ReportNow } from "../report.js";
 import { Screen } from "../shell.js";
 import { route, setParam } from "../state.js";
 import { Table } from "../table.js";
@@ -21,7 +22,7 @@ const CHOICES = { all: "all", ...Object.fromEntries(Object.entries(VERDICTS).map
 export function view() {
   const { found: own, error } = useAsked("thesis", (leave) => get("/api/thesis", leave));
   const ships = useShipped("thesis", true)?.data.answer;
-  const ledger = own ? withShipped(own, ships?.claims ?? []) : ships && unmadeOf(ships);
+  const ledger = own ?? (ships && unmadeOf(ships));
   const { q = "", verdict = "all" } = route.value.params;
   const wanted = verdict === "none" ? "" : verdict;
   const words = q.toLowerCase().split(/\s+/).filter(Boolean);
@@ -38,6 +39,7 @@ export function view() {
   })).filter((chapter) => chapter.claims.length + chapter.figures.length);
   return html`<${Screen} title="Thesis" error=${error} busy=${!own && !error}
       answer=${ledger && { answer: ledger, command: "asperity thesis", toml: "" }}
+      actions=${html`<${ReportNow} ask=${() => get("/api/thesis?report=yes")} />`}
       lead="On friction under imposed vibration and in worm gears: what it says, and what comes of it when it is
         computed anew.">
     ${ledger ? html`
@@ -54,9 +56,9 @@ export function view() {
               ${" "}${said} ${key === "all" ? ledger.claims.length : count(ledger.claims, key)}</label>`)}
           </fieldset>
         </div>
-        <p class="says">${ledger.read}</p>
+        <details class="says"><summary>what was read</summary><p>${ledger.read}</p></details>
         <p class="says" role="status">${claims.length} of ${ledger.claims.length} claims,
-          ${" "}${figures.length} of ${ledger.figures.length} figures.
+          ${" "}${figures.length} of ${ledger.figures.length} figures.${" "}
           <span class="of-server">${unmade(ledger)}</span></p>
       </section>
       ${chapters.map((chapter) => html`<${Chapter} key=${chapter.number} ...${chapter} />`)}`
@@ -66,13 +68,6 @@ export function view() {
 
 /** What ships, before it is known what was made here. */
 const unmadeOf = (shipped) => ({ ...shipped, claims: shipped.claims.map((one) => ({ ...one, kept: false })) });
-
-/** Claims that were not made here, with what came of them as it ships. */
-function withShipped(ledger, shipped) {
-  const known = Object.fromEntries(shipped.map(({ id, verdict, ours, why }) => [id, { verdict, ours, why }]));
-  const claims = ledger.claims.map((one) => (one.kept ? one : { ...one, ...known[one.id] }));
-  return { ...ledger, claims };
-}
 
 /** Whether a claim has a verdict; "" means that it was not made here. */
 const is = (claim, verdict) => (verdict ? claim.verdict === verdict : !claim.kept);
