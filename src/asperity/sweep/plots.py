@@ -134,10 +134,11 @@ def _mark_unsettled(
         for column, out in zip(values.T, loose.T, strict=True)
     ]
     crosses[0].set_label("not settled")
-    if panel.get_legend() is None:
+    lines = panel.get_legend()
+    if lines is None:
         legend(panel, handles=crosses[:1])
     else:
-        _beside(panel, panel.get_legend().get_title().get_text())
+        _beside(panel, lines.get_title().get_text())
 
 
 def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") -> None:
