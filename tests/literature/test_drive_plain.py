@@ -96,15 +96,21 @@ def test_axial_vibration_ten_times_as_fast_as_the_sliding_saves_energy_at_40_khz
     assert powers < 1e-3
 
 
-def test_torsional_vibration_of_a_light_load_saves_a_little_energy_at_20_khz():
+@pytest.mark.parametrize(
+    ("duration", "energy"),
+    # The wheel comes to turn with the worm later than what is judged is settled to half a percent.
+    [("20 ms", 0.9958), pytest.param("80 ms", 1.0006, marks=pytest.mark.slow)],
+)
+def test_torsional_vibration_of_a_light_load_saves_no_energy_at_20_khz(duration, energy):
     light = {
         "mode": "torsional", "frequency": 20e3, "speed": 190.8, "load": 9.415, "mu": 0.0832,
         "damping": 0.0, "inertia": 9.54e-3, "worm_inertia": 2.205e-5, "worm_mass": 0.228,
         "torsion": 707.7, "amplitude": 6.52e-6,
     }  # fmt: skip
-    answer, plain, ratio, powers = compared(DRIVE | light, "solve.duration=20 ms")
+    answer, plain, ratio, powers = compared(DRIVE | light, f"solve.duration={duration}")
     assert answer.settled
-    assert answer.energy_ratio < 0.997
+    assert answer.energy_ratio == pytest.approx(energy, abs=2e-4)
+    assert answer.energy_ratio > 1.0 - 5e-3  # less would be a saving: what settles is as far off
     assert plain["drive"] + plain["actuator"] == pytest.approx(answer.energy_ratio, abs=2e-4)
     assert ratio < 2e-4
     assert powers < 2e-4

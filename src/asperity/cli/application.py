@@ -18,8 +18,10 @@ from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
 from asperity.cli.registered import (
     CaseArgument,
     JsonOption,
+    LanguageOption,
     OutOption,
     SetOption,
+    UnitsOption,
     folder_of,
 )
 
@@ -175,6 +177,8 @@ def compare(
         list[str], typer.Argument(metavar="CASE CASE...", help="Case files, or names of cases.")
     ],
     settings: SetOption = None,
+    units: UnitsOption = "",
+    language: LanguageOption = "",
     as_json: JsonOption = False,
     out: OutOption = None,
 ) -> None:
@@ -184,7 +188,7 @@ def compare(
     """
     from asperity.cli.compare import compare as run
 
-    run(cases, settings or (), as_json=as_json, out=out)
+    run(cases, settings or (), (units, language), as_json=as_json, out=out)
 
 
 @app.command()
@@ -224,11 +228,16 @@ def page(
 
 @app.command()
 @reported
-def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = False) -> None:
+def check(
+    case: CaseArgument,
+    settings: SetOption = None,
+    language: LanguageOption = "",
+    as_json: JsonOption = False,
+) -> None:
     """Find all mistakes of a case file, each with its line and what is allowed."""
     from asperity.cli.check import check as run
 
-    run(case, settings or (), as_json=as_json)
+    run(case, settings or (), language, as_json=as_json)
 
 
 @app.command()

@@ -48,6 +48,26 @@ def print_text(text: str) -> None:
         raise StorageError(unwritten(error)) from error
 
 
+@contextlib.contextmanager
+def files_first(written: Callable[[], None] | None) -> Iterator[None]:
+    """Print within the block; what cannot be printed is raised once the files are written.
+
+    Parameters
+    ----------
+    written : callable or None
+        Writes them; None: there are none.
+    """
+    failed = None
+    try:
+        yield
+    except (BrokenPipeError, StorageError) as error:
+        failed = error
+    if written is not None:
+        written()
+    if failed is not None:
+        raise failed
+
+
 def print_json(answer: Mapping[str, Any]) -> None:
     """Print one JSON object to standard output."""
     print_text(json.dumps(answer, allow_nan=False))

@@ -82,10 +82,10 @@ class Verdict(NamedTuple):
         The oil between the teeth, by ISO/TR 14521.
     wear_assumed : str
         What is to be said of the torque that wear is judged by.
-    heat_assumed : str
-        What is to be said of a duty that temperature is not judged by.
     rows : tuple of Row
         What others than the three standards say, of shafts and bearings for one.
+    heat_assumed : str
+        What is to be said of a duty that temperature is not judged by.
     """
 
     safeties: tuple[Safety, ...]

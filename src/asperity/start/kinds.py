@@ -128,19 +128,22 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "duty": Kind(
             "What a worm gearset has to do",
             {
-                "requirements": {"ratio": 40, "self_locking": "any"},
+                "requirements": {"ratio": 40, "ratio_tolerance": "3 %", "self_locking": "any"},
                 "operation": {
                     key: value for key, value in _GEARS["operation"].items() if key != "life"
                 },
                 "spectrum": {"step": "", "duty": "S1"},
+                "project": {"units": "si"},
             },
             (
                 Question("requirements.ratio", "ratio of the speeds"),
+                Question("requirements.ratio_tolerance", "by how much teeth may miss that ratio"),
                 Question("requirements.self_locking", "self-locking: any, wanted or avoided"),
                 *_ASKED_OF_GEARS[1:3],
                 Question("spectrum.step", "loads of its life; more of them behind a semicolon"),
                 Question("spectrum.duty", "S1, S2 15 min or S3 15 %"),
                 _ASKED_OF_GEARS[-1],
+                Question("project.units", "units that are shown: si or us"),
             ),
             ("requirements", "operation", "spectrum", "housing", "project", "gearset"),
             ("size",),

@@ -22,12 +22,17 @@ _FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are tog
 _CARRIES = 0.6, 1.6  # of what a motor takes for a change of the torque, by [twin]
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
 _FITS = 3.0  # times better do speeds fit their supplies the other way round
+_TEETH = 0.05  # of the wheel's speed, by which it may be off what the worm's has it
 _MAP = "look at the cables and at the map of [channels]"
 
 
 def findings(of: Material) -> Iterator[Finding]:
     """Yield what does not fit together."""
-    if of.windows:
+    if of.windows and of.pair.geared:
+        yield from _signs(of)
+        yield from _teeth(of)
+        yield from _supplied(of)
+    elif of.windows:
         yield from _signs(of)
         yield from _torques(of)
         told = list(_exchanged(of, "speed"))
@@ -35,6 +40,22 @@ def findings(of: Material) -> Iterator[Finding]:
         yield from _exchanged(of, "current")
         yield from _supplied(of)
         yield from _carried(of)
+
+
+def _teeth(of: Material) -> Iterator[Finding]:
+    """Yield a wheel that does not turn as its teeth have it."""
+    names = "speed_steel", "speed_bronze"
+    worm, wheel = (_middle(of, name)[0] for name in names)
+    wanted = of.pair.wheel_speed(worm)
+    error = 0.5 * _encoder_step(of, names[1]) * abs(of.blocks.lines[names[1]].gain)
+    if abs(worm) < least_of(names[0]) or abs(wheel - wanted) <= _TEETH * abs(wanted) + error:
+        return
+    yield Finding(
+        "speeds are not as the teeth",
+        f"speed_bronze is {wheel:.3g} rad/s, the gear ratio gives {wanted:.3g} of the worm's",
+        "look at both calibrations, at the map of [channels] and at the coupling to the brake",
+        names, of.course(names[1]),
+    )  # fmt: skip
 
 
 def _levels(of: Material, signal: str) -> FloatArray:
@@ -224,7 +245,7 @@ def _supplied(of: Material) -> Iterator[Finding]:
     twin = of.case.get(Twin)
     if twin is None or volts <= 0.0:
         return
-    for disc in ("steel", "bronze"):
+    for disc in ("steel",) if of.pair.geared else ("steel", "bronze"):
         volts, name = of.supply(disc, time), f"speed_{disc}"
         turning = abs(_middle(of, name)[0])
         back = twin.motor_constant * turning

@@ -23,7 +23,8 @@ const COLUMNS = [
 const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs",
   "safety"];
 /** Tables of the case that go into what is asked. */
-const ASKING = ["gearset", "operation", "rating", "requirements", "spectrum", "housing", "tolerances"];
+const ASKING = ["gearset", "operation", "rating", "requirements", "spectrum", "housing", "tolerances",
+  "worm_shaft", "wheel_shaft", "bearings"];
 /** What is set of a load spectrum. */
 const LOADS = ["duty_class", "duty", "cycle", "hours_per_day", "shock"];
 const RANKS = ["size", "efficiency", "margin"];
@@ -167,7 +168,7 @@ function TradeOff({ answer }) {
       series=${[
         { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
         single(designs[0], 1), single(designs[1], 2)]} />
-    <p class="says">A click on the curve opens that gearset.</p>
+    <p class="says to-press">A click on the curve opens that gearset.</p>
     <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
       ["open", take], ["design", ({ says }) => says],
       ["permissible torque (N m)", ({ torque }) => digits(torque, 4), "right"],
@@ -209,7 +210,7 @@ export function view() {
   const { params } = route.value;
   const { rest, asked, through, parts, loads } = useRest();
   const options = Object.fromEntries(ASKED.map(([key, , usual]) =>
-    [key, params[key] ?? asked?.[key] ?? usual]));
+    [key, params[key] || asked?.[key] || usual]));
   const rank = params.rank ?? "size";
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
   const body = name ? { case: name, settings } : null;
