@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 class Shafts(Protocol):
     """What others than the standards know of the shafts of the same gearbox."""
 
+    @property
+    def lacking(self) -> tuple[str, ...]:
+        """What is to be said of what they lack."""
+
     def seen(self) -> "Views":
         """Return both views of the gearset with its shafts, each as SVG with its caption."""
 

@@ -157,7 +157,7 @@ def propose(
     holds = bool(holding.any())
 
     def proposal(n: int) -> Proposal:
-        rows, bearings = chosen.borne.get(n, Borne())
+        rows, bearings, _ = chosen.borne.get(n, Borne())
         weak = rows and weakest(rows).margin == margins[n]
         return Proposal(
             int(starts[n]),
@@ -207,6 +207,7 @@ def propose(
     if operation.wear_assumed:
         notes.append(operation.wear_assumed)
     notes += _told_of_shafts(chosen)
+    notes += chosen.borne.get(int(shown[0]), Borne()).lacking
     if holds:
         if not rated_by_all[shown].all():
             notes.append(

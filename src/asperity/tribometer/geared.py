@@ -25,6 +25,9 @@ from asperity.tribometer.parameters import (
     SteelDisc,
 )
 
+_NAMED = {
+    "steel disc": "worm", "bronze disc": "wheel", "bronze one": "wheel", "discs": "worm and wheel",
+}  # fmt: skip
 _USUAL_FRICTION = 0.08
 """For what torque a worm takes about, where [friction] does not tell."""
 
@@ -86,6 +89,12 @@ class GearPair(Pair):
     def geared(self) -> bool:
         """Whether it is a worm and its wheel."""
         return True
+
+    def named(self, text: str) -> str:
+        """Return a sentence of the two discs with worm and wheel in it."""
+        for disc, own in _NAMED.items():
+            text = text.replace(disc, own)
+        return text
 
     @functools.cached_property
     def geometry(self) -> Geometry:

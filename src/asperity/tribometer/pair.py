@@ -47,6 +47,10 @@ class Pair:
         """Whether it is a worm and its wheel."""
         return False
 
+    def named(self, text: str) -> str:
+        """Return a sentence of the two discs with what stands for them here."""
+        return text
+
     @property
     def load(self) -> float:
         """Force between the two, N."""
@@ -76,7 +80,7 @@ class Pair:
         """Half the width of the contact, m."""
         return float(
             discs.contact_half_width(
-                self.rig.load, self.length, self.steel.diameter, self.bronze.diameter,
+                self.load, self.length, self.steel.diameter, self.bronze.diameter,
                 self.steel.young_modulus, self.bronze.young_modulus,
                 self.steel.poisson_ratio, self.bronze.poisson_ratio,
             )
@@ -99,7 +103,7 @@ class Pair:
         )  # fmt: skip
         radius = 0.5 / (1.0 / self.steel.diameter + 1.0 / self.bronze.diameter)
         film = discs.film_thickness(
-            viscosity, pressure_viscosity, rolling, modulus, radius, self.rig.load, self.length
+            viscosity, pressure_viscosity, rolling, modulus, radius, self.load, self.length
         )
         return float(discs.film_parameter(film, *roughness))
 

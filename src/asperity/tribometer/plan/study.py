@@ -43,6 +43,10 @@ class PlanProblem:
     plant: Plant | None
     warnings: tuple[str, ...]
 
+    def named(self, text: str) -> str:
+        """Return a sentence of the discs as it is of what the rig has."""
+        return text if self.plant is None else self.plant.pair.named(text)
+
 
 def prepare(case: Case) -> PlanProblem:
     """Lay out a plan; refuses one beyond its limits."""
@@ -119,7 +123,7 @@ def answer(problem: PlanProblem, run: Run) -> PlanResult:
         velocity_ratio=ratio,
         steel_turns=steel,
         bronze_turns=bronze,
-        notes=tuple(_notes(problem, expected)),
+        notes=tuple(map(problem.named, _notes(problem, expected))),
     )
 
 
@@ -174,9 +178,15 @@ def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
                 f"{_TELLING[1]:g}, where the law's parameters are told apart best: they lie at "
                 + ", ".join(f"{value:.2g}" for value in _some(known))
             )
+        geared = problem.plant is not None and problem.plant.pair.geared
         notes.append(
-            "turns and k are those of the simulated rig, whose motors and friction are fitted to a "
-            "few published figures and whose other parameters are placeholders"
+            "turns and k are those of the simulated rig, "
+            + (
+                "whose teeth are a drive of the same case, and whose motor is of no rig that stands"
+                if geared
+                else "whose motors and friction are fitted to a few published figures and whose "
+                "other parameters are placeholders"
+            )
         )
     if problem.plant is not None and problem.plant.sonotrode.current_limit is None:
         fastest = max(plan.frequencies)

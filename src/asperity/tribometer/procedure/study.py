@@ -85,7 +85,6 @@ def prepare(
     plan = case.require(Plan)
     files = planned_files(plan, limits)
     sonotrode = case.require(Sonotrode)
-    pair_of(case)
     inputs_for(case)
     most = plan.sample_rate / _LEAST_SAMPLES_A_CYCLE
     for frequency in plan.frequencies:
@@ -102,7 +101,7 @@ def prepare(
         raise InputError("--backend replay and --recordings DIR, a run's folder, go together")
     if backend == REPLAY and resume:
         raise InputError("a replay is not gone on with; leave --resume out, and begin it anew")
-    actions = tuple(sequence(files))
+    actions = tuple(sequence(files, geared=pair_of(case).geared))
     if backend == REPLAY:
         # What is asked of a person and what is tried beforehand is in no recording.
         actions = tuple(one for one in actions if one.act in _RECORDED)

@@ -219,7 +219,7 @@ def _numbers(
         if not pair.geared:
             # What a worm's torque does is no body's friction: fit --model drive.
             question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
-    flags += _flags(recording, blocks, segment, values)
+    flags += _flags(recording, case, blocks, segment, values)
     doubtful = bool(odd or segment.flags) or change.high - change.low > 2.0 * _WIDE
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
 
@@ -275,12 +275,12 @@ def _past(recording: Recording, case: Case) -> Iterator[str]:
 
 
 def _flags(
-    recording: Recording, blocks: Blocks, segment: Segment, values: dict[str, Any]
+    recording: Recording, case: Case, blocks: Blocks, segment: Segment, values: dict[str, Any]
 ) -> list[str]:
     """Return what a reader of a segment's numbers should know beside its interval."""
-    flags = []
+    flags, named = [], pair_of(case).named
     if values["turns_seen"] < _PART_TURN:
-        flags.append(f"{values['turns_seen']:.2g} of a turn of the steel disc is seen")
+        flags.append(named(f"{values['turns_seen']:.2g} of a turn of the steel disc is seen"))
     if values["sliding_velocity_with"].value <= 0.0:
         flags.append("the bronze disc outruns the steel disc")
     begin, end = segment.before.first * blocks.length, segment.shaken.last * blocks.length

@@ -62,7 +62,8 @@ def read(
             own = recording.case(known)
             own = dataclasses.replace(own, raw=own.raw | beside).replace(settings)
             found.append(Reducible(recording, own))
-            pair_of(found[-1].case)
+            if pair_of(found[-1].case).geared:
+                raise InputError("it is of a gear rig, and a report is of discs")
             found[-1].case.require(Channels)
         except AsperityError as error:
             if path.stem not in _ANSWERS:

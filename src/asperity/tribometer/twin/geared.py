@@ -7,6 +7,7 @@ in the drive's model, which tells means over a cycle, and not in the motion betw
 
 import dataclasses
 import functools
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -23,11 +24,14 @@ from asperity.tribometer.parameters import Sonotrode
 from asperity.tribometer.twin.chain import disc_velocity
 from asperity.tribometer.twin.contact import MeanFriction
 from asperity.tribometer.twin.plant import Plant, SteadyState
-from asperity.tribometer.twin.plant_kernels import SPEED_BRONZE, Motor, Sensing
+from asperity.tribometer.twin.plant_kernels import ACCELERATION, SPEED_BRONZE, Motor, Sensing
 
-_SPEEDS = 7
+_SPEEDS, _MOST_SPEEDS = 7, 32
+_STEEP = 0.04  # of the torque without vibration, between neighbours
+_NARROW = 1.03  # of one speed over the next, below which nothing is put between
 _SLOWEST = 0.1  # of the fastest that the plan's supplies can give
 _STARTS = 1e-3  # of that speed, within which the torque rises from rest
+_ACCELERATION_NOISE = 1.0  # m/s2
 _INERTIA = 1.0  # kg m2, of what teeth turn and no motor does
 
 
@@ -70,6 +74,7 @@ class GearPlant(Plant):
         """What the sensors make of it at an interval of samples, s."""
         found = super().sensing(interval)
         found.noise[SPEED_BRONZE] *= self.pair.tied
+        found.noise[ACCELERATION] = _ACCELERATION_NOISE
         return found
 
     @property
@@ -122,11 +127,28 @@ class GearPlant(Plant):
             )
         return float(static), float(static * ratio)
 
-    def _torques(self, mode: str, waveform: str, frequency: float) -> tuple[FloatArray, FloatArray]:
-        """Return the worm's torques without vibration and with it, at `_speeds`."""
-        rows = [self._solved(mode, waveform, frequency, speed) for speed in self._speeds]
-        without, shaken = np.array(rows).T
-        return without, shaken
+    def _torques(
+        self, mode: str, waveform: str, frequency: float
+    ) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return speeds of the worm, rad/s, and its torques without vibration and with it, N m.
+
+        Where the torque with vibration changes by much from one speed to the next, as where the
+        flanks begin to part, speeds between are solved as well.
+        """
+        found = {float(w): self._solved(mode, waveform, frequency, w) for w in self._speeds}
+        while len(found) < _MOST_SPEEDS:
+            speeds = sorted(found)
+            steep = [
+                (slow * fast) ** 0.5
+                for slow, fast in itertools.pairwise(speeds)
+                if abs(found[fast][1] - found[slow][1]) > _STEEP * found[fast][0]
+                and fast > _NARROW * slow
+            ]
+            if not steep:
+                break
+            found |= {w: self._solved(mode, waveform, frequency, w) for w in steep}
+        without, shaken = np.array([found[w] for w in sorted(found)]).T
+        return np.array(sorted(found)), without, shaken
 
     def friction(
         self, waveform: str = "sine", frequency: float = 0.0, *, mode: str = ""
@@ -140,14 +162,18 @@ class GearPlant(Plant):
         """
         key = (mode or self.pair.rig.mode, waveform, frequency)
         if key not in self._tables:
+            if not self.sonotrode.frequencies:
+                raise InputError(
+                    "sonotrode.frequencies is empty; give it with sonotrode.axial_velocity, how "
+                    "fast the simulated worm is shaken"
+                )
             at = frequency or self.sonotrode.frequencies[0]
-            without, shaken = self._torques(key[0], waveform, at)
-            self._tables[key] = self._table(shaken if frequency else without)
+            speeds, without, shaken = self._torques(key[0], waveform, at)
+            self._tables[key] = self._table(speeds, shaken if frequency else without)
         return self._tables[key]
 
-    def _table(self, torques: FloatArray) -> MeanFriction:
+    def _table(self, speeds: FloatArray, torques: FloatArray) -> MeanFriction:
         radius = self.pair.sliding_radius
-        speeds = self._speeds
         # Down to rest the torque is that of the slowest, and rises to it within a hair.
         velocity = radius * np.array([0.0, _STARTS * speeds[-1], *speeds])
         return MeanFriction(velocity, np.array([0.0, torques[0], *torques]) / radius)
@@ -158,7 +184,7 @@ class GearPlant(Plant):
         """Return wheel and worm as they are loaded; without its supply the brake holds nothing."""
         if powered:
             return self.bronze, self.friction(waveform, frequency, mode=mode)
-        free = self._table(np.zeros(_SPEEDS))
+        free = self._table(self._speeds, np.zeros(_SPEEDS))
         return self.bronze._replace(bearing=self.pair.rig.bearing_torque_bronze), free
 
     def steady(

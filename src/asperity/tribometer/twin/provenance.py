@@ -6,6 +6,7 @@ A figure is worth no more than the weakest of what it rests on.
 from typing import Literal
 
 from asperity.casefile import Case
+from asperity.gearset import Gearset
 from asperity.tribometer.options import Twin
 
 Standing = Literal["measured", "fitted", "placeholder", "given"]
@@ -108,6 +109,11 @@ def standing(case: Case) -> list[str]:
         "placeholder": "placeholders",
         "given": "as the case gives them",
     }
+    if Gearset.table in case:
+        return [
+            "the worm's torques are those of asperity drive on this case, at the means of its "
+            "motion; motor, brake, sensors and noise of [twin] are of no rig that stands"
+        ]
     told = [f"[twin] {words[kind]}: {names}" for kind, names in named.items() if names]
     return [
         *told,

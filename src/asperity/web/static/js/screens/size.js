@@ -23,7 +23,8 @@ const COLUMNS = [
 const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs",
   "safety"];
 /** Tables of the case that go into what is asked. */
-const ASKING = ["gearset", "operation", "rating", "requirements", "spectrum", "housing", "tolerances"];
+const ASKING = ["gearset", "operation", "rating", "requirements", "spectrum", "housing", "tolerances",
+  "worm_shaft", "wheel_shaft", "bearings"];
 /** What is set of a load spectrum. */
 const LOADS = ["duty_class", "duty", "cycle", "hours_per_day", "shock"];
 const RANKS = ["size", "efficiency", "margin"];
