@@ -136,8 +136,8 @@ def _on_demand() -> Finding:
         f"gearset is shaken while it seats, {found.share:.0%} of the time: wear and efficiency are "
         f"indeed small matters, {wear:+.1%} and {energy:+.0%} of a stroke's energy, and so is the "
         "boost: a smaller motor, most of whose saved mass the actuator is. The control that "
-        "switches it (section 8.2 iii), with each of its parts failing in turn, and sensors beside a "
-        "shaken gear (section 8.2 v) are marched by asperity control (docs, What it is worth).",
+        "switches it (section 8.2 iii), with each of its parts failing in turn, and sensors beside "
+        "a shaken gear (section 8.2 v) are marched by asperity control (docs, What it is worth).",
         {
             "energy_change": energy, "wear_change": wear,
             "motor_saved_kg": found.motor_plain - found.motor_shaken,
