@@ -11,7 +11,6 @@ Points are polar here, :math:`(R, \theta)` in mm and rad.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from asperity.arrays import FloatArray
 
@@ -62,6 +61,8 @@ def _graded(block: FloatArray, grading: float, *, both: bool) -> FloatArray:
     """Move a block's points along its second axis towards its end, or towards ``both`` ends."""
     if grading == 0.0:
         return block
+    from scipy.interpolate import PchipInterpolator
+
     even = np.linspace(0.0, 1.0, block.shape[1])
     if both:
         share = 0.5 + 0.5 * np.tanh(grading * (2.0 * even - 1.0)) / np.tanh(grading)
