@@ -135,6 +135,48 @@ def test_asperities_that_yield_before_they_slip_creep_in_the_plane_under_any_pul
     assert found.creep > 0.0
 
 
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"vibration.velocity_ratio": "1e-6"},
+        {"vibration.velocity_ratio": "1e-2"},
+        {"vibration.velocity_ratio": "1e-6", "friction.model": "lugre"},
+        NORMAL | {"vibration.elevation": "66 deg", "vibration.velocity_ratio": "1e-2"},
+    ],
+)
+def test_however_little_it_is_shaken_no_pull_is_where_such_asperities_begin_to_creep(settings):
+    found = static(**{"friction.law": "vector"} | settings)
+    assert found.static_ratio == 0.0
+    assert found.creep > 0.0
+    (note,) = [note for note in found.notes if "creep under any pull" in note]
+    assert "by a millionth of their deflection limit a cycle" in note
+
+
+@pytest.mark.parametrize(
+    "settings",
+    [
+        {"friction.exponent": 0, "vibration.velocity_ratio": "1e-3"},
+        NORMAL | {"friction.model": "lugre", "vibration.velocity_ratio": "1e-2"},
+        NORMAL
+        | {"friction.model": "springs", "vibration.elevation": "66 deg"}
+        | {"vibration.velocity_ratio": "1e-2", "normal.law": "hertz"},
+    ],
+)
+def test_what_slips_before_it_yields_and_what_is_shaken_along_the_normal_holds(settings):
+    found = static(**{"friction.law": "vector"} | settings)
+    assert found.static_ratio > 0.9
+    assert found.settled
+    assert not any("creep under any pull" in note for note in found.notes)
+
+
+def test_a_contact_that_nothing_damps_has_not_settled():
+    found = pressed(**{"normal.damping_ratio": 0.0})
+    assert not found.settled
+    assert "one of many" in found.settled_by
+    assert found.headline()[0].startswith("Not settled, no prediction: the state is one of many")
+    assert pressed().settled
+
+
 def test_a_heavy_body_creeps_where_the_master_curve_meets_its_pull():
     found = pressed(
         **{
@@ -159,6 +201,7 @@ def test_a_contact_that_never_repeats_itself_holds_nothing_where_it_opens():
             "vibration.velocity_ratio": 60,
         }
     )
+    assert not found.settled
     assert found.normal.period is None
     assert found.normal.open_share > 0.1
     assert found.static_force == 0.0

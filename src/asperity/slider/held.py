@@ -29,8 +29,12 @@ _FIRST = 16
 _RINGS = 4
 _MOST_FIRST = 40_000
 _DOUBLINGS = 8
-# Creep a cycle over the deflection limit, for Coulomb friction over the drive's way in a step.
-_STANDING = 1e-6
+STANDING = 1e-6
+"""Creep a cycle over the deflection limit, for Coulomb friction over the drive's way in a step,
+below which a body stands."""
+
+ROUNDING = 1e-10
+"""Creep, in the same, that is no rounding, which leaves some 1e-12 of what stands."""
 _STEADY = 0.9
 _SETTLED = 1e-3
 _KEPT = 0.02
@@ -158,7 +162,7 @@ class HeldBody:
             stiffness=0.0, damping=0.0, retained=1.0, mobility_x=mobility, rigid=False
         )
 
-    def creep(self, pull: float, *, settled: bool = False) -> Creep:
+    def creep(self, pull: float, *, settled: bool = False, standing: float = STANDING) -> Creep:
         r"""Return what the body does under a pull, over :math:`\mu W`.
 
         Parameters
@@ -167,6 +171,9 @@ class HeldBody:
             Along the drive, over mu W.
         settled : bool
             Whether to wait until the velocity keeps to 0.1 %, and not only does not fade.
+        standing : float
+            Creep a cycle over the deflection limit, for Coulomb friction over the drive's way in a
+            step, below which the body stands.
         """
         cycle = self._cycle
         state, springs = self.standing.copy(), np.zeros_like(cycle.springs)
@@ -198,13 +205,21 @@ class HeldBody:
             last, place = place, march(np.ones(periods))
             speeds.append((place - last) / periods)
             periods *= 2
-            if abs(speeds[-1]) <= _STANDING * self._cycles:
+            if abs(speeds[-1]) <= standing * self._cycles:
                 return Creep(0.0, steady=True)
             if len(speeds) > 2 and _lasts(speeds[-3:], _SETTLED if settled else None):
                 return Creep(speeds[-1] * unit, steady=_lasts(speeds[-3:], _KEPT))
         fades = abs(speeds[-1]) < _STEADY * abs(speeds[-2])
         steady = fades or _lasts(speeds[-3:], _KEPT)
         return Creep(0.0 if fades else speeds[-1] * unit, steady=steady)
+
+    def creeps_below(self, pull: float) -> bool:
+        """Whether asperities creep steadily under half of a pull, however slowly.
+
+        They do where they yield before they slip, as under vibration in the plane those of Dahl's
+        law with an exponent above 0 and of LuGre: no pull is so small that they stand.
+        """
+        return self.creep(0.5 * pull, settled=True, standing=ROUNDING).velocity > 0.0
 
     def _deflect(self, state: np.void, springs: FloatArray, pull: float) -> None:
         """Put the asperities where they carry a pull, or as much of it as they can."""

@@ -11,7 +11,7 @@ _RINGS = (
     "shown is the state from this start, one of many (vibration.ramp has another); give a damping "
     "(normal.damping_ratio)"
 )
-_OF_MANY = "the state is one of many: nothing damps the contact, and the ratio follows its ringing"
+OF_MANY = "the state is one of many: nothing damps the contact, and the ratio follows its ringing"
 
 
 def rings(model: Model) -> bool:
@@ -36,5 +36,5 @@ def as_it_rings(answer: SlideResult) -> SlideResult:
     """
     if not (answer.settled and rings(answer.model)):
         return answer
-    by = f"{answer.settled_by}, but {_OF_MANY}"
+    by = f"{answer.settled_by}, but {OF_MANY}"
     return dataclasses.replace(answer, settled=False, settled_by=by, step_error=None)

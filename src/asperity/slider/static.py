@@ -8,14 +8,16 @@ from typing import Any, ClassVar
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
 from asperity.results import Quantities, Result, labelled, part, quantity
+from asperity.results.settled import Standing, by_what, told, whether_settled
 from asperity.runs import Run
 from asperity.slider.closed_forms import load_swing, plane_static_ratio
 from asperity.slider.closed_forms.profiles import Profile
 from asperity.slider.cost import time_of_cycles
-from asperity.slider.held import Creep, HeldBody
+from asperity.slider.held import ROUNDING, STANDING, Creep, HeldBody
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
 from asperity.slider.result import inputs
+from asperity.slider.ringing import OF_MANY, rings
 from asperity.vibration.waveform import SINE
 
 # Of mu W: how near the limit is found, how far above it the creep is told, where it is sought.
@@ -59,6 +61,10 @@ class StaticResult(Result):
         What a closed form says; None where there is none.
     closed_form : str
         Which one.
+    settled : bool
+        Whether what is normal to the plane repeats itself whatever its start.
+    settled_by : str
+        What shows it, or what is missing.
     normal : LeastLoad or None
         None where the normal force is a constant.
     """
@@ -72,6 +78,8 @@ class StaticResult(Result):
     creep: float | None = quantity("v", "m/s", "creep under 1 % of mu W more", key="creep_m_s")
     closed_form_ratio: float | None = quantity("", "", "the same by a closed form")
     closed_form: str = quantity("", "", "closed form", only="json", shown=False)
+    settled: bool = whether_settled()
+    settled_by: str = by_what()
     normal: LeastLoad | None = part(LeastLoad, default=None)
     seconds: float = quantity(
         "", "s", "time it took", key="seconds", only="json", shown=False, swept=False, default=0.0
@@ -92,6 +100,10 @@ class StaticResult(Result):
         """Return what was found, and beside which closed form."""
         beside = self.closed_form or "none for this contact and direction"
         return f"static friction; closed form: {beside}"
+
+    def headline(self) -> tuple[str, ...]:
+        """Return that it has not settled, where it has not."""
+        return told(self)
 
 
 def prepare(case: Case) -> Model:
@@ -133,7 +145,15 @@ def answer(model: Model, run: Run) -> StaticResult:
     body = HeldBody(model)
     run.forecast(time_of_cycles(model, _PULLS * body.cycles), f"{_PULLS} pulls")
     ratio, notes = _limit(body, run)
-    creep = body.creep(ratio + _ABOVE, settled=True)
+    least = STANDING
+    if ratio > 0.0 and body.creep(0.0).velocity == 0.0 and body.creeps_below(ratio):
+        notes += (
+            f"asperities of this law yield before they slip: shaken so, they creep under any pull; "
+            f"at {ratio:.3g} of mu W by a millionth of their deflection limit a cycle",
+        )
+        ratio, least = 0.0, ROUNDING
+    standing = _standing(body)
+    creep = body.creep(ratio + _ABOVE, settled=True, standing=least)
     closed, which = closed_form(body)
     return StaticResult(
         model=model,
@@ -142,6 +162,8 @@ def answer(model: Model, run: Run) -> StaticResult:
         creep=creep.velocity if creep.steady else None,
         closed_form_ratio=closed,
         closed_form=which,
+        settled=standing.settled,
+        settled_by=standing.settled_by,
         normal=_least_load(body, ratio),
         seconds=time.perf_counter() - began,
         notes=body.notes + notes + _remarks(model, creep),
@@ -173,6 +195,18 @@ def _limit(body: HeldBody, run: Run) -> tuple[float, tuple[str, ...]]:
             "forward under more",
         )
     return low, ()
+
+
+def _standing(body: HeldBody) -> Standing:
+    """Whether the pulls are those of one motion normal to the plane."""
+    missing = []
+    if rings(body.model):
+        missing.append(OF_MANY)
+    if body.period is None:
+        missing.append("the motion normal to the plane never repeats itself")
+    return Standing.of(
+        missing, "pulls are tried in the state from rest, which repeats itself, until none fades"
+    )
 
 
 def _bounded(pull: float) -> None:
