@@ -98,6 +98,12 @@ class TestASweep:
         crosses = [line for line in panel.lines if line.get_marker() == "x"]
         assert [line.get_xdata().tolist() for line in crosses] == [[0.5]]
 
+    def test_of_two_axes_too_whose_lines_keep_their_names(self):
+        axes = ["vibration.velocity_ratio=0.5,6", "friction.law=split,vector"]
+        (panel,) = run(read_case("table-4.3", TABLES, EARLY), axes).figure().axes
+        names = [text.get_text() for text in panel.get_legend().get_texts()]
+        assert names == ["split", "vector", "not settled"]
+
 
 def longer(answer):
     """Return the duration that an answer says would do, as it says it."""

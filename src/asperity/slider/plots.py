@@ -56,7 +56,7 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     panels = [
         Panel(
             f"time ({unit})", "drive force (N)", [*drive, level(force, **_DASHED)],
-            rf"Drive force, mean {float(dataset['ratio']):.4g} $\mu F_N${_standing(dataset)}",
+            rf"Drive force, mean {float(dataset['ratio']):.4g} $\mu F_N${unsettled(dataset)}",
             limits={"ymargin": 0.12}, more=whole,
         ),
         Panel(
@@ -77,7 +77,8 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     return drawn([*panels, Panel(over, "normal force (N)", pressed, title)], height=8.6)
 
 
-def _standing(dataset: "xr.Dataset") -> str:
+def unsettled(dataset: "xr.Dataset") -> str:
+    """Return what follows a mean in a title; nothing of one that has settled."""
     return "" if bool(dataset.attrs["settled"]) else ": not settled, no prediction"
 
 

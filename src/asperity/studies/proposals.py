@@ -125,6 +125,11 @@ def propose(
         axial_module=module / FROM_SI["mm"],
         diameter_factor=factor,
     )
+    if "iso14521.eta_ges" not in rated:
+        why = next(note for note in rated.notes if note.startswith("iso14521: "))
+        raise InputError(
+            f"gearsets are proposed by the efficiency of ISO/TR 14521: {why.partition(': ')[2]}"
+        )
     margins, least, rated_by_all = _margins(rated)
     efficiency = np.asarray(rated["iso14521.eta_ges"])
     known = np.isfinite(margins) & np.isfinite(efficiency) & (efficiency > 0.0)
