@@ -310,8 +310,8 @@ def _foreseen(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float |
     """
     body, here = cycle.body, _ratio(cycle)
     first, ratio = predicted_on_half(
-        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
-        body.kept["sums"], np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
+        body.kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), body.kept["sums"],
+        np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
     )  # fmt: skip
     most = WANTED * max(abs(here), _LEAST_RATIO) / _part_of_difference(body.model)
     apart = abs(first - here) + abs(ratio - first)
