@@ -130,3 +130,10 @@ def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch
     monkeypatch.setattr(step_error, "_cycles_again", lambda *given: 1.25e-5)
     case = read_case("table-4.3", TABLES, ["solve.duration=0.6 s"])
     assert solve(Model.from_case(case), history=False).step_error == 1.25e-5
+
+
+def test_where_no_state_is_next_to_it_one_is_searched(monkeypatch):
+    model, cycle = at_its_state("vibration.waveform=triangle")
+    told = step_error.error_of_state(cycle, model)
+    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: None)
+    assert step_error.error_of_state(cycle, model) == pytest.approx(told, rel=0.05)

@@ -111,6 +111,8 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
         return 0.0
     other = _closed_beside(cycle, cycle.jacobian, cycle.slopes)
     if other is None:
+        other = _found_beside(cycle)
+    if other is None:
         return _cycles_again(cycle, _CLOSING // 2)
     return abs(other - _ratio(cycle)) * _part_of_difference(model)
 
@@ -272,6 +274,16 @@ def _on_half(cycle: Cycle) -> Cycle:
     if cycle.period > 1:
         half.repeat(cycle.period)
     return half
+
+
+def _found_beside(cycle: Cycle) -> float | None:
+    """Return the ratio of the state on half the steps, searched with a Jacobian of its own."""
+    half = _on_half(cycle)
+    if not half.find(-1):
+        return None
+    # Of the difference to half the step, what stands for that to twice.
+    part = 1.0 if cycle.body.model.meets_corners else _of_the_error(cycle.body.model) + 1.0
+    return _ratio(cycle) + part * (_ratio(half) - _ratio(cycle))
 
 
 def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
