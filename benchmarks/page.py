@@ -6,9 +6,12 @@ the start of the command to the first page. In chromium, where it is installed: 
 event of a slider to the frame in which the new ratio stands, as a multiple of a request that brings
 nothing; frames a second of the moving body, drawn by software; the longest task while its handle is
 dragged, by the processor's time, since others who have the cores make any task long; and how soon
-each screen opens with its answer, on this machine and on one that has compiled nothing.
+each screen opens with its answer, on this machine and on one that has compiled nothing, beside an
+empty page that the same browser opens from the same server; and what three walks from a question to
+its answer take, in clicks and seconds. What runs besides is told as the load.
 """
 
+import contextlib
 import http.client
 import json
 import math
@@ -24,9 +27,12 @@ from _common import finish
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-from apparatus.page import Served, memory, processor_time
+from apparatus.browser import TELL_REST
+from apparatus.page import Served, descendants, memory, processor_time
+from apparatus.walks import Walk, to_a_law, to_a_report, to_the_best_way
 
 CHANGES = 200
+ARGUMENTS = ["--disable-gpu", "--no-sandbox"]
 MOST = 2.0
 MOST_LATE = 3.0
 
@@ -88,6 +94,7 @@ def main():
             report["motion"] = motion(page, chromium)
             report["opened"] = opened(page, chromium)
             report["opened, nothing compiled"] = opened_fresh(chromium)
+            report["walks"] = walks(page, chromium)
         worker = page.child("worker")
         report["memory"] = {
             "server, MB": memory(page.process.pid),
@@ -96,12 +103,14 @@ def main():
         }
     finally:
         page.close()
+    report["load"] = dict(zip(("1 min", "5 min", "15 min"), os.getloadavg(), strict=True))
     # As a multiple of a round trip that brings nothing.
     most = {"seconds to the first page": 1.0, "processor, ms": 15.0, "kB": 16.0,
             "median over empty": MOST, "95th over empty": MOST_LATE, "server, MB": 80.0,
             "worker, MB": 300.0, "frame over 20 ms": 1.0,
             "longest task, processor ms": LONG, "slowest screen, s": 1.0,
-            "slowest screen, nothing compiled, s": 3.0}  # fmt: skip
+            "slowest screen, nothing compiled, s": 3.0,
+            "clicks to a report": 4, "clicks to the best way": 3, "clicks to a law": 5}  # fmt: skip
     finish(report, most=most)
 
 
@@ -141,7 +150,12 @@ def of_a_change(page):
 def address(page):
     """Return where the body stands."""
     query = f"case=table-4.3&set.solve.method=periodic&token={page.token}"
-    return f"http://127.0.0.1:{page.port}/#/slide?{query}"
+    return f"{origin(page)}/#/slide?{query}"
+
+
+def origin(page):
+    """Return where it is served."""
+    return f"http://127.0.0.1:{page.port}"
 
 
 def motion(page, chromium):
@@ -149,8 +163,7 @@ def motion(page, chromium):
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        arguments = ["--disable-gpu", "--no-sandbox"]
-        browser = playwright.chromium.launch(executable_path=chromium, args=arguments)
+        browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
         try:
             shown = browser.new_page(viewport={"width": 1400, "height": 900})
             shown.goto(address(page))
@@ -196,27 +209,55 @@ def tasks(events):
     ]
 
 
-def opened(page, chromium, name="slowest screen, s"):
-    """Return how soon each screen stands with its answer, each in a new tab."""
+def opened(page, chromium, name="slowest screen, s", times=3):
+    """Return how soon each screen stands with its answer, in new tabs; of several the soonest.
+
+    What the browser and the server take of the processor meanwhile is what it takes where nothing
+    else runs, or more: they share two cores.
+    """
     from playwright.sync_api import sync_playwright
 
-    found = {}
+    found, spent = {}, {}
     with sync_playwright() as playwright:
-        arguments = ["--disable-gpu", "--no-sandbox"]
-        browser = playwright.chromium.launch(executable_path=chromium, args=arguments)
+        browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
         try:
+            # Of the same server, with nothing in it.
+            where = {"empty": (f"{origin(page)}/icon.svg", "svg")}
             for screen, answer in FIRST.items():
-                context = browser.new_context(viewport={"width": 1400, "height": 900})
-                shown = context.new_page()
-                began = time.perf_counter()
-                shown.goto(f"http://127.0.0.1:{page.port}/#/{screen}?token={page.token}")
-                shown.wait_for_selector(answer, timeout=300_000)
-                found[screen or "home"] = time.perf_counter() - began
-                context.close()
+                where[screen or "home"] = f"{origin(page)}/#/{screen}?token={page.token}", answer
+            for screen, (address, answer) in where.items():
+                each = [_opened(browser, page, address, answer) for _ in range(times)]
+                found[screen], spent[screen] = map(min, zip(*each, strict=True))
         finally:
             browser.close()
     slowest = max(found.values())
-    return {**found, name: slowest, "slowest over the first page": slowest / found["home"]}
+    return {
+        **found,
+        **{f"{screen}, processor s": seconds for screen, seconds in spent.items()},
+        name: slowest,
+        "slowest over empty": slowest / found["empty"],
+        f"{name} of the processor": max(spent.values()),
+    }
+
+
+def _opened(browser, page, where, answer):
+    context = browser.new_context(viewport={"width": 1400, "height": 900})
+    shown = context.new_page()
+    before, began = _spent(page), time.perf_counter()
+    shown.goto(where)
+    shown.wait_for_selector(answer, timeout=300_000)
+    seconds, after = time.perf_counter() - began, _spent(page)
+    context.close()
+    return seconds, sum(after[pid] - before.get(pid, 0.0) for pid in after)
+
+
+def _spent(page):
+    """Return the processor's time of the browser's processes and of the server's, by process."""
+    found = {}
+    for pid in {*descendants(os.getpid()), page.process.pid, *descendants(page.process.pid)}:
+        with contextlib.suppress(OSError):
+            found[pid] = processor_time(pid)
+    return found
 
 
 def opened_fresh(chromium):
@@ -226,9 +267,33 @@ def opened_fresh(chromium):
             tempfile.mkdtemp(), dict(os.environ) | {"ASPERITY_CACHE": cache}, "--port", "0"
         )
         try:
-            return opened(page, chromium, "slowest screen, nothing compiled, s")
+            return opened(page, chromium, "slowest screen, nothing compiled, s", times=1)
         finally:
             page.close()
+
+
+def walks(page, chromium):
+    """Return what it takes from the first page to an answer, in clicks and seconds."""
+    from playwright.sync_api import sync_playwright
+
+    found = {}
+    with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
+        try:
+            for name, go in (("a report", lambda walk: to_a_report(walk, Path(folder))),
+                             ("the best way", to_the_best_way), ("a law", to_a_law)):  # fmt: skip
+                context = browser.new_context(viewport={"width": 1400, "height": 900})
+                context.add_init_script(TELL_REST)
+                walk = Walk(context.new_page())
+                began = time.perf_counter()
+                walk.page.goto(f"{origin(page)}/#/?token={page.token}")
+                go(walk)
+                found[f"seconds to {name}"] = time.perf_counter() - began
+                found[f"clicks to {name}"] = walk.clicks
+                context.close()
+        finally:
+            browser.close()
+    return found
 
 
 def painted(page, chromium):
@@ -236,12 +301,12 @@ def painted(page, chromium):
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        arguments = ["--disable-gpu", "--no-sandbox"]
-        browser = playwright.chromium.launch(executable_path=chromium, args=arguments)
+        browser = playwright.chromium.launch(executable_path=chromium, args=ARGUMENTS)
         try:
             shown = browser.new_page()
             shown.goto(address(page))
             shown.wait_for_selector("[data-key=ratio]")
+            shown.wait_for_selector("#slide-vibration-direction")
             shown.wait_for_timeout(1000)
             times = shown.evaluate(PAINTED, 60)[10:]
             empty = shown.evaluate(

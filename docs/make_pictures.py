@@ -313,6 +313,7 @@ if __name__ == "__main__":
             "misalign", "drive-screw", "tolerances.centre_distance=js8",
             "tolerances.axial_offset=30 um", "tolerances.shaft_angle=0.02 deg",
         ),
+        "roots_fillet": of_command("roots", "drive-screw", picture="roots_fillet"),
         "wear_flank": of_command("wear", "drive-screw", "drive.phases=12", picture="wear_flank"),
         "shafts": of_command("shafts", "actuator-shafts"),
         "catalogue": catalogues(),

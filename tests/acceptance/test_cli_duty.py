@@ -168,13 +168,28 @@ def asked(monkeypatch, capsys, folder, *lines, settings=()):
 
 
 def test_a_load_above_the_rated_torque_is_asked_for_again(monkeypatch, capsys, tmp_path):
-    known = ("requirements.ratio=50", "requirements.self_locking=any", "spectrum.duty=S1",
+    known = ("requirements.ratio=50", "requirements.ratio_tolerance=0.03",
+             "requirements.self_locking=any", "spectrum.duty=S1", "project.units=si",
              "operation.output_torque=250 N m", "operation.worm_speed=1400 rpm",
              "operation.lubricant=ISO VG 220 polyglycol")  # fmt: skip
     lines = ("300 N m, 1400 rpm, 5 h", "200 N m, 1400 rpm, 5 h", *[""] * 9)
     said = asked(monkeypatch, capsys, tmp_path, *lines, settings=known)
     assert "spectrum.step has a part with 300 N m; none may exceed" in said
     assert '"200 N m, 1400 rpm, 5 h"' in (tmp_path / "duty.toml").read_text("utf-8")
+
+
+def test_a_duty_asks_how_far_the_ratio_may_be_off_and_in_which_units(
+    monkeypatch, capsys, tmp_path, asperity
+):
+    lines = ("50", "0.5 %", "wanted", "2213 lb-in", "1400 rpm", "", "S3 15 %", "", "us")
+    said = asked(monkeypatch, capsys, tmp_path, *lines)
+    assert "by how much teeth may miss that ratio [3 %]" in said
+    assert "units that are shown: si or us [si]" in said
+    code, output, errors = asperity("size", "duty.toml", "--uncut", cwd=tmp_path)
+    assert code == 0, errors
+    assert "a (in)" in output
+    code, output, errors = asperity("size", "duty.toml", "--uncut", "--json", cwd=tmp_path)
+    assert {one["wheel_teeth"] for one in json.loads(output)["proposals"]} == {50}
 
 
 def test_only_hobs_of_the_shelf_are_proposed_and_each_is_named(asperity, tmp_path):

@@ -45,6 +45,19 @@ def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command,
     )
 
 
+@pytest.mark.parametrize(
+    ("command", "file"),
+    [
+        ("size --ratio 40 --output-torque '300 N m' --worm-speed '1500 rpm' --uncut", "size.json"),
+        slow("compare gearset-2 gearset-3", "compare.json"),
+    ],
+)
+def test_an_answer_that_nobody_reads_to_its_end_is_written_all_the_same(shell, command, file):
+    code, output, _ = shell(f"asperity {command} --out out | head -c 0; cat out/{file}")
+    assert code == 0
+    assert json.loads(output)
+
+
 IMPORTS = """
 import signal, sys
 from asperity.cli.main import main

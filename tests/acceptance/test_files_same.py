@@ -27,7 +27,18 @@ BLOCK = (
     "block.elements=[2, 2, 2]", "block.element=hex8", "vibration.start=1 ms", "solve.step=4 us",
     "solve.duration=2 ms",
 )  # fmt: skip
-KEYED = {"rate", "shafts", "flank", "drive", "misalign", "relief", "wear", "slide", "static"}
+KEYED = {
+    "rate",
+    "shafts",
+    "flank",
+    "drive",
+    "misalign",
+    "relief",
+    "roots",
+    "wear",
+    "slide",
+    "static",
+}
 """Those in whose reports each number says where in JSON it stands."""
 ANSWERS = HERE.parent / "answers"
 
@@ -80,6 +91,7 @@ def asked(name, lot):
             ["drive-screw", "--over", f"modification.tip_relief=0,{lot.uniform(5.0, 30.0):.4g} um"],
             ["drive.teeth=1", "drive.phases=2"],
         ),
+        "roots": (["drive-screw"], ["drive.teeth=1", "drive.phases=2"]),
         "wear": (["drive-screw", "--revolutions", "20"], ["drive.teeth=1", "drive.phases=2"]),
         "locking": (["drive-actuator"], [*TEETH]),
         "control": (["drive-actuator"], [*TEETH, "drive.stroke=16 deg", "control.failures=dead"]),

@@ -73,6 +73,10 @@ def test_a_body_has_a_report_too_with_its_picture_and_what_was_set(asperity, tmp
     assert len(page.numbers) > 10
     check_numbers(page, json.loads((tmp_path / "slide.json").read_text("utf-8")))
     assert f"--set {set_so}" in text
+    # First of all how much is left.
+    assert page.sentences[0] == "of  N without vibration  is left:  N"
+    first = [key for _, key, *_ in page.numbers[:3]]
+    assert first == ["static_drive_force_N", "ratio", "drive_force_N"]
     assert "<b>Sliding body.</b>" in text
     assert page.tags.count("img") == 1
     assert all(place.startswith("data:") for place in page.asked)

@@ -19,8 +19,9 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.errors import InputError
+from asperity.errors import InputError, StorageError
 from asperity.tribometer.deposit import Package, Person
+from asperity.tribometer.package import result as packaged
 from asperity.tribometer.recording import Recorder, Recording, Source, layout
 from asperity.tribometer.report.standards import measured
 
@@ -242,7 +243,8 @@ def test_an_archive_holds_the_same_files(asperity, run, package, tmp_path):
         ((), ("package.title, package.authors and package.licence are missing", "CC-BY-4.0")),
         (("package.title=T", 'package.licence="CC0-1.0"'), ("package.authors is missing",)),
         (('package.authors=["Doe, J; 0000-0002-1825-0098"]',), ("no ORCID",)),
-        (('package.licence="free for all"',), ("package.licence", "SPDX")),
+        (('package.licence="nonsense"',), ("package.licence", "SPDX", "CC0-1.0", "ODbL-1.0")),
+        (('package.licence="cc-by-40"',), ("SPDX", "did you mean 'CC-BY-4.0'")),
         (('package.doi="doi:10.1/x"',), ("package.doi", "10.5281")),
     ],
 )
@@ -251,6 +253,40 @@ def test_what_no_repository_takes_is_refused_in_a_line(asperity, run, tmp_path, 
     code, _, errors = asperity("rig", "package", run / "run", *given, "--out", tmp_path / "out")
     assert code == 2
     assert all(word in " ".join(errors.split()) for word in words), errors
+
+
+def test_a_case_that_is_begun_makes_a_package_and_a_report_that_say_so(asperity, run, tmp_path):
+    begun = tmp_path / "my-rig.toml"
+    assert asperity("new", "rig", begun)[0] == 0
+    code, printed, errors = asperity(
+        "rig", "package", run / "run", "--config", begun, "--out", tmp_path / "out", "--json"
+    )
+    assert code == 0, errors
+    notes = json.loads(printed)["notes"]
+    assert "package.authors is Doe, Jane, as asperity new has it; give yours" in notes
+    page = (tmp_path / "out" / "results" / "report.html").read_text("utf-8")
+    assert "(your laboratory)" in page
+
+
+def test_a_package_that_a_full_disk_does_not_take_is_left_in_no_part(
+    asperity, run, tmp_path, monkeypatch
+):
+    real, left = packaged.write_atomically, [6]
+
+    def full(path, write):
+        left[0] -= 1
+        if left[0] < 0:
+            raise StorageError(f"{path.name} cannot be written: no space left on device")
+        return real(path, write)
+
+    given = "rig", "package", run / "run", "--config", run / "case.toml", "--out", tmp_path / "out"
+    with monkeypatch.context() as disk:
+        disk.setattr(packaged, "write_atomically", full)
+        code, _, errors = asperity(*given)
+    assert code == 2
+    assert "no space left" in errors
+    assert list((tmp_path / "out").iterdir()) == []
+    assert asperity(*given)[0] == 0
 
 
 @pytest.mark.parametrize("name", ["datacite.json", "journal.jsonl"])

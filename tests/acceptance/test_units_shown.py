@@ -146,3 +146,17 @@ def test_what_is_to_be_given_again_stays_as_it_is():
     text = 'rate it with --set "gearset.axial_module=1.75 mm", 25.4 mm wide'
     with shown_in("us"):
         assert shown_text(text) == 'rate it with --set "gearset.axial_module=1.75 mm", 1 in wide'
+
+
+def test_what_rounding_left_is_none_in_inches_as_it_is_in_millimetres():
+    left = Number("0.000", -1.66e-14, "measuring.backlash_normal_min_mm")
+    table = Table(
+        (Column("measuring"), Column("value", right=True), Column("unit")),
+        (("normal backlash, least", left, "mm"),),
+    )
+    with shown_in("us"):
+        ((_, value, unit),) = shown_table(table).rows
+    assert (float(value), unit) == (0.0, "in")
+    with shown_in("us"):
+        cold = shown_text(Sentence(Number("0", 1e-15, "iso14521.theta_S_degC"), " degC"))
+    assert cold == "32 degF"

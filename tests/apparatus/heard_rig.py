@@ -58,6 +58,11 @@ class Settings:
         Change of the torque's zero over the run, N m.
     events : bool
         Whether the recording tells what was commanded.
+    turned : float
+        How long before the recording the discs came to rest, as after a trial run, which encoders
+        still show; 0: they stood long since.
+    first : float, optional
+        How long they then stand before the first cell; left out, as long as between cells.
     """
 
     volts: float = 1.0
@@ -82,6 +87,8 @@ class Settings:
     effect_late: float = 0.0
     drive_late: float = 0.0
     seed: int = 0
+    turned: float = 0.0
+    first: float | None = None
 
 
 @dataclasses.dataclass
@@ -147,13 +154,14 @@ def made(given: Settings, fault: Callable[[Run], None] | None = None) -> Run:
     """Return a run of three cells: at rest, sliding, with vibration, at rest."""
     rng = np.random.default_rng((given.seed, 2))
     count = len(given.frequencies)
-    total = given.rest + count * (2.0 * given.part + given.rest)
+    first = given.rest if given.first is None else given.first
+    total = first + count * (2.0 * given.part + given.rest)
     time = np.arange(round(total * given.rate)) / given.rate
     on, shaken, drive = np.zeros(time.size), np.zeros(time.size), np.zeros(time.size)
     phase, vibrates = np.zeros(time.size), np.zeros(time.size)
     events, spans = [], []
     for place, (frequency, ratio) in enumerate(zip(given.frequencies, given.ratios, strict=True)):
-        start = given.rest + place * (2.0 * given.part + given.rest)
+        start = first + place * (2.0 * given.part + given.rest)
         begin, end = start + given.part, start + 2.0 * given.part
         spans.append((start, begin, end))
         on[(time >= start) & (time < end)] = 1.0
@@ -278,13 +286,18 @@ def _encoder(speed, given, pulses=32):
     from scipy.signal import lfilter
 
     gate = round(given.rate)
+    earlier = round(3.0 * given.rate) if given.turned else 0
+    if given.turned:
+        stood = np.zeros(round(given.turned * given.rate))
+        ran = np.full(earlier, np.median(speed[speed > 0.5 * speed.max()]))
+        speed, earlier = np.concatenate((ran, stood, speed)), earlier + stood.size
     turns = np.cumsum(speed) / given.rate / (2.0 * math.pi)
     counted = np.floor(turns[gate - 1 :: gate] * pulses)
     shown = np.diff(counted, prepend=0.0) * 2.0 * math.pi / pulses
     course = np.concatenate((np.zeros(gate), np.repeat(shown, gate)))[: speed.size]
     course = np.pad(course, (0, max(speed.size - course.size, 0)), mode="edge")
     keep = math.exp(-1.0 / (given.rate * 0.2))
-    return lfilter([1.0 - keep], [1.0, -keep], course)
+    return lfilter([1.0 - keep], [1.0, -keep], course)[earlier:]
 
 
 def recorded(run: Run, path):
@@ -528,6 +541,7 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "bronze torque is a copy": (_copied("torque_bronze", "torque_steel"), {}),
     "bronze speed is a copy": (_copied("speed_bronze", "speed_steel"), {}),
     "torque told twice as large": (_gain("torque_steel", 2.0), {}),
+    "current told half as large": (_gain("current_steel", 0.5), {}),
     "speed told four times as large": (_gain("speed_steel", 4.0), {}),
     "samples missing in the torque": (_nan, {}),
     "samples missing in the drive": (_nan_in_drive, {}),
@@ -553,3 +567,22 @@ def faulty(name, seed, path, **settings):
 def sound(seed, path, **settings):
     """Write a recording without a fault, of a rig drawn by a seed."""
     return recorded(made(dataclasses.replace(sound_settings(seed), **settings)), path)
+
+
+def exported(seed, path, **settings):
+    """Write a sound recording as a program exports it, of discs that were tried just before.
+
+    Returns how to import it: the file, and settings of `rig-final`.
+    """
+    from scipy.io import savemat
+
+    rng = np.random.default_rng((seed, 5))
+    drawn = {"first": float(rng.uniform(0.5, 2.5)), "turned": float(rng.uniform(0.05, 1.0))}
+    given = dataclasses.replace(sound_settings(seed), **drawn | settings)
+    run = made(given)
+    names = [chr(ord("A") + place) for place in range(len(run.volts))]
+    channels = read_case("rig-final", TABLES, run.configured)["channels"].mapped()
+    volts = {channels[name].channel: values for name, values in run.volts.items()}
+    assert sorted(volts) == names
+    savemat(path, {"fs": given.rate} | {key: one.astype(np.float32) for key, one in volts.items()})
+    return path, [*run.configured, f'drives.bronze_supply="{BRONZE_SUPPLY:g} V"']

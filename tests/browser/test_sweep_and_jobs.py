@@ -1,6 +1,7 @@
 """Grids, elastic blocks and the list of jobs in a browser."""
 
 import re
+from pathlib import Path
 from urllib.parse import parse_qs
 
 import pytest
@@ -192,3 +193,49 @@ def test_a_block_is_marched_and_its_pressure_shown(seen, server):
     expect(
         page.get_by_label("Marched in time").locator("[data-key=ratio]").first
     ).to_have_attribute("data-value", str(ratio))
+
+
+SHORT = {"drive.teeth": "1", "drive.phases": "2"}
+
+
+def test_a_job_of_a_command_without_a_screen_opens_with_its_tables_and_pictures(seen, server):
+    begun = server.job("relief", "drive-screw", SHORT, over=["modification.tip_relief=0,20 um"])
+    job = server.ended(begun.json["id"], within=300.0)
+    assert job["state"] == "done", job
+    page = seen.open("jobs")
+    page.get_by_role("link", name="relief worm-shaken-as-a-screw").or_(
+        page.get_by_role("link", name="relief drive-screw")
+    ).first.click()
+    found = page.get_by_label("what was found")
+    expect(found.locator(".big")).to_contain_text("2 designs")
+    told = server.get(f"/api/jobs/{job['id']}/answer").json["told"]
+    table = told["tables"][0]
+    rows = found.get_by_role("table").first.locator("tbody tr")
+    expect(rows).to_have_count(len(table["rows"]))
+    for place, row in enumerate(table["rows"]):
+        assert [text.strip() for text in rows.nth(place).locator("th, td").all_inner_texts()] == [
+            cell.strip() for cell in row
+        ]
+    for remark in table["remarks"]:
+        assert remark.split(";")[0][:40] in found.inner_text()
+    picture = found.get_by_role("img", name="relief, drawn")
+    picture.scroll_into_view_if_needed()
+    expect(picture).to_be_visible()
+    assert picture.evaluate("e => e.naturalWidth") > 300
+    with page.expect_download() as got:
+        page.get_by_role("button", name="report", exact=True).click()
+    assert "<h2>" in Path(got.value.path()).read_text("utf-8")
+    # What is asked of no job says where they are.
+    page = seen.open("answer")
+    expect(page.get_by_text("No job is named here")).to_be_visible()
+
+
+def test_further_studies_of_a_drive_say_what_they_need_and_tell_what_they_find(seen):
+    page = seen.open("drive", case="drive-screw", **{f"set.{key}": SHORT[key] for key in SHORT})
+    page.get_by_text("further: mounting, relief, wear, control").click()
+    control = page.get_by_role("region", name="control", exact=True)
+    expect(control).to_contain_text("needs [control], which the case does not have")
+    expect(control.get_by_role("button", name="run strokes")).to_be_disabled()
+    for name in ("misalign", "relief", "wear"):
+        expect(page.get_by_role("region", name=name, exact=True)).to_be_visible()
+    expect(page.get_by_role("button", name="let it wear")).to_be_enabled()

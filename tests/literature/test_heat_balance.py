@@ -12,7 +12,8 @@ from apparatus.duties import A100, BINS, RUN, steps
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
-from asperity.rating import Housing, Operation, RatingOptions, Spectrum, rate
+from asperity.rating import Housing, Operation, RatingOptions, Spectrum, rate, rate_case
+from asperity.rating.agma6034.thermal import minimum_housing_area
 from asperity.rating.iso14521 import balance
 from asperity.rating.starting import starting_efficiency
 
@@ -20,6 +21,8 @@ KELVIN = {"heat_transfer": "15 W/(m**2 K)", "heat_capacity": "9500 J/K"}
 
 
 def housed(housing=KELVIN, **spectrum):
+    # The known numbers are those of the loss of the greatest load.
+    spectrum = {"oil_temperature": "each", **spectrum}
     loads = Spectrum(step=steps(*BINS), **spectrum)
     return rate(A100, Operation(**RUN, spectrum=loads, housing=Housing(**housing))).iso14521
 
@@ -47,6 +50,35 @@ def test_other_published_balances():
 def test_areas_of_housings():
     areas = [float(balance.housing_area(a)) for a in (100.0, 63.0)]
     assert areas == pytest.approx([0.39905, 0.18193], abs=5e-6)
+
+
+@pytest.mark.parametrize(
+    ("rule", "known"),
+    [
+        ("half ribbed", (0.39905, 0.18193)),
+        ("well ribbed", (0.45107, 0.19188)),
+        ("AGMA minimum", (0.28637, 0.13056)),
+    ],
+)
+def test_the_area_goes_by_the_rule_that_is_named(rule, known):
+    for a, area in zip((100.0, 63.0), known, strict=True):
+        assert float(balance.AREAS[rule](a)) == pytest.approx(area, abs=5e-6)
+    rated = rate_case(read_case("actuator-duty", case_tables(), [f"housing.area_rule={rule}"]))
+    entry = rated.iso14521.entry("A_h_m2")
+    assert entry.value == pytest.approx(known[0], abs=5e-6)
+    assert entry.equation == balance.AREAS[rule].equation
+    assert entry.source == balance.AREAS[rule].source
+    assert "housing.area" not in rated.assumed
+
+
+def test_the_least_area_is_that_of_the_rating_by_agma():
+    for a in (40.0, 63.0, 100.0, 250.0):
+        assert float(balance.least_area(a)) == pytest.approx(float(minimum_housing_area(a)))
+
+
+def test_area_and_rule_are_not_both_given():
+    with pytest.raises(InputError, match=r"housing\.area and housing\.area_rule are both given"):
+        Housing(area="0.4 m**2", area_rule="well ribbed")
 
 
 @pytest.mark.parametrize(

@@ -193,7 +193,7 @@ def test_a_root_whose_space_would_close_is_lifted():
     assert float(worm.width(worm.root_radius)[0]) == pytest.approx(0.02 * worm.half_pitch)
 
 
-def test_the_frame_of_a_tilted_hob_is_right_handed_and_adds_to_the_lead_angle():
+def test_the_frame_of_a_tilted_hob_isright_handed_and_adds_to_the_lead_angle():
     pair = Pair.of(gearset(), OVERSIZED)
     axes = pair.cutting.axes
     assert np.linalg.det(axes) == pytest.approx(1.0)
@@ -237,7 +237,7 @@ def left_handed_worm(worm, mount, centre_distance):
 
 
 @pytest.mark.parametrize("kind", ["ZI", "ZN", "ZC"])
-def test_a_left_handed_worm_is_the_mirror_image_of_the_right_handed_one(kind):
+def test_a_left_handed_worm_is_the_mirror_image_of_theright_handed_one(kind):
     mount = Mount(
         centre_distance_error="0.03 mm", axial_offset="0.2 mm", shaft_angle_error="0.4 deg"
     )

@@ -108,7 +108,7 @@ def test_tooth_stands_over_the_origin_on_the_side_of_the_worm(wheel):
     assert np.all(grids[0].angle[:, 1] > 0.0)
 
 
-def test_left_hand_is_computed_as_the_right_handed_mirror_image():
+def test_left_hand_is_computed_as_theright_handed_mirror_image():
     right, left = Wheel.cut(_pair()), Wheel.cut(_pair("left"))
     assert (right.pair.mirror, left.pair.mirror) == (1, -1)
     assert np.array_equal(right.flank(1).grid(5, 7).points, left.flank(1).grid(5, 7).points)

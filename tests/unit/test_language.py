@@ -11,7 +11,7 @@ from asperity.errors import InputError
 from asperity.python import size
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
-from asperity.results.system import shown_in, shown_table
+from asperity.results.system import shown_in, shown_table, shown_text
 from asperity.results.table import Table
 from asperity.results.terminal import rendered
 from asperity.results.words import Number, Sentence
@@ -117,6 +117,25 @@ def test_german_proposals_leave_nothing_english(given):
         text = rendered(size(**given, cut=False).tables())
     assert german.missing == set()
     assert "nachgerechnet" in text
+
+
+@pytest.mark.parametrize(
+    ("command", "case"),
+    [("rexs", "actuator-duty"), ("rexs", "actuator-shafts"), ("shafts", "actuator-shafts"),
+     ("sensitivity", "actuator-duty"), ("sensitivity", "gearset-3"),
+     pytest.param("optimise", "gearset-3", marks=pytest.mark.slow),
+     pytest.param("optimise", "actuator-duty", marks=pytest.mark.slow),
+     pytest.param("flank", "gearset-3", marks=pytest.mark.slow)],
+)  # fmt: skip
+def test_german_tables_of_a_designers_commands_leave_nothing_english(command, case):
+    read, result = answer_of(case, command=command)
+    german = catalogue_of("de")
+    german.missing.clear()
+    with spoken(german):
+        for text in (result.heading(), *result.headline()):
+            shown_text(text)
+        rendered(result.tables())
+    assert german.missing <= {read["gearset"].name}
 
 
 @pytest.mark.parametrize("given", CASES, ids=" ".join)

@@ -172,7 +172,7 @@ def test_a_quadratic_mesh_keeps_sets_of_nodes_that_are_no_face():
 
 
 @ORDERS
-def test_a_mirrored_mesh_stays_right_handed(order):
+def test_a_mirrored_mesh_staysright_handed(order):
     mesh = bent(box((1, 1, 1), (3, 2, 2), order))
     mirrored = mesh.transformed(np.diag([1, 1, -1]))
     assert mirrored.jacobians().min() > 0

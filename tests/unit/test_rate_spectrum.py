@@ -407,3 +407,19 @@ def test_many_steps_of_many_speeds_are_rated_as_few_are(monkeypatch):
     assert many.to_json() == one_by_one.to_json()
     said = (*many.notes, *many.bs721.notes, *many.bs721.violations, *many.bs721.gaps)
     assert any("the worm is not rated: part" in each for each in said)
+
+
+def test_loads_that_come_and_go_in_cycles_have_the_mean_temperature_unless_told_otherwise():
+    in_cycles = spectral(*BINS, duty="S3 40 %")
+    told = spectral(*BINS, duty="S3 40 %", oil_temperature="mean")
+    assert in_cycles.iso14521.entries == told.iso14521.entries
+    each = spectral(*BINS, duty="S3 40 %", oil_temperature="each")
+    assert in_cycles.iso14521["delta_Wn_mm"] != each.iso14521["delta_Wn_mm"]
+    said = "mean of all steps, which come and go in cycles"
+    assert in_cycles.assumed["spectrum.oil_temperature"] == said
+    assert any("as the cycles of S3 are alike" in note for note in in_cycles.iso14521.notes)
+    for duty in ("S1", "S2 15 min"):
+        own = spectral(*BINS, duty=duty)
+        assert own.iso14521["delta_Wn_mm"] == each.iso14521["delta_Wn_mm"]
+        assert own.assumed["spectrum.oil_temperature"] == "each: the sump settles in each step"
+    assert "spectrum.oil_temperature" not in each.assumed

@@ -145,6 +145,23 @@ def test_a_supply_with_a_fault_is_not_proven_off(name, fault, plugged):
     assert "\n" not in str(found)
 
 
+@pytest.mark.parametrize(
+    ("awaited", "answer", "named"),
+    [("CRLF", b"NO\n", "LF"), ("LF", b"NO\r", "CR"), ("CRLF", b"NO\r", "CR"), ("LF", b"NO", "")],
+)
+def test_an_answer_with_another_end_names_the_key(plugged, awaited, answer, named):
+    device = by_the_manual.TTi()
+    given = {
+        "instrument": "tti-pl", "port": plugged(device).port, "steel": "1", "answer_end": awaited,
+    }  # fmt: skip
+    line = opened_line("supply", Supplies.model_validate(given).outputs["steel"])
+    with pytest.raises(InstrumentError, match="broke off its answer") as told:
+        line._whole("ON?", answer)
+    assert (f'it ends in {named}, where {awaited} is awaited: give supplies.steel.line_end = "'
+            f'{named}"' in str(told.value)) == bool(named)  # fmt: skip
+    line.close()
+
+
 def test_the_rest_of_an_answer_is_none_to_the_next_question(plugged):
     device = by_the_manual.TTi()
     end = plugged(device)

@@ -366,6 +366,19 @@ def test_what_a_person_switches_is_named_whenever_nobody_was_asked(made, way):
     assert not any("at last" in line for line in one.said)
 
 
+def test_a_supply_that_is_on_is_looked_at_unasked(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_POLLED", 0.05)
+    one = made()
+    one.begin()
+    one.ask("steel", "on")
+    looked = one.told.count
+    until(lambda: looked(("steel", "reading")) > 3)
+    # What is off is nobody's concern, and of what answers no more somebody hears at once.
+    assert looked(("bronze", "reading")) == 1
+    one.fakes["steel"].fault = "garbling"
+    assert one.hears("tripped")["tripped"] == "steel answers half"
+
+
 def test_where_nothing_is_owned_nothing_is_said_to_be_off():
     found = switching.Switching([], ("lamp", "fan")).off(
         "signal SIGTERM", time.monotonic(), listen=False, unasked="nobody was asked"
@@ -387,8 +400,8 @@ def test_the_time_that_is_said_is_from_the_first_event_to_the_last_answer(made, 
     one.hears("tripped")
     time.sleep(0.5)
     steel.fault, mended = "", time.monotonic()
-    while one.guardian._verdicts.last.still_on:
-        time.sleep(0.01)
+    # Tried again while the procedure lives, and asks nothing.
+    until(lambda: not one.guardian._verdicts.last.still_on)
     line = one.guardian._verdicts.last.line()
     assert mended - begun <= line["off_s"]["steel"] <= line["took_s"] <= time.monotonic() - begun
     assert line["off_s"]["amplifier"] < 0.3 < line["off_s"]["steel"]
@@ -535,6 +548,7 @@ def test_a_drive_is_proven_still_by_what_is_known_of_it():
 def test_a_supply_is_proven_off_by_its_state_and_what_it_measures():
     for state, volts, amperes, proven in (
         (False, 12.0, 0.0, True), (False, 0.0, 0.2, False), (True, 0.0, 0.0, False),
+        (False, 0.0, 0.049, True), (False, 0.0, 0.06, False), (False, 0.0, -0.06, False),
         (None, 0.0, 0.0, True), (None, 12.0, 0.0, False), (False, 0.0, float("nan"), False),
     ):  # fmt: skip
         assert off.supply_off("supply", (state, Reading(volts, amperes))).proven == proven

@@ -264,3 +264,36 @@ def test_a_shaft_too_thick_for_its_wheel_is_rated_and_makes_no_solid():
     assert "without the hub, which has no room" in page
     with pytest.raises(InputError, match=r"\[wheel_shaft\] is thick at its mesh: blank\.bore"):
         Bodies.of(case, Pair.of(GEARSET))
+
+
+@pytest.mark.parametrize(
+    ("setting", "said"),
+    [
+        (
+            "worm_shaft.section=[{length='50 mm', diameter='35 mm'}, {length='90 mm'}, "
+            "{length='50 mm', diameter='30 mm'}]",
+            "worm_shaft: bearing A has a bore of 30 mm and stands on a section of 35 mm",
+        ),
+        (
+            "worm_shaft.section=[{length='50 mm', diameter='30 mm'}, {length='140 mm'}]",
+            "worm_shaft: bearing B at 180 mm stands on the threads",
+        ),
+    ],
+)
+def test_a_bearing_that_cannot_sit_where_it_stands_is_told(setting, said):
+    from asperity.runs import Run
+    from asperity.shafts import study
+
+    case = read_case("actuator-shafts", case_tables(), [setting])
+    assert said in study.answer(study.prepare(case), Run()).notes
+    rated = study.beside_rating(case)(rate_case(case), Run())
+    assert said in rated.notes
+    assert "cannot sit there" in rated.brief()
+
+
+def test_bearings_that_sit_are_not_told_of():
+    from asperity.runs import Run
+    from asperity.shafts import study
+
+    notes = study.answer(study.prepare(CASE), Run()).notes
+    assert not [note for note in notes if "bearing A" in note or "bearing B" in note]

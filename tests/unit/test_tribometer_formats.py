@@ -33,6 +33,7 @@ from apparatus.laboratory_files import (
 from hypothesis import given
 from hypothesis import strategies as st
 
+from asperity.cli.looking import looking
 from asperity.cli.main import main
 from asperity.errors import InputError
 from asperity.results import read
@@ -64,6 +65,9 @@ def test_text_is_read_to_the_value(tmp_path, program, encoding):
     assert [*found.headings] == headings
     assert [*found.units] == units
     holds(found, columns)
+    # By a column of times, or by what stands beside a count of samples.
+    if program.startswith("Rigol"):
+        assert found.start == pytest.approx(TIMES[0])
 
 
 @pytest.mark.parametrize("version", ["4", "5", "7.3"])
@@ -188,6 +192,63 @@ def test_what_is_not_read_is_named_with_what_to_export(tmp_path, what):
     (tmp_path / name).write_bytes(content)
     with pytest.raises(InputError, match=f"{name} is .*{re.escape(what)}.*not read; .*{instead}"):
         read_export(tmp_path / name, name)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("run.psdata", "PicoScope's own file.*export it as CSV"),
+        ("run.isf", "ISF.*save it as CSV"),
+        ("run.sr", "no session of sigrok.*CSV"), ("run.tdms", "no TDMS file.*CSV"),
+        ("run.mf4", "no MDF file.*CSV"), ("run.wav", "no WAV file.*CSV"),
+    ],
+)  # fmt: skip
+@pytest.mark.parametrize("content", [b"", b"words\nof a text\n", bytes(range(1, 256))])
+def test_a_file_that_is_not_what_it_is_called_is_told_what_to_export(tmp_path, name, told, content):
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(InputError, match=f"{name} is .*{told}"):
+        read_export(tmp_path / name, name)
+
+
+def test_a_structure_of_matlab_is_told_how_to_be_saved(tmp_path):
+    scipy.io.savemat(tmp_path / "run.mat", {"data": {"A": np.arange(100.0), "fs": 1.0}})
+    for told in (told_of(), told_of("1 kHz")):
+        with pytest.raises(InputError, match="a variable of numbers of its own, not in a struct"):
+            read_export(tmp_path / "run.mat", "run.mat", told)
+
+
+def test_a_file_is_named_once_and_a_rate_by_its_option(tmp_path, capsys, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "run.trc").write_bytes(NOT_READ["LeCroy's binary trace"][1])
+    (tmp_path / "run.csv").write_text("\n".join(["Time (s),A (V),B (V)", *triples()]), "utf-8")
+    for line, said in (
+        (["rig", "look", "run.trc"], "run.trc is LeCroy's"),
+        (["rig", "look", "run.csv", "--rate", "4000"], "--rate: '4000' has no unit"),
+        (["rig", "import", "run.csv", "rig-final", "--rate", "4 m"], "--rate: 'm' does not"),
+    ):
+        with pytest.raises(SystemExit) as ended:
+            main(line)
+        assert ended.value.code == 2
+        assert capsys.readouterr().err.startswith(said)
+
+
+def test_an_import_that_only_looks_is_a_look(tmp_path, capsys):
+    (tmp_path / "run.csv").write_text("\n".join(["Time (s),A (V),B (V)", *triples()]), "utf-8")
+    told = []
+    for line in (
+        ["rig", "look", str(tmp_path / "run.csv"), "--json"],
+        ["rig", "import", "--look", str(tmp_path / "run.csv"), "--json"],
+        ["rig", "import", str(tmp_path / "run.csv"), "none.toml", "--json", "--look", "--start=x",
+         "--set", "rig.mode=longitudinal"],
+    ):  # fmt: skip
+        with pytest.raises(SystemExit) as ended:
+            main(line)
+        assert ended.value.code == 0
+        told.append(capsys.readouterr().out)
+    assert told[0] == told[1] == told[2]
+    given = ["rig", "import", "--look", "a", "--join=b", "--units", "s,V", "--join", "c"]
+    assert looking(given) == ["rig", "look", "a", "b", "c", "--units", "s,V"]
+    assert looking(given[:2]) == given[:2]
 
 
 def dated(clock, separator=","):

@@ -1,6 +1,7 @@
 """Files of oscilloscope programs become recordings, or are refused with row and reason."""
 
 import datetime
+import errno
 import importlib.util
 import struct
 import tracemalloc
@@ -12,12 +13,13 @@ import pytest
 import scipy.io
 
 from asperity.casefile import read_case
-from asperity.errors import InputError
+from asperity.errors import InputError, StorageError
 from asperity.runs import Run
 from asperity.tribometer.importing import look
 from asperity.tribometer.importing.columns import matching
 from asperity.tribometer.importing.study import answer, prepare
 from asperity.tribometer.recording import Recording, layout
+from asperity.tribometer.recording.blocks import Blocks
 from asperity.tribometer.tables import TABLES
 
 MAPPED = [
@@ -92,6 +94,20 @@ def test_an_imported_recording_is_one(tmp_path):
     again = imported(tmp_path / "run.nc")
     assert again.form == "recording"
     assert np.array_equal(again.sampled.counts, np.concatenate([c for _, c in found.stretches()]))
+
+
+def test_an_import_onto_a_full_disk_leaves_nothing(tmp_path, monkeypatch):
+    path = tmp_path / "run.csv"
+    path.write_text(text(HEADS["en"], "(ms),(V),(V),(V),(V)", rows(), ","))
+    found = imported(path)
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    monkeypatch.setattr(Blocks, "block", full)
+    with pytest.raises(StorageError, match="no space left"):
+        found.save(tmp_path / "run.nc")
+    assert [one.name for one in tmp_path.iterdir()] == ["run.csv"]
 
 
 def test_marks_past_the_range_gaps_and_a_cut_end_are_told(tmp_path):

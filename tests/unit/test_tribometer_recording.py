@@ -20,6 +20,7 @@ import xarray as xr
 from asperity.errors import StorageError
 from asperity.files.store import read_dataset
 from asperity.tribometer.recording import Recorder, Recording, Source, layout
+from asperity.tribometer.recording.blocks import blocks_beside
 from asperity.tribometer.signals import SIGNALS
 
 SOURCES = [Source("torque_steel", "V", 1e-3, 0.5), Source("drive_voltage", "mV", 2.0)]
@@ -109,6 +110,39 @@ def test_a_block_that_was_changed_is_told(tmp_path):
     (gap,) = Recording.open(path).gaps
     assert "check sum" in gap.reason
     assert (gap.time, gap.duration) == pytest.approx((0.1, 0.1))
+
+
+@pytest.mark.parametrize(
+    ("place", "kept", "wrong"),
+    # The last block may have been on its way; one before it is kept, and told when it is opened.
+    [(-2 * BLOCK, 2, 0), (-6 * BLOCK, 3, 1)],
+)
+def test_a_block_whose_bytes_are_not_those_that_were_written_is_told(tmp_path, place, kept, wrong):
+    path, given = tmp_path / "run.nc", counts(3 * BLOCK)
+    made = recorder(path)
+    made.append(given, 0.3)
+    made.leave()
+    beside = blocks_beside(path)
+    content = bytearray(beside.read_bytes())
+    content[place] ^= 1
+    beside.write_bytes(content)
+    found = Recording.open(path)
+    assert found.samples == kept * BLOCK
+    assert ["check sum" in gap.reason for gap in found.gaps] == [True] * wrong
+    assert not beside.exists()
+
+
+def test_an_event_whose_bytes_are_damaged_ends_what_is_read(tmp_path):
+    path = tmp_path / "run.nc"
+    made = recorder(path)
+    made.append(counts(BLOCK), 0.1)
+    made.event(0.05, "vibration", "750 Hz sine")
+    made.append(counts(BLOCK), 0.2)
+    made.leave()
+    beside = blocks_beside(path)
+    beside.write_bytes(beside.read_bytes().replace(b"750 Hz", b"150 Hz"))
+    found = Recording.open(path)
+    assert (found.samples, found.events) == (BLOCK, ())
 
 
 @pytest.mark.parametrize("content", [b"", b"x" * 100, b"\x89HDF\r\n\x1a\n" + b"\0" * 200])

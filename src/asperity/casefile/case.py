@@ -248,7 +248,7 @@ def naming_source(case: Case, *others: str) -> Iterator[None]:
     except InputError as error:
         text = str(error)
         names = [f"{plain(n)}{end}" for o in others for n in (o, str(Path(o))) for end in ": "]
-        if not text.startswith((f"{case.source}: ", "--", *names)):
+        if not text.startswith((f"{case.source}: ", f"{case.source} ", "--", *names)):
             key = _KEY.match(text)
             origin = case.origin(key.group()) if key else case.source
             error.args = (f"{origin}: {text}", *error.args[1:])

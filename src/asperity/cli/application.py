@@ -12,13 +12,16 @@ import typer
 
 from asperity.cli import begin, outcome
 from asperity.cli.helped import as_written
+from asperity.cli.looking import looking
 from asperity.cli.made import made
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
 from asperity.cli.registered import (
     CaseArgument,
     JsonOption,
+    LanguageOption,
     OutOption,
     SetOption,
+    UnitsOption,
     folder_of,
 )
 
@@ -174,6 +177,8 @@ def compare(
         list[str], typer.Argument(metavar="CASE CASE...", help="Case files, or names of cases.")
     ],
     settings: SetOption = None,
+    units: UnitsOption = "",
+    language: LanguageOption = "",
     as_json: JsonOption = False,
     out: OutOption = None,
 ) -> None:
@@ -183,7 +188,7 @@ def compare(
     """
     from asperity.cli.compare import compare as run
 
-    run(cases, settings or (), as_json=as_json, out=out)
+    run(cases, settings or (), (units, language), as_json=as_json, out=out)
 
 
 @app.command()
@@ -223,11 +228,16 @@ def page(
 
 @app.command()
 @reported
-def check(case: CaseArgument, settings: SetOption = None, as_json: JsonOption = False) -> None:
+def check(
+    case: CaseArgument,
+    settings: SetOption = None,
+    language: LanguageOption = "",
+    as_json: JsonOption = False,
+) -> None:
     """Find all mistakes of a case file, each with its line and what is allowed."""
     from asperity.cli.check import check as run
 
-    run(case, settings or (), as_json=as_json)
+    run(case, settings or (), language, as_json=as_json)
 
 
 @app.command()
@@ -333,7 +343,8 @@ def run(arguments: list[str] | None = None) -> int:
     outcome.hold_streams()
     # What makes the tables of case files looks through all installed packages for its plugins.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
-    command: Any = made(app, sys.argv[1:] if arguments is None else arguments)
+    arguments = looking(sys.argv[1:] if arguments is None else arguments)
+    command: Any = made(app, arguments)
     as_written(command)
     # Left without a value, the option for help would load all of pydantic to convert none.
     no_help: dict[str, Any] = {"help": False}

@@ -71,4 +71,4 @@ class _Terminal:
         return None
 
     def written(self, where: Path, names: Sequence[str]) -> None:
-        show.note(f"written to {where}{': ' if names else ''}{', '.join(names)}")
+        show.note(show.said(f"written to {where}{': ' if names else ''}{', '.join(names)}"))

@@ -6,7 +6,7 @@ import io
 import os
 import sys
 from collections.abc import Callable
-from typing import ParamSpec
+from typing import Any, ParamSpec, TextIO
 
 import typer
 
@@ -79,7 +79,11 @@ def _end(line: str, code: int) -> None:
 
 def tell(line: str) -> None:
     """Print a line to standard error, with nothing in it that a terminal would obey."""
-    print(plain(" ".join(line.split())), file=sys.stderr, flush=True)
+    try:
+        print(plain(" ".join(line.split())), file=sys.stderr, flush=True)
+    except OSError:
+        # A terminal that is gone changes nothing of how a command ends.
+        _silence(sys.stderr)
 
 
 def hold_streams() -> None:
@@ -117,6 +121,35 @@ def unwritten(error: OSError) -> str:
 
 def silence_standard_output() -> None:
     """Let what is still to be written to standard output go nowhere."""
+    _silence(sys.stdout)
+
+
+def _silence(stream: TextIO) -> None:
     nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
+    os.dup2(nowhere, stream.fileno())
     os.close(nowhere)
+
+
+class StandardError:
+    """Standard error of a terminal that may be closed while something is shown on it."""
+
+    def __init__(self) -> None:
+        self._stream = sys.stderr
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Write a text, as far as there is a terminal."""
+        try:
+            return self._stream.write(text)
+        except OSError:
+            _silence(self._stream)
+            return len(text)
+
+    def flush(self) -> None:
+        """Bring it there, as far as there is a terminal."""
+        try:
+            self._stream.flush()
+        except OSError:
+            _silence(self._stream)

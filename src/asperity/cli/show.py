@@ -4,9 +4,9 @@ import contextlib
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO, cast
 
-from asperity.cli.outcome import tell, unwritten
+from asperity.cli.outcome import StandardError, tell, unwritten
 from asperity.errors import StorageError
 
 if TYPE_CHECKING:
@@ -48,6 +48,26 @@ def print_text(text: str) -> None:
         raise StorageError(unwritten(error)) from error
 
 
+@contextlib.contextmanager
+def files_first(written: Callable[[], None] | None) -> Iterator[None]:
+    """Print within the block; what cannot be printed is raised once the files are written.
+
+    Parameters
+    ----------
+    written : callable or None
+        Writes them; None: there are none.
+    """
+    failed = None
+    try:
+        yield
+    except (BrokenPipeError, StorageError) as error:
+        failed = error
+    if written is not None:
+        written()
+    if failed is not None:
+        raise failed
+
+
 def print_json(answer: Mapping[str, Any]) -> None:
     """Print one JSON object to standard output."""
     print_text(json.dumps(answer, allow_nan=False))
@@ -71,9 +91,11 @@ def progress_bar(what: str = "points") -> Iterator[Callable[[int, int], None]]:
 
     from asperity.runs.asking import shown
 
+    # The same to rich as a file; what it shows last may find no terminal any more.
+    standard_error = cast(TextIO, StandardError())
     columns = BarColumn(), MofNCompleteColumn(), what, TimeRemainingColumn()
     with (
-        Progress(*columns, console=Console(stderr=True)) as progress,
+        Progress(*columns, console=Console(file=standard_error)) as progress,
         shown(lambda: _off(progress), progress.start),
     ):
         bar = progress.add_task("", total=None)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from asperity import __version__
 from asperity.casefile.case import Case, naming_source
+from asperity.casefile.overruled import overruled
 from asperity.casefile.project import Project
 from asperity.cli import show
 from asperity.cli.new import OTHER_FORMS, given_to
@@ -46,17 +47,24 @@ def size(
     wanted = ratio_of(ratio) if ratio else None
     origin = {setting.partition("=")[0].strip(): setting for setting in settings}
     asking = Case(case or "size", Path(), {}, values, case_tables(), origin)
+    for line in overruled(asking):
+        show.note(line)
     with naming_source(asking):
         complete(values)
         found = proposals(values, wanted, rank, cut=cut, locks=locks)
     folder = Path(case).parent if case else Path()
-    with shown_as(Project.model_validate(values.get("project", {})), folder, *shown):
+
+    def written(to: Path) -> None:
+        show.note(show.said(_written(found, asking, to, ratio)))
+
+    with (
+        shown_as(Project.model_validate(values.get("project", {})), folder, *shown),
+        show.files_first(None if out is None else lambda: written(out)),
+    ):
         if as_json:
             show.print_json(found.to_json())
         else:
             show.print_tables(found.tables())
-        if out is not None:
-            show.note(_written(found, asking, out, ratio))
 
 
 def _written(found: Proposals, asking: Case, out: Path, ratio: str) -> str:

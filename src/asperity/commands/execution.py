@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from asperity.casefile import naming_source
+from asperity.casefile.overruled import overruled
 from asperity.casefile.project import Project
 from asperity.commands.command import Command
 from asperity.commands.shown import check_shown, shown_as
@@ -99,6 +100,8 @@ def execute(
     if file is not None:
         _check_new(file, command)
     found = command.case_of(case, settings, **options)
+    for line in overruled(found):
+        teller.note(line)
     given = [options[argument.name] for argument in command.arguments if not argument.many]
     teller.read(found)
     shown_so = shown_as(found.get(Project, Project()), found.folder, units, language)

@@ -213,6 +213,15 @@ COMMANDS = (
         options=(Option("over", _AN_AXIS, "TABLE.KEY=VALUES", many=True),),
     ),
     Command(
+        "roots",
+        "Find the stresses at the roots of a loaded worm wheel's teeth over a pitch.",
+        "Three teeth are meshed finely about their fillets; a minute. With --out also report.html, "
+        "roots.json, roots.nc and pictures.",
+        module="asperity.drive.root.study",
+        needs=("gearset", "operation", "drive"),
+        counts="meshes",
+    ),
+    Command(
         "relief",
         "Find the relief of a worm gearset that takes the load off its edges.",
         "Each design counts by the worst of its loads and mountings. With --out also report.html, "

@@ -62,7 +62,8 @@ RIG_COMMANDS = (
     Command(
         "rig import",
         "Make a recording of an oscilloscope's or logger's file: text, .mat, TDMS, WAV and more.",
-        "Without --out the file is looked at only.",
+        "Without --out the file is looked at only; --look FILE tells what is understood of it, as "
+        "asperity rig look FILE does.",
         module="asperity.tribometer.importing.study",
         arguments=(Argument("file", "FILE", "What the instrument or its program exported."),),
         options=(

@@ -25,6 +25,7 @@ SPEAKING: Mapping[str, str] = {
     "valve-actuator": "drive-actuator",
     "disc-on-disc": "rig-final",
     "disc-on-disc-dry": "rig-preliminary",
+    "worm-on-a-rig": "rig-gear",
 }
 """Names that say what a case is, beside those by which the thesis's tables are found."""
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Literal
 
 from pydantic import model_validator
 
@@ -33,8 +33,10 @@ class Housing(Table):
     Parameters
     ----------
     area : float or str, optional
-        Surface that gives off heat, m2; 20 (a/1000)^1.7 with a in mm if left out, with half of its
-        ribs.
+        Surface that gives off heat, m2; by ``area_rule`` if left out.
+    area_rule : {'half ribbed', 'well ribbed', 'AGMA minimum'}
+        Rule of that surface, with a in mm: 20 (a/1000)^1.7 with half of its ribs, 9e-5 a^1.85 where
+        it is well ribbed, or the least that AGMA 6034 asks for, 43.2 (a/25.4)^1.7 square inches.
     heat_transfer : float or str
         W/(m2 K): 11 to 13 in still air, 15 to 18 where it moves well, 20 to 30 blown upon; 15 if
         left out.
@@ -56,6 +58,7 @@ class Housing(Table):
     table: ClassVar[str] = "housing"
 
     area: Area | None = None
+    area_rule: Literal["half ribbed", "well ribbed", "AGMA minimum"] = "half ribbed"
     heat_transfer: Transfer = 15.0
     at_rest: Transfer | None = None
     base: Annotated[float, Quantity("", what="a share", example="0.25", ge=0, le=1)] = 0.0
@@ -72,6 +75,11 @@ class Housing(Table):
 
     @model_validator(mode="after")
     def _one_capacity(self) -> "Housing":
+        if self.area is not None and "area_rule" in self.model_fields_set:
+            raise InputError(
+                "housing.area and housing.area_rule are both given: give the area, or the rule "
+                "that it follows from"
+            )
         given = [name for name in HEAT if getattr(self, name) is not None]
         if self.heat_capacity is not None and given:
             raise InputError(
@@ -96,6 +104,7 @@ class Housing(Table):
             "area": "20 (a/1000)^1.7 m2, with half of the ribs",
             "heat_transfer": "15 W/(m2 K), of air that moves well",
         }
+        named = self.model_fields_set
         return MappingProxyType(
-            {key: said for key, said in left_out.items() if key not in self.model_fields_set}
+            {key: said for key, said in left_out.items() if not named & {key, f"{key}_rule"}}
         )

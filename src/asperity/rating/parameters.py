@@ -236,6 +236,8 @@ class Operation(Table):
         Operation
             Another one, or the same where nothing is said.
         """
+        if spectrum is not None:
+            spectrum.require_beside(self.oil_temperature)
         given = {"spectrum": spectrum, "housing": housing}
         update = {key: table for key, table in given.items() if table is not None}
         return self.model_copy(update=update) if update else self

@@ -39,7 +39,6 @@ from asperity.results.system import shown_frame
 from asperity.results.table import Table
 
 if TYPE_CHECKING:
-    from asperity.gearset.drawn import Views
     from asperity.results.report import Heading, Section
 
 
@@ -195,28 +194,17 @@ class Rated(Result):
         """Yield every number of every rating, by ``standard.key``."""
         for standard, rating in self.found.items():
             for number in rating:
-                label = Label(
-                    number.symbol,
-                    number.unit,
-                    number.meaning,
-                    key=f"{standard}.{number.key}",
-                    variable=f"{standard}_{number.key}",
-                )
+                key, name = f"{standard}.{number.key}", f"{standard}_{number.key}"
+                of = number.symbol, number.unit, number.meaning
+                label = Label(*of, key=key, variable=name)
                 name = f"{standard}.{number.symbol or number.key}"
                 yield Entry(name, label, number.value, origin=number)
 
-    @property
-    def seen(self) -> "Views":
-        """Both views of the gearset, with its shafts where there are any."""
-        from asperity.gearset.drawn import views_of
-
-        if self.shafts is None:
-            return views_of(self.geometry, self.gearset.hand)
-        return self.shafts.seen()
-
     def views(self) -> dict[str, str]:
         """Return the gearset drawn to scale."""
-        along, through = self.seen
+        from asperity.rating.report import seen
+
+        along, through = seen(self)
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:
@@ -230,7 +218,8 @@ class Rated(Result):
 
     def brief(self) -> str:
         """Return the verdict on one screen."""
-        play = () if self.backlash is None else (self.backlash.sentence(),)
+        play: tuple[str, ...] = () if self.backlash is None else (self.backlash.sentence(),)
+        play += self.shafts.lacking if self.shafts else ()
         shown = self.verdict, self.found, self.self_locking, len(self.assumed), self.notes
         return screen(*shown, self.of_duty, play)
 
@@ -351,11 +340,9 @@ def rated_of(
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
     steel = gearset.worm_material.taken_for
-    notes = (
-        []
-        if steel is None
-        else [f"worm material: {steel.note}, by {steel.name} ({steel.confidence})"]
-    )
+    notes = []
+    if steel is not None:
+        notes.append(f"worm material: {steel.note}, by {steel.name} ({steel.confidence})")
     rows, told = own_table.rows_of(given)
     for name in wanted:
         try:

@@ -5,7 +5,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from asperity.gearset.drawn import drawn
+from asperity.gearset.drawn import Views, drawn, views_of
 from asperity.rating.duty import duty_table
 from asperity.rating.endurance import endurance_table
 from asperity.rating.forces import MEANINGS
@@ -40,12 +40,20 @@ Reported = Any
 """A `asperity.rating.rate.Rated`, whose module imports this one."""
 
 
+def seen(rated: Reported) -> Views:
+    """Return both views of a gearset that is rated, with its shafts where there are any."""
+    if rated.shafts is None:
+        return views_of(rated.geometry, rated.gearset.hand)
+    views: Views = rated.shafts.seen()
+    return views
+
+
 def sections(rated: Reported) -> Iterator[Section]:
     """Yield the sections of the report of a rating."""
     cited: dict[Source, int] = {}
     verdict = (*_verdict(rated), *_beside(rated))
     yield Section("Verdict", tuple(_come_to(rated)), tables=verdict)
-    yield dataclasses.replace(drawn(rated.seen), tables=(_geometry(rated),))
+    yield dataclasses.replace(drawn(seen(rated)), tables=(_geometry(rated),))
     if rated.iso14521 is not None:
         flow = Picture("", svg=power_flow(rated.iso14521),
                        caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip

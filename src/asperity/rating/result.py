@@ -1,6 +1,7 @@
 """What a rating is: every factor with its symbol, unit, equation and source; tables of them."""
 
 import dataclasses
+import functools
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -138,8 +139,8 @@ class Rating:
 
     def __post_init__(self) -> None:
         keys = [entry.key for entry in self.entries]
-        twice = {key for key in keys if keys.count(key) > 1}
-        if twice:
+        if len(set(keys)) < len(keys):
+            twice = {key for key in keys if keys.count(key) > 1}
             raise ValueError(f"{', '.join(sorted(twice))}: an entry's key must occur once")
 
     def __getitem__(self, key: str) -> Value:
@@ -181,11 +182,13 @@ class Rating:
         )
 
     def _entry(self, key: object) -> Entry | None:
-        for name in ("key", "symbol"):
-            for entry in self.entries:
-                if key == getattr(entry, name):
-                    return entry
-        return None
+        return self._found.get(key) if isinstance(key, str) else None
+
+    @functools.cached_property
+    def _found(self) -> dict[str, Entry]:
+        """The entries by symbol, the first that has it, and before that by key."""
+        by_symbol = {entry.symbol: entry for entry in reversed(self.entries)}
+        return by_symbol | {entry.key: entry for entry in self.entries}
 
     @property
     def assumed(self) -> tuple[str, ...]:

@@ -126,7 +126,8 @@ class Spectrum(Table):
         Of the load, likewise.
     oil_temperature : {'each', 'mean'}
         Whether the sump settles in each step, or the oil has the mean of all steps, for loads that
-        change faster than a housing warms.
+        change faster than a housing warms. Left out: the mean where they come and go in the cycles
+        of S3, else each.
     """
 
     table: ClassVar[str] = "spectrum"
@@ -145,7 +146,7 @@ class Spectrum(Table):
         Annotated[float, Quantity("", what="a number", example="12", gt=0, le=24)] | None
     ) = None
     shock: Shock = "uniform"
-    oil_temperature: Literal["each", "mean"] = "each"
+    oil_temperature: Literal["each", "mean"] | None = None
 
     @model_validator(mode="before")
     @classmethod
@@ -207,9 +208,16 @@ class Spectrum(Table):
         return self._duty
 
     @property
+    def oil(self) -> Literal["each", "mean"]:
+        """Whether the oil has the temperature of each step, or the mean of all."""
+        return self.oil_temperature or ("mean" if self.how.kind == "S3" else "each")
+
+    @property
     def assumed(self) -> Mapping[str, str]:
         """Which keys were left out, and what was assumed for them."""
-        left_out = {"oil_temperature": "the sump settles in each step"}
+        left_out = {"oil_temperature": "each: the sump settles in each step"}
+        if self.oil == "mean":
+            left_out["oil_temperature"] = "mean of all steps, which come and go in cycles"
         if self.duty_class is not None:
             left_out["stroke"] = "90 deg, or 1 deg at each start of classes C and D"
             left_out["cycles"] = "the endurance of the class"
@@ -218,6 +226,21 @@ class Spectrum(Table):
         return MappingProxyType(
             {key: said for key, said in left_out.items() if key not in self.model_fields_set}
         )
+
+    def require_beside(self, oil_temperature: float | None) -> None:
+        """Refuse the mean of the sump's temperatures beside that temperature; raises InputError.
+
+        Parameters
+        ----------
+        oil_temperature : float or None
+            Of the operation, K.
+        """
+        if oil_temperature is not None and self.oil_temperature == "mean":
+            raise InputError(
+                "spectrum.oil_temperature is 'mean', and "
+                f"operation.oil_temperature {oil_temperature - 273.15:.4g} degC, which is that of "
+                "all steps; keep one of them"
+            )
 
     def steps(self, rated_torque: float | None) -> tuple[LoadStep, ...]:
         """Return the steps, those of a class by the rated torque of the wheel, N m.

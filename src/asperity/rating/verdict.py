@@ -82,10 +82,10 @@ class Verdict(NamedTuple):
         The oil between the teeth, by ISO/TR 14521.
     wear_assumed : str
         What is to be said of the torque that wear is judged by.
-    heat_assumed : str
-        What is to be said of a duty that temperature is not judged by.
     rows : tuple of Row
         What others than the three standards say, of shafts and bearings for one.
+    heat_assumed : str
+        What is to be said of a duty that temperature is not judged by.
     """
 
     safeties: tuple[Safety, ...]
@@ -194,11 +194,11 @@ class Verdict(NamedTuple):
         str
             One of each kind that there is.
         """
-        yield from Standing.sentences(self.standing, whole)
         failing = [f"{row.name} by {row.standard}" for row in self.rows if not row.holds]
         if failing:
             yield f"does not hold: {listed(failing)}"
-        elif self.rows and not self.safeties:
+        yield from Standing.sentences(self.standing, whole)
+        if not failing and self.rows and not self.safeties:
             yield f"holds by {listed([*dict.fromkeys(row.standard for row in self.rows)])}"
 
     def sentences(self) -> Iterator[str]:
@@ -210,6 +210,9 @@ class Verdict(NamedTuple):
     def nearest(self) -> Iterator[Sentence]:
         """Yield what fails first or is nearest to it, and what moves that most."""
         first = self.first
+        place, row = min(enumerate(self.rows), key=lambda one: one[1].margin, default=(0, None))
+        if row is not None and (first is None or row.margin < first.margin):
+            yield row.nearest(f"verdict.rows.{place}")
         if first is None:
             return
         d, own = first.demand, f"verdict.safeties.{self.safeties.index(first)}"

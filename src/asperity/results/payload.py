@@ -30,6 +30,33 @@ def as_payload(result: Result) -> dict[str, Any]:
     }
 
 
+def as_told(result: Result) -> dict[str, Any]:
+    """Return what people are told of a result.
+
+    Returns
+    -------
+    dict
+        ``sentences`` above the tables; and ``tables``, each with ``title``, ``columns``
+        (``heading``, whether ``right`` and ``typeset``), ``rows`` of texts and ``remarks`` below.
+    """
+    own = () if result.heading() == result.title else (result.heading(),)
+    return {
+        "sentences": [str(sentence) for sentence in (*own, *result.headline())],
+        "tables": [
+            {
+                "title": table.title,
+                "columns": [
+                    {"heading": one.heading, "right": one.right, "typeset": one.typeset}
+                    for one in table.columns
+                ],
+                "rows": [[str(cell) for cell in row] for row in table.rows],
+                "remarks": list(map(str, table.remarks)),
+            }
+            for table in result.tables()
+        ],
+    }
+
+
 def _entries(result: Result) -> Iterator[dict[str, Any]]:
     how = result.heading()
     for key, entry in result.keyed():

@@ -248,8 +248,18 @@ def _pitch(parts: Sequence[str]) -> str:
 def _number(number: Number, unit: str) -> Number:
     """Return a number in another unit, with as many digits as it was shown with."""
     shown = US[unit]
-    value = number.value * number.times * shown.factor + shown.offset
-    return Number(_digits(str(number), value), value)
+    text = str(number)
+    # What rounding left of a difference was shown as none.
+    held = 0.0 if _is_none(text) else number.value * number.times
+    value = held * shown.factor + shown.offset
+    return Number(_digits(text, value), value)
+
+
+def _is_none(text: str) -> bool:
+    try:
+        return float(text) == 0.0
+    except ValueError:
+        return False
 
 
 def _digits(text: str, value: float) -> str:

@@ -1,7 +1,7 @@
 """A shaft of a case as it is calculated, in mm, N and MPa: stretches, details, bearings, loads."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from asperity.errors import InputError
@@ -18,6 +18,7 @@ THREADS_BEND = 1.1
 """Diameter that a worm's threads bend with over that of their root, as ISO/TR 14521 has it."""
 
 _SAME = 1e-9
+_BORE = 1e-3  # by which a seat may differ from the bore
 
 
 class Model(NamedTuple):
@@ -40,7 +41,9 @@ class Model(NamedTuple):
     modulus : float
         MPa.
     notes : tuple of str
-        What is not judged.
+        What is not judged, and what is not as it can be.
+    misseated : tuple of str
+        Which of them are of bearings that cannot sit where they stand.
     """
 
     table: WormShaft | WheelShaft
@@ -51,6 +54,7 @@ class Model(NamedTuple):
     mesh: float
     modulus: float
     notes: tuple[str, ...]
+    misseated: tuple[str, ...] = ()
 
     @property
     def places(self) -> tuple[ShaftBearing, ShaftBearing]:
@@ -151,6 +155,7 @@ def model_of(table: WormShaft | WheelShaft, geometry: Geometry) -> Model:
     bearings = sorted(scaled(each.at, 1e3) for each in table.bearing)
     modulus = 206e3 if table.material is None else 1e-6 * table.material.youngs_modulus
     details, notes = _details(table, stretches, bears, max(drawn))
+    misseated = tuple(_seats(table, stretches))
     return Model(
         table,
         tuple(stretches),
@@ -159,8 +164,32 @@ def model_of(table: WormShaft | WheelShaft, geometry: Geometry) -> Model:
         (bearings[0], bearings[1]),
         scaled(table.mesh, 1e3),
         modulus,
-        notes,
+        (*notes, *misseated),
+        misseated,
     )
+
+
+def _seats(table: WormShaft | WheelShaft, stretches: Sequence[Stretch]) -> Iterator[str]:
+    """Say where a bearing cannot sit: on threads, or on another diameter than its bore."""
+    for end, place in zip("AB", sorted(table.bearing, key=lambda each: each.at), strict=True):
+        at = scaled(place.at, 1e3)
+        here = [
+            section
+            for section, stretch in zip(table.section, stretches, strict=True)
+            if stretch.start - _SAME <= at <= stretch.end + _SAME
+        ]
+        if all(section.diameter is None for section in here):
+            yield f"{table.table}: bearing {end} at {at:.4g} mm stands on the threads"
+            continue
+        if place.bearing is None:
+            continue
+        bore = scaled(place.bearing.bore, 1e3)
+        sizes = [scaled(one.diameter, 1e3) for one in here if one.diameter is not None]
+        if all(abs(size - bore) > _BORE * bore for size in sizes):
+            yield (
+                f"{table.table}: bearing {end} has a bore of {bore:.4g} mm and stands on a section "
+                f"of {sizes[0]:.4g} mm"
+            )
 
 
 def _details(

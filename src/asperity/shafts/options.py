@@ -56,7 +56,18 @@ class BearingOptions(Table):
         return RELIABILITY[self.reliability]
 
     def at_rest(self, elements: Kind) -> float:
-        """Return the least static safety of bearings that roll on balls or on rollers."""
+        """Return the least static safety that is asked of a bearing.
+
+        Parameters
+        ----------
+        elements : {'ball', 'roller'}
+            What it rolls on.
+
+        Returns
+        -------
+        float
+            s_0.
+        """
         return AT_REST[elements] if self.static_safety is None else self.static_safety
 
     @property

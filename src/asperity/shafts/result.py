@@ -168,6 +168,20 @@ class ShaftStudy(Drawn):
         return rows_of(self)
 
     @property
+    def lacking(self) -> tuple[str, ...]:
+        """What is not given and so not judged, in a line; nothing where all is."""
+        names = {"worm_shaft": "worm shaft", "wheel_shaft": "wheel shaft"}
+        lacks = [name for key, name in names.items() if key not in self.found]
+        for key, shaft in self.found.items():
+            if any(place.bearing is None for place in shaft.model.places):
+                lacks.append(f"bearings of the {names[key]}")
+            if shaft.model.table.material is None:
+                lacks.append(f"steel of the {names[key]}")
+        if any(shaft.options.contamination is None for shaft in self.found.values()):
+            lacks.append("oil's cleanness")
+        return (f"not given: {', '.join(lacks)}",) if lacks else ()
+
+    @property
     def holds(self) -> bool:
         """Whether everything does."""
         return all(row.holds for row in self.rows)
@@ -185,7 +199,13 @@ class ShaftStudy(Drawn):
         return self.given.gearset.hand
 
     def seen(self) -> "Views":
-        """Return both views of the gearset with its shafts, each as SVG with its caption."""
+        """Return both views of the gearset with its shafts, each as SVG with its caption.
+
+        Returns
+        -------
+        along, through : tuple of str
+            Along the wheel's axis, and through it.
+        """
         from asperity.shafts.drawing import views_of
         from asperity.shafts.shape import shape_of
 
@@ -198,7 +218,22 @@ class ShaftStudy(Drawn):
     def sheets(
         self, cells: "Cells", given: "Inputs", iso: "Values"
     ) -> Mapping[str, list[tuple[Any, ...]]]:
-        """Return the rows of a sheet for each shaft, its numbers found from traced inputs."""
+        """Return the rows of a sheet for each shaft, its numbers found from traced inputs.
+
+        Parameters
+        ----------
+        cells : Cells
+            Of the workbook.
+        given : Inputs
+            The gearset and its operation, whose numbers may be cells.
+        iso : mapping of str to object
+            What ISO/TR 14521 finds from them.
+
+        Returns
+        -------
+        mapping of str to list of tuple
+            By the name of the sheet.
+        """
         from asperity.shafts.workbook import sheets_of
 
         options = next(iter(self.found.values())).options

@@ -15,6 +15,7 @@ from asperity.rating.inputs import Inputs, inputs, scaled
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated
 from asperity.rating.result import Rating
+from asperity.rating.rows import Row
 from asperity.rating.standards import rate_by, tables_of
 from asperity.rating.tables import operation_of
 from asperity.runs import Run
@@ -187,6 +188,24 @@ def found_of(problem: Prepared, loads: tuple[Load, ...]) -> dict[str, ShaftFound
     return found
 
 
+def rows_by(case: Case) -> Callable[[Gearset], tuple[Row, ...]] | None:
+    """Return what says of another gearset what a case's shafts come to; None without shafts.
+
+    Parameters
+    ----------
+    case : Case
+        With all but the gearset that is asked about.
+    """
+    if not given_shafts(case):
+        return None
+    operation, options = operation_of(case), case.get(RatingOptions, RatingOptions())
+    shafts = case.get(WormShaft), case.get(WheelShaft)
+    asked = case.get(BearingOptions, BearingOptions())
+    return lambda gearset: (
+        studied(prepared(gearset, operation, options, shafts, asked, case.folder)).rows
+    )
+
+
 def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     """Return what adds shafts and bearings of a case to its rating: a row for each of them.
 
@@ -209,6 +228,12 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
 
     def add(rated: Rated, _: Run) -> Rated:
         shafts = studied(problem, rated.iso14521)
-        return dataclasses.replace(rated, rows=(*rated.rows, *shafts.rows), shafts=shafts)
+        wrong = (note for one in shafts.found.values() for note in one.model.misseated)
+        return dataclasses.replace(
+            rated,
+            rows=(*rated.rows, *shafts.rows),
+            shafts=shafts,
+            notes=(*rated.notes, *wrong),
+        )
 
     return add

@@ -1,18 +1,23 @@
 """What a solved sliding body is: forces, motion, the power ledger."""
 
+import dataclasses
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from asperity.casefile import Table
 from asperity.results import Result, labelled, part, quantity
 from asperity.results.dataset import Labels
 from asperity.results.ledger import PowerLedger, PressedLedger
 from asperity.results.settled import by_what, error_of_step, told, whether_settled
+from asperity.results.words import Number, Sentence
 from asperity.slider.history import History
 from asperity.slider.model import Model
 from asperity.slider.space import NormalMotion
 from asperity.slider.wear import WearAndHeat
+
+if TYPE_CHECKING:
+    from asperity.results.report import Section
 
 _ROUNDING = 1e-12
 
@@ -209,6 +214,17 @@ class SlideResult(Result):
     def headline(self) -> tuple[str, ...]:
         """Return that it has not settled, where it has not."""
         return told(self)
+
+    def sections(self, folder: Path | None = None) -> "tuple[Section, ...]":
+        """Return what its report says: first of all how much of the force is left."""
+        first, *others = super().sections(folder)
+        still, left = (
+            Number.of(getattr(self, name), ".4g", f"{name}_N")
+            for name in ("static_drive_force", "drive_force")
+        )
+        ratio = Number.of(self.ratio, ".4g", "ratio")
+        said = Sentence("of ", still, " N without vibration ", ratio, " is left: ", left, " N")
+        return dataclasses.replace(first, texts=(said, *first.texts)), *others
 
     def heading(self) -> str:
         """Return how it was solved."""

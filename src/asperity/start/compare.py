@@ -1,6 +1,7 @@
 """Cases side by side: what differs in what they ask and in what they come to."""
 
 import math
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar
 
@@ -10,15 +11,19 @@ from asperity.drive.studies.gains import VELOCITY_RATIO, Gain, gain
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.results import Result
+from asperity.results.language import Spoken
+from asperity.results.language import said as in_language
 from asperity.results.settled import MARK, told, unsettled
 from asperity.results.table import Table
 from asperity.results.words import text_of
 from asperity.units import quantity_of
+from asperity.units.measures import measure
 
 COMPARED = ("rate", "block", "slide")
 """Commands whose answers are compared, the first that all cases have the tables of."""
 
 _SAME = 1e-9
+_ENDS = re.compile(r"(.*) \(([^()]+)\)")
 _SHAKEN = "screw.torque_ratio"
 _LEFT_OUT = "-"
 _SUMP, _HOTTEST = "iso14521.theta_S_degC", "iso14521.theta_S_max_degC"
@@ -38,6 +43,8 @@ class Comparison(Result):
         out and has no default.
     numbers : tuple of (str, str, tuple)
         Each number that differs: its key, what it is, and its value in each.
+    said : tuple of (str, str)
+        What is to be said, with the case that it is said of, empty where it is of all.
     settled : tuple of bool or None
         Whether the answer of each has settled; None of what is no march and no state.
     """
@@ -49,7 +56,7 @@ class Comparison(Result):
     cases: tuple[str, ...]
     asked: tuple[tuple[str, tuple[str | None, ...]], ...]
     numbers: tuple[tuple[str, str, tuple[float | None, ...]], ...]
-    said: tuple[str, ...] = ()
+    said: tuple[tuple[str, str], ...] = ()
     settled: tuple[bool | None, ...] = ()
 
     def to_json(self) -> dict[str, Any]:
@@ -67,8 +74,10 @@ class Comparison(Result):
         """Return a table of inputs and one of results."""
         inputs = [(key, *(value or _LEFT_OUT for value in values)) for key, values in self.asked]
         shown = [row for row in self.numbers if row[1]] or list(self.numbers)
-        results = [(what or key, *map(text_of, values)) for key, what, values in shown]
-        remarks = list(self.said)
+        results = [(*_apart(what or key), *map(text_of, values)) for key, what, values in shown]
+        remarks: list[str] = [
+            Spoken(f"{name}: {in_language(text)}") if name else text for name, text in self.said
+        ]
         if len(shown) < len(self.numbers):
             more = len(self.numbers) - len(shown)
             words = "number differs" if more == 1 else "numbers differ"
@@ -81,8 +90,18 @@ class Comparison(Result):
         alike = "They differ" if inputs else "They ask the same"
         return (
             Table.of(("asked", *self.cases), inputs, title=alike),
-            Table.of((f"asperity {self.command}", *cases), results, remarks=remarks),
+            Table.of(
+                (f"asperity {self.command}", "unit", *cases), results, remarks=remarks, left=2
+            ),
         )
+
+
+def _apart(what: str) -> tuple[str, str]:
+    """Return what a number is, and its unit, which stands in brackets at the end."""
+    found = _ENDS.fullmatch(what)
+    if found is None or measure(found[2]) is None:
+        return what, ""
+    return found[1], found[2]
 
 
 def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) -> Comparison:
@@ -120,12 +139,12 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         if gained is not None:
             numbers[_SHAKEN] = gained.torque_ratio
     said = [
-        f"{name}: {sentence}"
+        (name, sentence)
         for name, result in zip(names, answers, strict=True)
         for sentence in _verdict(result)
     ]
     said += [
-        f"{MARK} {name}: {sentence}"
+        (f"{MARK} {name}", sentence)
         for name, result in zip(names, answers, strict=True)
         for sentence in (told(result) if unsettled(result) else ())
     ]
@@ -204,20 +223,22 @@ def _gain(case: Case, numbers: Mapping[str, float | None]) -> Gain | None:
         return None  # it cannot drive
 
 
-def _most_to_gain(names: Sequence[str], gains: Sequence[Gain | None]) -> Iterator[str]:
+def _most_to_gain(names: Sequence[str], gains: Sequence[Gain | None]) -> Iterator[tuple[str, str]]:
     known = [(each, name) for name, each in zip(names, gains, strict=True) if each is not None]
     if not known:
         return
     least, name = min(known, key=lambda pair: pair[0].torque_ratio)
     yield (
+        "",
         f"most to gain from vibration: {name}, whose torque a fast screw at k_w = "
-        f"{VELOCITY_RATIO:g} leaves {least.torque_ratio:.3g} of, in balance with its load, and no "
-        f"friction at all {least.least_ratio:.3g} (closed forms; asperity drive has its resonances)"
+        f"{VELOCITY_RATIO:g} leaves {least.torque_ratio:.3g} of, in balance with its load, and "
+        f"no friction at all {least.least_ratio:.3g} (closed forms; asperity drive has its "
+        "resonances)",
     )
     for each, name in known:
         if each.locks:
             word = "still holds" if each.locks_shaken else "does not hold"
-            yield f"{name}: locks itself at rest; it {word} under that screw"
+            yield name, f"locks itself at rest; it {word} under that screw"
 
 
 def _meanings(result: Result) -> Iterator[tuple[str, str]]:

@@ -77,7 +77,7 @@ def proposals(
         ``requirements`` as a file has them; what the gearset says of its macro-geometry is held,
         and the rest of it proposed.
     ratio : float, optional
-        Of the speeds; left out: that of ``requirements``.
+        Of the speeds; left out: that of ``requirements``, or of teeth and starts that are held.
     rank, exact
         As in `asperity.studies.proposals.propose`.
     cut : bool
@@ -97,7 +97,7 @@ def proposals(
     operation = operation_of(values)
     options = _table(RatingOptions, values.get("rating", {}))
     return propose(
-        _ratio(ratio, asked),
+        _ratio(ratio, asked, held),
         gearset,
         operation,
         options,
@@ -112,8 +112,10 @@ def proposals(
     )
 
 
-def _ratio(given: float | None, asked: Requirements) -> float:
+def _ratio(given: float | None, asked: Requirements, held: Mapping[str, float]) -> float:
     if given is None:
+        if asked.ratio is None and {"starts", "wheel_teeth"} <= held.keys():
+            return held["wheel_teeth"] / held["starts"]
         if asked.ratio is None:
             raise InputError("ratio is missing: give --ratio 40, or --set requirements.ratio=40")
         return asked.ratio

@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 from asperity.errors import InputError, nearest
 from asperity.files import store
 from asperity.files.shipped import shipped_cases
+from asperity.tribometer.deposit import BEGUN_AUTHORS
 
 Values = dict[str, dict[str, Any]]
 
@@ -45,7 +46,7 @@ class Kind(NamedTuple):
     then : tuple of str
         Commands to go on with.
     case : str
-        One that ships and whose values it begins with, in place of `values`.
+        One that ships and whose values it begins with, beside `values`.
     follows : mapping
         What a ``table.key`` begins with once others are given: a text with their places in it.
     """
@@ -60,9 +61,10 @@ class Kind(NamedTuple):
 
     def begun(self) -> Values:
         """Return a copy of what it begins with."""
+        values = {table: dict(keys) for table, keys in self.values.items()}
         if self.case:
-            return store.read_toml(shipped_cases()[self.case])
-        return {table: dict(keys) for table, keys in self.values.items()}
+            return store.read_toml(shipped_cases()[self.case]) | values
+        return values
 
 
 _BODY: Values = {
@@ -126,19 +128,22 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "duty": Kind(
             "What a worm gearset has to do",
             {
-                "requirements": {"ratio": 40, "self_locking": "any"},
+                "requirements": {"ratio": 40, "ratio_tolerance": "3 %", "self_locking": "any"},
                 "operation": {
                     key: value for key, value in _GEARS["operation"].items() if key != "life"
                 },
                 "spectrum": {"step": "", "duty": "S1"},
+                "project": {"units": "si"},
             },
             (
                 Question("requirements.ratio", "ratio of the speeds"),
+                Question("requirements.ratio_tolerance", "by how much teeth may miss that ratio"),
                 Question("requirements.self_locking", "self-locking: any, wanted or avoided"),
                 *_ASKED_OF_GEARS[1:3],
                 Question("spectrum.step", "loads of its life; more of them behind a semicolon"),
                 Question("spectrum.duty", "S1, S2 15 min or S3 15 %"),
                 _ASKED_OF_GEARS[-1],
+                Question("project.units", "units that are shown: si or us"),
             ),
             ("requirements", "operation", "spectrum", "housing", "project", "gearset"),
             ("size",),
@@ -214,7 +219,15 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         ),
         "rig": Kind(
             "A disc-on-disc tribometer and what is to be tested on it",
-            {},
+            {
+                # With these reports and packages can be made, and are seen to be begun.
+                "conditions": {"laboratory": "(your laboratory)", "operator": "(your name)"},
+                "package": {
+                    "title": "Friction under vibration",
+                    "authors": list(BEGUN_AUTHORS),
+                    "licence": "CC-BY-4.0",
+                },
+            },
             (
                 Question(
                     "rig.platform_mass", "mass of the platform that presses the discs together"
@@ -226,6 +239,8 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 Question("bronze_disc.thickness", "thickness of the bronze disc"),
                 Question("lubricant.name", "lubricant"),
                 Question("plan.repeats", "how often each cell of the plan is run"),
+                Question("conditions.laboratory", "laboratory, for reports"),
+                Question("conditions.operator", "who makes the tests"),
             ),
             (
                 "rig",

@@ -6,21 +6,23 @@ for wear and strength.
 """
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.casefile import Case
+from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated, rate
+from asperity.rating.rows import Row
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
+from asperity.shafts.study import rows_by
 from asperity.studies.climb import climb, spread
 from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
 from asperity.studies.designs import (
@@ -37,6 +39,7 @@ from asperity.studies.quantities import varied_quantity
 from asperity.studies.requirements import Requirements
 from asperity.studies.rounding import rounded
 from asperity.studies.search import bounds_of, known_safeties, least_safeties
+from asperity.studies.shafted import with_shafts
 from asperity.studies.tradeoff import TradeOff, trade_off
 
 if TYPE_CHECKING:
@@ -126,9 +129,20 @@ class Optimum(Result):
             "made_settings": list(self.made_settings),
             "safeties": safeties_json(self.before, self.after, self.made),
             "locking": locking_of(self.before, self.after, self.made),
+            **self._of_shafts(),
             "notes": list(self.notes),
         }
         return answer if self.curve is None else {**answer, "trade_off": self.curve.to_json()}
+
+    def _of_shafts(self) -> dict[str, Any]:
+        """Return what shafts and bearings come to, where the case has any."""
+        designs = {"given": self.before, "optimum": self.after, "made": self.made}
+        rows = {
+            name: [row.to_json() for row in rated.rows]
+            for name, rated in designs.items()
+            if rated is not None
+        }
+        return {"rows": rows} if self.before.rows else {}
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the designs over the permissible torque, and the optimum as attributes."""
@@ -161,6 +175,13 @@ class Optimum(Result):
                 rows.append([key, value, *(other[key] for other in others)])
         rows += [
             [f"{path} (asked {asked:g})", *values] for path, asked, *values in safety_rows(*designs)
+        ]
+        rows += [
+            [
+                f"{row.name} (asked {row.asked:g}{row.unit and f' {row.unit}'})",
+                *(own.rows[place].value for own in designs),
+            ]
+            for place, row in enumerate(self.before.rows)
         ]
         words = list(locking_of(self.before, self.after, self.made).values())
         rows += [[key, *(one[key] for one in words)] for key in words[0]]
@@ -285,11 +306,14 @@ class Problem(NamedTuple):
         How far it may be changed.
     keep : tuple of str
         Safeties that may not fall.
+    rows : callable or None
+        What the case's shafts come to with a gearset.
     """
 
     gears: Gears
     bounds: Bounds | None
     keep: tuple[str, ...]
+    rows: Callable[[Gearset], tuple[Row, ...]] | None = None
 
 
 def prepare(
@@ -303,7 +327,9 @@ def prepare(
     gears = Gears.of(case)
     for name in keep or ():
         known_safeties(name)
-    return Problem(gears, bounds_of(gears.gearset, free, bounds or ()), tuple(keep or ()))
+    span = bounds_of(gears.gearset, free, bounds or ())
+    with naming_source(case):
+        return Problem(gears, span, tuple(keep or ()), rows_by(case))
 
 
 def answer(problem: Problem, _: Run) -> Optimum:
@@ -321,7 +347,14 @@ def answer(problem: Problem, _: Run) -> Optimum:
         ],
         axis=-1,
     )
-    best = optimise(*tables, folder=gears.folder, least=least, begin=begin, requirements=kept)
+
+    def search(bounds: Bounds | None) -> Optimum:
+        within = *tables[:3], bounds
+        return optimise(*within, folder=gears.folder, least=least, begin=begin, requirements=kept)
+
+    best = search(problem.bounds)
+    if problem.rows is not None:
+        best = with_shafts(best, problem.rows, problem.bounds, search)
     return dataclasses.replace(best, curve=curve)
 
 

@@ -241,7 +241,7 @@ class Sensitivity(Result):
             "points: change of the efficiency up to the last rise with an answer; elasticity: "
             "change over the input's, both in parts of themselves"
         )
-        headings = ("", "at", "effect", "size", "elasticity", "points")
+        headings = ("", "at", "effect", "how much", "elasticity", "points")
         return (
             Table.of(["", *rises], curves, title="Efficiency of the teeth eta_z in percent"),
             Table.of(headings, summary, title="Influence", left=4, remarks=remarks),

@@ -21,6 +21,8 @@ from asperity.sweep.subject import Subject, named
 if TYPE_CHECKING:
     import xarray as xr
 
+    from asperity.results.report import Picture
+
 SOLVED = 0
 NOT_CONVERGED = 1
 _MOST_REASONS = 100
@@ -234,7 +236,15 @@ class SweepResult(Result):
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""
-        return super().write(folder, pictures=pictures if len(self.dims) <= MOST_AXES else "")
+        return super().write(folder, pictures=pictures if self._drawable else "")
+
+    def pictures(self, folder: Path | None = None) -> "tuple[Picture, ...]":
+        """Return its picture, of one or two axes."""
+        return super().pictures(folder) if self._drawable else ()
+
+    @property
+    def _drawable(self) -> bool:
+        return len(self.dims) <= MOST_AXES
 
 
 class Answers:

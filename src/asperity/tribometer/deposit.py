@@ -8,10 +8,18 @@ from typing import ClassVar
 from pydantic import model_validator
 
 from asperity.casefile import Table
-from asperity.errors import InputError, shown
+from asperity.errors import InputError, nearest, shown
 
 _ORCID = re.compile(r"(?:https?://orcid\.org/)?(\d{4}-\d{4}-\d{4}-\d{3}[\dX])")
-_LICENCE = re.compile(r"[A-Za-z0-9][A-Za-z0-9.+-]*")
+_LICENCES = (
+    "CC-BY-4.0", "CC0-1.0", "CC-BY-SA-4.0", "CC-BY-NC-4.0", "CC-BY-NC-SA-4.0", "CC-BY-ND-4.0",
+    "CC-BY-NC-ND-4.0", "CC-BY-3.0", "CC-BY-SA-3.0", "PDDL-1.0", "ODbL-1.0", "ODC-By-1.0",
+    "CDLA-Permissive-2.0", "CDLA-Sharing-1.0", "etalab-2.0", "OGL-UK-3.0", "DL-DE-BY-2.0",
+    "DL-DE-ZERO-2.0", "MIT", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "MPL-2.0", "EUPL-1.2",
+    "GPL-2.0-only", "GPL-2.0-or-later", "GPL-3.0-only", "GPL-3.0-or-later", "LGPL-3.0-only",
+    "LGPL-3.0-or-later", "AGPL-3.0-only", "AGPL-3.0-or-later", "Unlicense",
+)  # fmt: skip
+BEGUN_AUTHORS = ("Doe, Jane",)  #: That `asperity new` writes, until somebody replaces them.
 _DOI = re.compile(r"10\.\d{4,9}/\S+")
 _AUTHOR = '"Doe, Jane; 0000-0002-1825-0097; University of Somewhere"'
 
@@ -81,7 +89,7 @@ class Package(Table):
     authors : list of str
         Each as "Family, Given; ORCID; affiliation", the last two at will.
     licence : str
-        Its identifier by SPDX, such as "CC-BY-4.0".
+        Its identifier by SPDX, such as "CC-BY-4.0"; one of those that are common.
     description : str
         What was measured, and what for.
     keywords : list of str
@@ -117,10 +125,11 @@ class Package(Table):
 
     @model_validator(mode="after")
     def _reads(self) -> "Package":
-        if self.licence and not _LICENCE.fullmatch(self.licence):
+        if self.licence and self.licence not in _LICENCES:
+            near = nearest(self.licence, _LICENCES)
             raise InputError(
-                f"package.licence is {shown(self.licence)}; give its identifier by SPDX, such as "
-                "CC-BY-4.0 or CC0-1.0"
+                f"package.licence is {shown(self.licence)}, no identifier of SPDX that is known "
+                f"here{near}"
             )
         for text in self.authors:
             try:

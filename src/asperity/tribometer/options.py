@@ -6,6 +6,7 @@ from pydantic import Field, model_validator
 
 from asperity.casefile import Table
 from asperity.errors import InputError
+from asperity.tribometer.parameters import Mode
 from asperity.tribometer.quantities import (
     Count,
     Current,
@@ -54,7 +55,7 @@ class Plan(Table):
 
     table: ClassVar[str] = "plan"
 
-    modes: tuple[Literal["transverse", "longitudinal"], ...] = ("transverse", "longitudinal")
+    modes: tuple[Mode, ...] = ("transverse", "longitudinal")
     lubricants: tuple[Literal["oil", "grease", "dry"], ...] = ("oil",)
     waveforms: tuple[Waveform, ...] = ("sine", "triangle")
     excluded: tuple[str, ...] = ()
@@ -114,6 +115,8 @@ class Twin(Table):
         Time pulses are counted over, and time constant of the filter behind, s.
     current_noise : float or str
         Standard deviation of the current clamps, A.
+    brake_resistance : float or str
+        Of the coil of a wheel's brake, ohm.
     seed : int
         Of the noise.
     """
@@ -146,6 +149,7 @@ class Twin(Table):
     encoder_gate: Span = 1.0
     encoder_lag: Span = 0.2
     current_noise: Current = 0.02
+    brake_resistance: Annotated[float, Quantity("ohm", "a resistance", "20 ohm", gt=0)] = 20.0
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
 
     @model_validator(mode="after")

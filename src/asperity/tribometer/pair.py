@@ -2,11 +2,21 @@
 
 import dataclasses
 import functools
-from typing import Self
 
+from asperity.arrays import Real
 from asperity.casefile import Case
+from asperity.errors import InputError
 from asperity.tribometer import discs
-from asperity.tribometer.parameters import BronzeDisc, Drives, Lubricant, Rig, SteelDisc
+from asperity.tribometer.parameters import (
+    AXIAL,
+    LONGITUDINAL,
+    TRANSVERSE,
+    BronzeDisc,
+    Drives,
+    Lubricant,
+    Rig,
+    SteelDisc,
+)
 
 BOUNDARY = 1.0
 """Film over roughness below which the lubrication is called boundary lubrication."""
@@ -22,10 +32,43 @@ class Pair:
     drives: Drives
 
     @classmethod
-    def from_case(cls, case: Case) -> Self:
-        """Gather the tables."""
+    def from_case(cls, case: Case) -> "Pair":
+        """Gather the tables of discs."""
         steel, bronze = case.require(SteelDisc), case.require(BronzeDisc)
-        return cls(case.require(Rig), steel, bronze, case.require(Drives))
+        if case.require(Rig).mode == AXIAL:
+            raise InputError(
+                f"rig.mode is '{AXIAL}', along a worm's axis; discs are shaken '{TRANSVERSE}' or "
+                f"'{LONGITUDINAL}'"
+            )
+        return Pair(case.require(Rig), steel, bronze, case.require(Drives))
+
+    @property
+    def geared(self) -> bool:
+        """Whether it is a worm and its wheel."""
+        return False
+
+    def named(self, text: str) -> str:
+        """Return a sentence of the two discs with what stands for them here."""
+        return text
+
+    @property
+    def load(self) -> float:
+        """Force between the two, N."""
+        return self.rig.load
+
+    def wheel_speed(self, worm_motor: float) -> float:
+        """Return what the wheel's encoder sees of a speed at the worm's motor, rad/s."""
+        raise NotImplementedError
+
+    @property
+    def slower(self) -> float:
+        """Speed of the bronze side's encoder over that of the steel side where teeth tie them."""
+        return 1.0
+
+    @property
+    def torque_share(self) -> float:
+        """Torque of the steel side over that of the bronze side, about."""
+        return self.steel.radius / self.bronze.radius
 
     @property
     def length(self) -> float:
@@ -37,7 +80,7 @@ class Pair:
         """Half the width of the contact, m."""
         return float(
             discs.contact_half_width(
-                self.rig.load, self.length, self.steel.diameter, self.bronze.diameter,
+                self.load, self.length, self.steel.diameter, self.bronze.diameter,
                 self.steel.young_modulus, self.bronze.young_modulus,
                 self.steel.poisson_ratio, self.bronze.poisson_ratio,
             )
@@ -46,7 +89,7 @@ class Pair:
     @property
     def pressure(self) -> float:
         """Largest pressure of the contact, Pa."""
-        return float(discs.contact_pressure(self.rig.load, self.half_width, self.length))
+        return float(discs.contact_pressure(self.load, self.half_width, self.length))
 
     def film(self, oil: Lubricant, rolling: float) -> float | None:
         """Return film over roughness at a rolling velocity; None where something is not known."""
@@ -60,15 +103,15 @@ class Pair:
         )  # fmt: skip
         radius = 0.5 / (1.0 / self.steel.diameter + 1.0 / self.bronze.diameter)
         film = discs.film_thickness(
-            viscosity, pressure_viscosity, rolling, modulus, radius, self.rig.load, self.length
+            viscosity, pressure_viscosity, rolling, modulus, radius, self.load, self.length
         )
         return float(discs.film_parameter(film, *roughness))
 
-    def rims(self, steel_motor: float, bronze_motor: float) -> tuple[float, float]:
+    def rims(self, steel_motor: Real, bronze_motor: Real) -> tuple[Real, Real]:
         """Return the velocities of both rims, m/s, of the motors' speeds in rad/s."""
         return (
-            float(discs.peripheral_velocity(
-                self.steel.diameter, steel_motor / self.drives.gear_ratio)),
-            float(discs.peripheral_velocity(
-                self.bronze.diameter, bronze_motor / self.drives.bronze_gear_ratio)),
-        )  # fmt: skip
+            discs.peripheral_velocity(self.steel.diameter, steel_motor / self.drives.gear_ratio),
+            discs.peripheral_velocity(
+                self.bronze.diameter, bronze_motor / self.drives.bronze_gear_ratio
+            ),
+        )

@@ -24,7 +24,10 @@ from asperity.tribometer.quantities import (
 )
 from asperity.units import Quantity
 
-TRANSVERSE, LONGITUDINAL = "transverse", "longitudinal"
+TRANSVERSE, LONGITUDINAL, AXIAL = "transverse", "longitudinal", "axial"
+Mode = Literal["transverse", "longitudinal", "axial"]
+"""Directions of the vibration: of a disc against the sliding; of a worm along its axis."""
+
 GRAVITY = 9.81
 """m/s2, as thesis (72) has it."""
 
@@ -36,12 +39,14 @@ class Rig(Table):
     ----------
     name : str
         What it is called in reports.
-    mode : {'transverse', 'longitudinal'}
-        Direction of the vibration against the sliding.
+    mode : {'transverse', 'longitudinal', 'axial'}
+        Direction of the vibration against the sliding; of a gear rig along the worm's axis.
     platform_mass, dead_mass : float or str
         What presses the discs together, kg: F_N = (m_r + m_w) 9.81, thesis (72).
     normal_force : float or str, optional
         F_N, N, in place of the masses.
+    brake_torque : float or str, optional
+        Of the wheel's brake, N m, where the rig is a gearset; in place of both.
     bearing_torque_steel, bearing_torque_bronze : float or str
         T_bs and T_ba, N m, thesis (65), (66): what the sensors read with the discs apart.
     """
@@ -49,10 +54,11 @@ class Rig(Table):
     table: ClassVar[str] = "rig"
 
     name: str = "rig"
-    mode: Literal["transverse", "longitudinal"] = "transverse"
+    mode: Mode = "transverse"
     platform_mass: Mass = 0.0
     dead_mass: Mass = 0.0
     normal_force: Force | None = None
+    brake_torque: Annotated[float, Quantity("N m", "a torque", "23 N m", gt=0)] | None = None
     bearing_torque_steel: Torque = 0.0
     bearing_torque_bronze: Torque = 0.0
 
@@ -64,15 +70,27 @@ class Rig(Table):
                 "rig.normal_force is given beside rig.platform_mass or rig.dead_mass; keep one "
                 "of them"
             )
-        if self.normal_force is None and masses == 0.0:
+        pressed = self.normal_force is not None or masses > 0.0
+        if self.brake_torque is not None and pressed:
             raise InputError(
-                "rig.normal_force is missing; give it, or rig.platform_mass and rig.dead_mass"
+                "rig.brake_torque is of a gearset, and rig.normal_force or its masses of discs; "
+                "keep one of them"
+            )
+        if self.brake_torque is None and not pressed:
+            raise InputError(
+                "rig.normal_force is missing; give it, or rig.platform_mass and rig.dead_mass; of "
+                "a gearset rig.brake_torque"
             )
         return self
 
     @property
     def load(self) -> float:
-        """F_N, N."""
+        """F_N, N, of discs."""
+        if self.brake_torque is not None:
+            raise InputError(
+                "rig.brake_torque is of a gearset, which no force presses together; fit with "
+                "--model drive"
+            )
         if self.normal_force is not None:
             return self.normal_force
         return (self.platform_mass + self.dead_mass) * GRAVITY
@@ -182,7 +200,7 @@ class Sonotrode(Table):
         Of the amplifier, A.
     frequencies : list of float or str
         Where the velocity has been measured, Hz, rising.
-    transverse_velocity, longitudinal_velocity : list of float or str
+    transverse_velocity, longitudinal_velocity, axial_velocity : list of float or str
         v_a at those frequencies under a full sine, m/s.
     velocity_uncertainty : float
         Standard deviation of those velocities, as a share of them.
@@ -205,6 +223,7 @@ class Sonotrode(Table):
     frequencies: tuple[Frequency, ...] = ()
     transverse_velocity: tuple[Velocity, ...] = ()
     longitudinal_velocity: tuple[Velocity, ...] = ()
+    axial_velocity: tuple[Velocity, ...] = ()
     velocity_uncertainty: Share = 0.0
 
     @model_validator(mode="after")
@@ -217,7 +236,7 @@ class Sonotrode(Table):
         pairs = zip(self.frequencies, self.frequencies[1:], strict=False)
         if any(later <= earlier for earlier, later in pairs):
             raise InputError("sonotrode.frequencies do not rise; sort them, each once")
-        for name in (TRANSVERSE, LONGITUDINAL):
+        for name in (TRANSVERSE, LONGITUDINAL, AXIAL):
             count = len(self.velocities(name))
             if count not in (0, len(self.frequencies)):
                 raise InputError(
@@ -231,7 +250,7 @@ class Sonotrode(Table):
 
         Parameters
         ----------
-        mode : {'longitudinal', 'transverse'}
+        mode : {'longitudinal', 'transverse', 'axial'}
             Of the vibration.
 
         Returns
@@ -239,7 +258,11 @@ class Sonotrode(Table):
         tuple of float
             As many as `frequencies`.
         """
-        return self.transverse_velocity if mode == TRANSVERSE else self.longitudinal_velocity
+        return {
+            TRANSVERSE: self.transverse_velocity,
+            LONGITUDINAL: self.longitudinal_velocity,
+            AXIAL: self.axial_velocity,
+        }[mode]
 
     def velocity(self, mode: str, frequency: float) -> float | None:
         """Return v_a under a full sine, m/s; None where it has not been measured.
@@ -349,7 +372,7 @@ class Limits(Table):
 
     table: ClassVar[str] = "limits"
 
-    torque: Torque = 2.0
+    torque: Annotated[float, Quantity("N m", "a torque", "2 N m", gt=0)] = 2.0
     steel_supply: Voltage = 24.0
     bronze_supply: Voltage = 24.0
     motor_current: Current | None = None

@@ -67,7 +67,7 @@ class Sector:
     @property
     def mesh(self) -> HexMesh:
         """The sector's hexahedra, its middle tooth about +Y, in mm."""
-        mesh = tooth(_right_handed(self.wheel), self.counts, teeth=self.teeth)
+        mesh = tooth(right_handed(self.wheel), self.counts, teeth=self.teeth)
         return mesh.transformed(_middle(self.wheel, self.teeth).T)
 
     @property
@@ -147,7 +147,7 @@ def sector(
     )  # fmt: skip
 
 
-def _right_handed(wheel: Wheel) -> Wheel:
+def right_handed(wheel: Wheel) -> Wheel:
     """Everything is solved in the frame of the right-handed gearset."""
     return dataclasses.replace(wheel, pair=dataclasses.replace(wheel.pair, hand="right"))
 
@@ -169,7 +169,7 @@ def _condensed(
     neighbours: bool,
     notify: Callable[[str], None] | None,
 ) -> CondensedBody:
-    mesh = tooth(_right_handed(wheel), counts, teeth=teeth)
+    mesh = tooth(right_handed(wheel), counts, teeth=teeth)
     shifts = (-1, 0, 1) if neighbours and teeth > 1 else (0,)
     faces = np.concatenate([mesh.face_sets[_flank(teeth, k)] for k in shifts])
     mesh = dataclasses.replace(mesh, face_sets={**mesh.face_sets, _LOADED: faces})
@@ -184,7 +184,7 @@ def _own_surface(wheel: Wheel, counts: Counts) -> ContactSurface:
 
 def own_mesh(wheel: Wheel, counts: Counts) -> HexMesh:
     """Return a tooth cut out with its rim, in its own frame, in mm."""
-    return tooth(_right_handed(wheel), counts)
+    return tooth(right_handed(wheel), counts)
 
 
 def _exact(wheel: Wheel, surface: ContactSurface) -> tuple[FlankGrid, IntArray, IntArray]:

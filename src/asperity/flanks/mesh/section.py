@@ -11,6 +11,7 @@ Points are polar here, :math:`(R, \theta)` in mm and rad.
 from typing import NamedTuple
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from asperity.arrays import FloatArray
 
@@ -31,21 +32,45 @@ class Blocks(NamedTuple):
 
 
 def fill(
-    first: FloatArray, second: FloatArray, split: int, across: int, layers: int, inner: float
+    first: FloatArray,
+    second: FloatArray,
+    split: int,
+    across: int,
+    layers: int,
+    inner: float,
+    grading: float = 0.0,
 ) -> Blocks:
-    """Fill cross-sections with two blocks of quadrilaterals.
+    r"""Fill cross-sections with two blocks of quadrilaterals.
 
     ``first`` and ``second``, shape (k + 1, sections, 2), are the outlines on both sides of the
     tooth from the cut to the tip, ``second`` at the larger angles. At their point ``split``, in the
     middle of the fillets, the tooth's block begins. ``across`` the tooth and in ``layers`` of the
     rim so many quadrilaterals lie; ``inner`` is the inner radius, mm, below all of the outline.
+    With a ``grading`` :math:`g` above 0 they are thinner towards the outline, the outermost about
+    :math:`2 g / \sinh 2 g` of the mean.
     """
     share = np.linspace(0.0, 1.0, across + 1)[None, :, None, None]
     low, high = first[split:, None], second[split:, None]
     tooth = low + share * (high - low)
-    tooth = _smoothed(tooth)
+    tooth = _graded(_smoothed(tooth), grading, both=True)
     outside = np.concatenate([first[:split], tooth[0], second[split - 1 :: -1]])
-    return Blocks(tooth, _rim(outside, layers, inner), split)
+    rim = _graded(_rim(outside, layers, inner), grading, both=False)
+    return Blocks(tooth, rim, split)
+
+
+def _graded(block: FloatArray, grading: float, *, both: bool) -> FloatArray:
+    """Move a block's points along its second axis towards its end, or towards ``both`` ends."""
+    if grading == 0.0:
+        return block
+    even = np.linspace(0.0, 1.0, block.shape[1])
+    if both:
+        share = 0.5 + 0.5 * np.tanh(grading * (2.0 * even - 1.0)) / np.tanh(grading)
+    else:
+        share = np.tanh(grading * even) / np.tanh(grading)
+    moved: FloatArray = PchipInterpolator(even, block, axis=1)(share)
+    # The sides are the outline, to the bit.
+    moved[:, 0], moved[:, -1] = block[:, 0], block[:, -1]
+    return moved
 
 
 def _rim(outside: FloatArray, layers: int, inner: float) -> FloatArray:

@@ -159,6 +159,7 @@ def tooth(
     teeth: int = 1,
     order: int = 1,
     memory: float = MEMORY,
+    grading: float = 0.0,
 ) -> HexMesh:
     """Return a mesh of structured hexahedra of wheel teeth with fillets and rim, in mm.
 
@@ -201,7 +202,7 @@ def tooth(
     number = _counted(wheel, size)
     _check_memory(number, teeth, order, memory)
     _check_rim(wheel)
-    points, lattice = _numbered(_fill(wheel, number, order))
+    points, lattice = _numbered(_fill(wheel, number, order, grading))
     one = _one_tooth(points, lattice, number, order)
     worst = float(one.scaled_jacobian().min())
     if worst <= 0.0:
@@ -251,7 +252,7 @@ def _check_memory(number: Counts, teeth: int, order: int, memory: float) -> None
         )
 
 
-def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, FloatArray]:
+def _fill(wheel: Wheel, number: Counts, order: int, grading: float) -> tuple[Blocks, FloatArray]:
     """The blocks of every section, and where the sections are."""
     z = wheel.blank.columns(number.face + 1)
     if order == 2:
@@ -274,6 +275,7 @@ def _fill(wheel: Wheel, number: Counts, order: int) -> tuple[Blocks, FloatArray]
         across=order * number.thickness,
         layers=order * number.rim,
         inner=g.wheel_root_diameter / 2.0 - g.rim_thickness,
+        grading=grading,
     )
     return blocks, z
 

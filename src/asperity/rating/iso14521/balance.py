@@ -14,6 +14,8 @@ from asperity.rating.iso14521 import symbols as s
 from asperity.sources import Source
 
 AREA = Source("Chirkov and Stavishenko, Calculation of toothed and screw gears", "one source")
+RIBBED = Source("Autodesk, Inventor help, worm gears", "one source", "a well ribbed housing")
+LEAST = Source("ANSI/AGMA 6034-B92", "one source", "the least that a designer should provide")
 STEADY = Source("Jindal, Machine Design, ch. 28", "verified")
 ONE_MASS = Source("definition", "verified", "of one mass that is heated and cooled")
 MEASURED = Source("own rule of asperity", "own choice", "the exponent is that of P_V0")
@@ -42,6 +44,34 @@ def housing_area(centre_distance: s.a) -> Real:
     (0.39905, 0.18193)
     """
     return 20.0 * (centre_distance / 1000.0) ** 1.7
+
+
+@formula(symbol="A_h", unit="m2", equation="9e-5 a^1.85", source=RIBBED)
+def ribbed_area(centre_distance: s.a) -> Real:
+    """Surface of a housing that is well ribbed.
+
+    Examples
+    --------
+    >>> round(ribbed_area(100.0), 5), round(ribbed_area(63.0), 5)
+    (0.45107, 0.19188)
+    """
+    return 9e-5 * centre_distance**1.85
+
+
+@formula(symbol="A_h", unit="m2", equation="43.2 (a/25.4)^1.7 0.0254^2", source=LEAST)
+def least_area(centre_distance: s.a) -> Real:
+    """Surface that a housing should have at least, by AGMA 6034.
+
+    Examples
+    --------
+    >>> round(least_area(100.0), 5), round(least_area(63.0), 5)
+    (0.28637, 0.13056)
+    """
+    return 43.2 * (centre_distance / 25.4) ** 1.7 * 0.0254**2
+
+
+AREAS = {"half ribbed": housing_area, "well ribbed": ribbed_area, "AGMA minimum": least_area}
+"""The rules of a housing's surface, by their name in the table ``[housing]``."""
 
 
 @formula(symbol="K_h", unit="W/K", equation="k_h A_h (1 + psi)", source=STEADY)

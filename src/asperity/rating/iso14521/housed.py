@@ -25,11 +25,11 @@ def housing_of(given: Inputs, v: Values) -> Real:
     assert housing is not None
     v["A_h_m2"] = housing.area
     if housing.area is None:
-        v["A_h_m2"] = balance.housing_area(given.centre_distance)
+        v["A_h_m2"] = balance.AREAS[housing.area_rule](given.centre_distance)
     v["k_h_W_m2K"] = housing.heat_transfer
     v["K_h_W_K"] = balance.conductance(v["k_h_W_m2K"], v["A_h_m2"], housing.base)
     v["loss_heating_W"] = v.get("loss_max_W", v["loss_total_W"])
-    if spectrum is not None and spectrum.oil_temperature == "mean" and given.duty:
+    if spectrum is not None and spectrum.oil == "mean" and given.duty:
         v["loss_heating_W"] = v["loss_mean_W"]
     v["rise_h_K"] = balance.steady_rise(v["loss_heating_W"], v["K_h_W_K"])
     # What the standard's own formula would ask the housing to give off.

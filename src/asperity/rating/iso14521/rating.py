@@ -100,6 +100,12 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             "viscosity is extrapolated beyond the 100 degC it is given at"
         )
     notes += _of_heat(given, values)
+    spectrum = given.operation.spectrum
+    if spectrum is not None and spectrum.oil != "each" and spectrum.oil_temperature is None:
+        notes.append(
+            "the oil has the mean temperature of all loads, as the cycles of S3 are alike: give "
+            "spectrum.oil_temperature = 'each' where a load comes in long blocks"
+        )
     if given.duty:
         notes.append(
             f"the duty cycle: wear adds up over its parts, {_SUMPS[_oil(given)]}, "
@@ -154,7 +160,7 @@ _LIVES = {"life", "wheel_revolutions"}
 
 def _oil(given: Inputs) -> str:
     spectrum = given.operation.spectrum
-    return "each" if spectrum is None else spectrum.oil_temperature
+    return "each" if spectrum is None else spectrum.oil
 
 
 def _equations(given: Inputs) -> dict[str, str]:
@@ -225,6 +231,7 @@ def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
         equations["theta_h_degC"] = "theta_0 + dtheta_t"
         formula = balance.rise_in_cycles if how == "S3" else balance.rise_after
         equations["rise_top_K"] = formula.equation
+    equations["A_h_m2"] = balance.AREAS[housing.area_rule].equation
     if housing.area is not None:
         equations["A_h_m2"] = "input"
     if not given.duty:
@@ -252,10 +259,11 @@ def _sources(given: Inputs) -> dict[str, Source]:
         "W_ML": given.options.wear_factor, "sigma_HlimT_MPa": given.options.pitting_factor,
     }  # fmt: skip
     in_place |= {key: None if factor == 1.0 else factor for key, factor in changed.items()}
-    housing = operation.housing
+    housing, by_rule = operation.housing, {}
     if housing is not None:
         own = {"A_h_m2": "area", "loss_idle_W": "idle_loss", "loss_seal_W": "seal_loss"}
         in_place |= {key: getattr(housing, name) for key, name in own.items()}
+        by_rule = {"A_h_m2": balance.AREAS[housing.area_rule].source}
     return {
         "mu_0T": friction_constants(*law).source,
         "Y_W": wheel.source("material_factor"),
@@ -265,5 +273,6 @@ def _sources(given: Inputs) -> dict[str, Source]:
         "Z_oil": base.source("pitting_factor"),
         "sigma_HlimT_MPa": wheel.source("pitting_strength"),
         "tau_FlimT_MPa": wheel.source("shear_strength"),
+        **by_rule,
         **{key: GIVEN for key, value in in_place.items() if value is not None},
     }

@@ -113,7 +113,9 @@ def _coupling() -> Finding:
         "A cam of n lobes on the worm moves it n times a turn, so that k_w = n u_a cos(gamma)/r_1: "
         "the speed drops out, and what it takes is a stroke. For gearset 3 that is more than its "
         "clearance lets it move, unless the lobes are many. An example is in docs, Drive "
-        "(vibration tied to the worm's turn).",
+        "(vibration tied to the worm's turn). The decoupling that the thesis asks for with it is "
+        "marched by asperity control as a clutch between cam and worm (docs, What it is worth): "
+        "the worm turns the cam, so that it pays for the vibration itself.",
         {"lobes_times_amplitude_mm": needed, "amplitude_of_12_lobes_mm": needed / _LOBES},
         ["r_1/cos(gamma) of gearset-3b"],
         verdict=ARITHMETIC,
@@ -133,7 +135,9 @@ def _on_demand() -> Finding:
         "What outweighs what is a judgement of the application. Of one, a valve actuator whose "
         f"gearset is shaken while it seats, {found.share:.0%} of the time: wear and efficiency are "
         f"indeed small matters, {wear:+.1%} and {energy:+.0%} of a stroke's energy, and so is the "
-        "boost: a smaller motor, most of whose saved mass the actuator is.",
+        "boost: a smaller motor, most of whose saved mass the actuator is. The control that "
+        "switches it (section 8.2 iii), with each of its parts failing in turn, and sensors beside "
+        "a shaken gear (section 8.2 v) are marched by asperity control (docs, What it is worth).",
         {
             "energy_change": energy, "wear_change": wear,
             "motor_saved_kg": found.motor_plain - found.motor_shaken,

@@ -6,8 +6,10 @@ from typing import ClassVar
 
 from asperity.casefile import Case, read_case
 from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.tables import TABLES
 from asperity.tribometer.twin.plant import Plant, SteadyState
+from asperity.tribometer.twin.plants import plant_of
 
 TRANSVERSE, LONGITUDINAL = "transverse", "longitudinal"
 PLANT = "asperity.tribometer.twin.plant.Plant.steady, on rig-final"
@@ -22,13 +24,13 @@ def case(name: str = "rig-final") -> Case:
 @functools.cache
 def pair(name: str = "rig-final") -> Pair:
     """Its discs."""
-    return Pair.from_case(case(name))
+    return pair_of(case(name))
 
 
 @functools.cache
 def plant() -> Plant:
     """The simulated rig."""
-    return Plant.from_case(case())
+    return plant_of(case())
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,7 +59,7 @@ class Settled:
     def slide_roll(self) -> float:
         """Slide-roll ratio."""
         steel, bronze = pair().rims(self.state.steel, self.state.bronze)
-        return (steel - bronze) / (steel + bronze)
+        return float((steel - bronze) / (steel + bronze))
 
     @property
     def power(self) -> float:

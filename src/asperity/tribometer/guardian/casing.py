@@ -5,12 +5,13 @@ from pathlib import Path
 from typing import Any
 
 from asperity.casefile import Case
-from asperity.tribometer.tables import TABLES
+from asperity.tribometer.tables import tables_of
 
 
 def packed(case: Case) -> dict[str, Any]:
     """Return the tables of a rig, for JSON."""
-    raw = {name: dict(entries) for name, entries in case.raw.items() if name in TABLES}
+    known = tables_of(case.raw)
+    raw = {name: dict(entries) for name, entries in case.raw.items() if name in known}
     return {
         "source": case.source,
         "folder": str(case.folder),
@@ -20,4 +21,5 @@ def packed(case: Case) -> dict[str, Any]:
 
 def cased(told: dict[str, Any]) -> Case:
     """Return the case of what :func:`packed` gave."""
-    return Case(told["source"], Path(told["folder"]), {}, told["raw"], TABLES).replace([])
+    raw = told["raw"]
+    return Case(told["source"], Path(told["folder"]), {}, raw, tables_of(raw)).replace([])

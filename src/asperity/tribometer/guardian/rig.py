@@ -187,11 +187,11 @@ def simulated(case: Case) -> Bench:
     from asperity.tribometer.instruments.acquisition import inputs_for
     from asperity.tribometer.instruments.inputs import lines_of, simulated_of
     from asperity.tribometer.instruments.sim import simulated_bench
-    from asperity.tribometer.twin.plant import Plant
+    from asperity.tribometer.twin.plants import plant_of
 
     channels = case.require(Channels)
     inputs = simulated_of(inputs_for(case))
-    return simulated_bench(Plant.from_case(case), inputs, lines_of(channels, inputs))[0]
+    return simulated_bench(plant_of(case), inputs, lines_of(channels, inputs))[0]
 
 
 def main() -> None:

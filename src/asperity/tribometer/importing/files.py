@@ -23,6 +23,10 @@ _READERS: Mapping[str, Callable[[Path, str, Told], Columns]] = {
     TEXT: read_text, MAT: read_mat, TDMS: read_tdms, WAV: read_wav, SIGROK: read_sigrok,
     MDF: read_mdf,
 }  # fmt: skip
+_MEANT = {
+    ".sr": "session of sigrok", ".tdms": "TDMS file", ".mf4": "MDF file", ".wav": "WAV file",
+    ".nc": "recording", ".h5": "HDF5 file",
+}  # fmt: skip
 _HDF5 = b"\x89HDF\r\n\x1a\n"
 _HEAD = 256
 _MOST_RATE = 1e10
@@ -45,7 +49,10 @@ def told_of(rate: str = "", columns: str = "", units: str = "", start: str = "")
     InputError
         A rate or a day that is none, a column without a name, or two of one name.
     """
-    found = to_si(rate, "Hz") if rate else 0.0
+    try:
+        found = to_si(rate, "Hz") if rate else 0.0
+    except InputError as error:
+        raise InputError(f'--rate: {error}, as in --rate "20 kHz"') from None
     if rate and not 0.0 < found <= _MOST_RATE:
         raise InputError(f"--rate is {shown(rate)}; it must be above 0 and at most 10 GHz")
     names = tuple(one.strip() for one in columns.split(",")) if columns else ()
@@ -91,6 +98,11 @@ def form_of(path: Path, name: str) -> str:
     if head.startswith((b"MDF ", b"UnFinMF")):
         return MDF
     refuse_known(head, ending, name)
+    if what := _MEANT.get(ending):
+        raise InputError(
+            f"{name} is called {ending} and is no {what}, or a damaged one; export it again, or as "
+            "CSV"
+        )
     return TEXT
 
 

@@ -67,7 +67,7 @@ def read_mat(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
         if key not in _TOLD and values.size > 1 and values.dtype.kind in "fiu"
     }  # fmt: skip
     times = None
-    if not step:
+    if not step and columns:
         # A vector of times is as long as what was sampled at them.
         place = next((one for one in columns if one.casefold() in _TIMES), None)
         if place is None:
@@ -77,7 +77,10 @@ def read_mat(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
             )
         times = np.asarray(columns.pop(place), dtype=float).reshape(-1)
     if not columns:
-        raise InputError(f"{name} has no variable that holds a channel's samples")
+        raise InputError(
+            f"{name} has no variable that holds a channel's samples; save each channel as a "
+            "variable of numbers of its own, not in a structure, a cell or a timetable"
+        )
     columns = _split(columns, None if times is None else times.size)
     if times is not None and any(one.size > times.size for one in columns.values()):
         raise InputError(f"{name}: its times are fewer than the samples of a channel")

@@ -230,6 +230,7 @@ NOT_READ: tuple[tuple[bytes, int, str, str], ...] = (
 """Files by their first bytes (at a place, -1: anywhere) that are not read, and what to do."""
 
 ENDINGS: Mapping[str, tuple[str, str]] = {
+    ".isf": ("Tektronix's ISF", "save it as CSV"),
     ".psdata": ("PicoScope's own file", "export it as CSV or .mat"),
     ".xlsx": ("an Excel workbook", "save the sheet as CSV"),
     ".sal": ("Saleae's capture", "export the analog channels as CSV"),
@@ -240,7 +241,7 @@ ENDINGS: Mapping[str, tuple[str, str]] = {
     ".d7d": ("Dewesoft's own file", "export it as CSV, .mat or TDMS"),
     ".zip": ("an archive", "unpack it first"),
 }
-"""The same by what a name ends in, for what is not text."""
+"""The same by what a name ends in."""
 
 
 def refuse_known(head: bytes, ending: str, name: str) -> None:
@@ -248,7 +249,7 @@ def refuse_known(head: bytes, ending: str, name: str) -> None:
     for magic, place, what, instead in NOT_READ:
         if magic in head if place < 0 else head[place : place + len(magic)] == magic:
             raise InputError(f"{name} is {what}, which is not read; {instead}")
-    if ending in ENDINGS and (b"\0" in head or head[:2] == b"PK"):
+    if ending in ENDINGS:
         what, instead = ENDINGS[ending]
         raise InputError(f"{name} is {what}, which is not read; {instead}")
 

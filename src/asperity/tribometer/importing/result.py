@@ -1,7 +1,9 @@
 """The answer of ``asperity rig import``."""
 
+import contextlib
 import datetime
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -9,8 +11,19 @@ from asperity.results import Result, quantity
 from asperity.results.table import Table, table_of, table_of_rows
 from asperity.tribometer.importing.columns import Sampled
 from asperity.tribometer.recording import Event, Recorder
+from asperity.tribometer.recording.blocks import blocks_beside
 
 _BLOCK = 1 << 16
+
+
+@contextlib.contextmanager
+def _left_out(path: Path) -> Iterator[None]:
+    """Leave no blocks of a recording that could not be written: its file is there still."""
+    try:
+        yield
+    except BaseException:
+        blocks_beside(path).unlink(missing_ok=True)
+        raise
 
 
 class Imported(Result):
@@ -81,7 +94,7 @@ class Imported(Result):
             path, one.sources, one.interval, configuration=self.configuration, block=_BLOCK,
             simulated=self.simulated, start=self.began,
         )  # fmt: skip
-        with made:
+        with _left_out(path), made:
             for event in self.events:
                 made.event(event.time, event.kind, event.text)
             for first in range(0, len(one.counts), _BLOCK):

@@ -18,10 +18,10 @@ from asperity.tribometer.importing.files import OWN, form_of, read_joined, told_
 from asperity.tribometer.importing.heads import Told
 from asperity.tribometer.importing.listened import findings
 from asperity.tribometer.importing.result import Imported
-from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.recording import Event, Recording
 from asperity.tribometer.recording.layout import BEYOND, MISSING
-from asperity.tribometer.tables import TABLES
+from asperity.tribometer.tables import tables_of
 
 _UNDATED = (
     "the file tells no date: its recording is dated by this import; say when it began by --start"
@@ -44,7 +44,7 @@ def prepare(
     columns: str = "", units: str = "", start: str = "",
 ) -> Importable:  # fmt: skip
     """Look at a file's first bytes; refuses one that cannot be read, or a configuration."""
-    Pair.from_case(case)
+    pair_of(case)
     case.require(Channels)
     told = told_of(rate, columns, units, start)
     files = (file, *(join or ()))
@@ -77,12 +77,16 @@ def answer(problem: Importable, run: Run) -> Imported:
             undated = (_UNDATED,)
         form = columns.program or form
         found = sampled(columns, case.require(Channels), problem.name)
-    drives = Pair.from_case(case).drives
+    drives = pair_of(case).drives
     set_values = (
         Event(0.0, "steel_supply", f"{drives.steel_supply:g} V"),
         Event(0.0, "bronze_supply", f"{drives.bronze_supply:g} V"),
     )
-    raw = {name: entries for name, entries in case.raw.items() if name in (*TABLES, "friction")}
+    raw = {
+        name: entries
+        for name, entries in case.raw.items()
+        if name in {*tables_of(case.raw), "friction"}
+    }
     rows, _ = found.counts.shape
     events = tuple(told) or set_values
     return Imported(

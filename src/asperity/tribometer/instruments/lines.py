@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from asperity.errors import MissingExtraError, shown
 from asperity.tribometer.instruments.protocols import InstrumentError
-from asperity.tribometer.instruments.words import Spoken
+from asperity.tribometer.instruments.words import ENDS, Spoken
 
 _MOST_ANSWER = 4096
 _SILENCE = 0.02  # s, after which an answer without an end has ended.
@@ -60,17 +60,30 @@ class _Line:
             time.sleep(left)
         self._free = time.monotonic() + self._words.pause
 
+    def _another_end(self, answer: bytes) -> str:
+        """Say what key is wrong where an answer has an end, and another than it should."""
+        longest = sorted(ENDS.items(), key=lambda one: -len(one[1]))
+        found = next((name for name, end in longest if end and answer.endswith(end)), "")
+        if not found:
+            return ""
+        wanted = next(name for name, end in ENDS.items() if end == self._answer_end)
+        return (
+            f"; it ends in {found}, where {wanted} is awaited: give {self._words.table}.line_end = "
+            f'"{found}", or answer_end where only answers end so'
+        )
+
     def _whole(self, text: str, answer: bytes) -> str:
         end = self._answer_end
         if not answer:
             raise InstrumentError(
                 f"{self.name} did not answer {shown(text)} within {self._words.timeout:g} s; look "
-                "at cable, port and power",
+                f"at cable, port and power, and at {self._words.table}.line_end",
                 kind="no answer",
             )
         if not answer.endswith(end):
             raise InstrumentError(
-                f"{self.name} broke off its answer to {shown(text)}: {shown(answer)}",
+                f"{self.name} broke off its answer to {shown(text)}: {shown(answer)}"
+                f"{self._another_end(answer)}",
                 kind="half an answer",
             )
         answer = answer[: len(answer) - len(end)]

@@ -55,7 +55,7 @@ class SimulatedRig:
         self.now = 0.0
         self.volts = {"steel": 0.0, "bronze": 0.0}
         self.on = {"amplifier"}
-        self.mode = plant.pair.rig.mode
+        self.mode: str = plant.pair.rig.mode
         self.waveform: Waveform = "sine"
         self.frequency = 0.0
         self._state = np.zeros(1, kernels.STATE)
@@ -96,17 +96,17 @@ class SimulatedRig:
         plant = self.plant
         told = {name: self.volts[name] if name in self.on else _OFF for name in ("steel", "bronze")}
         shaken = self.vibrates
-        drive = kernels.Drive(
-            told["steel"], told["bronze"], self.frequency if shaken else 0.0,
-            self.waveform == "triangle",
-        )  # fmt: skip
         frequency = self.frequency if shaken else 0.0
-        table = plant.friction(self.waveform, frequency, mode=self.mode)
+        drive = kernels.Drive(
+            told["steel"], told["bronze"], frequency, self.waveform == "triangle",
+            plant.acceleration(self.waveform, frequency, self.mode),
+        )  # fmt: skip
+        bronze, table = plant.loaded(
+            self.waveform, frequency, self.mode, powered="bronze" in self.on
+        )
         if interval not in self._sensing:
             self._sensing[interval] = plant.sensing(interval)
-        return (
-            plant.steel, plant.bronze, self._sensing[interval], drive, table.velocity, table.force
-        )  # fmt: skip
+        return plant.steel, bronze, self._sensing[interval], drive, table.velocity, table.force
 
     def _samples(self, count: int) -> Counts:
         counts = np.empty((count, len(self.inputs)), np.int16)
@@ -361,7 +361,7 @@ class SimulatedPerson:
     def arrange(self, text: str, mode: str) -> None:
         """Build the rig for a direction of vibration."""
         self._rig.change()
-        self._rig.mode = "longitudinal" if mode == "longitudinal" else "transverse"
+        self._rig.mode = mode
 
     def read(self, text: str, unit: str) -> float:
         """Weigh discs of steel: nothing else is read at a simulated rig."""

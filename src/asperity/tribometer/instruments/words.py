@@ -16,7 +16,7 @@ from asperity.errors import InputError, choices, shown
 from asperity.tribometer.instruments import described
 from asperity.units import Quantity
 
-_ENDS = {"CR": b"\r", "LF": b"\n", "CRLF": b"\r\n", "none": b""}
+ENDS = {"CR": b"\r", "LF": b"\n", "CRLF": b"\r\n", "none": b""}
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*[A-Za-z%]{0,4}")
 _LARGEST = 1e30  # Beyond it SCPI writes what is no number.
 
@@ -172,7 +172,7 @@ class Spoken(Table):
     @property
     def ends(self) -> tuple[bytes, bytes]:
         """What ends a line, and what an answer."""
-        return _ENDS[self.line_end], _ENDS[self.answer_end or self.line_end]
+        return ENDS[self.line_end], ENDS[self.answer_end or self.line_end]
 
     def filled(self, key: str, **given: Any) -> str:
         """Return a line with its values; a number is written as short as it can be."""

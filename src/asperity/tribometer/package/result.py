@@ -1,5 +1,6 @@
 """The answer of ``asperity rig package``: what is in it, and how it comes to the disk."""
 
+import contextlib
 import dataclasses
 import functools
 import hashlib
@@ -122,10 +123,12 @@ class Packaged(Result):
             if self.zipped:
                 write_atomically(folder / ZIPPED, lambda target: _zip(contents, target))
                 return [ZIPPED]
-            for one in contents:
-                path = folder / one.path
-                path.parent.mkdir(exist_ok=True)
-                write_atomically(path, functools.partial(_put, one.of))
+            with _whole(folder) as written:
+                for one in contents:
+                    path = folder / one.path
+                    path.parent.mkdir(exist_ok=True)
+                    written.append(path)
+                    write_atomically(path, functools.partial(_put, one.of))
         return [one.path for one in contents]
 
     def _results(self, folder: Path) -> Iterator[Content]:
@@ -173,6 +176,23 @@ class Packaged(Result):
             *(f"Note: {one}" for one in self.notes),
         )  # fmt: skip
         return ("\n".join(lines) + "\n").encode()
+
+
+@contextlib.contextmanager
+def _whole(package: Path) -> Iterator[list[Path]]:
+    """Leave nothing of a package that could not be written: another attempt would refuse it."""
+    written: list[Path] = []
+    try:
+        yield written
+    except BaseException:
+        with contextlib.suppress(OSError):
+            for path in written:
+                path.unlink(missing_ok=True)
+        for folder in {path.parent for path in written} - {package}:
+            # One that holds something else, or all of it, stays.
+            with contextlib.suppress(OSError):
+                folder.rmdir()
+        raise
 
 
 def _json(value: Any) -> bytes:

@@ -13,6 +13,7 @@ from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.result import PlanResult
 from asperity.tribometer.twin.chain import peak_current
 from asperity.tribometer.twin.plant import Plant
+from asperity.tribometer.twin.plants import plant_of
 
 # Velocity ratios from which a friction law is identified best.
 _TELLING = 1.5, 4.0
@@ -42,12 +43,16 @@ class PlanProblem:
     plant: Plant | None
     warnings: tuple[str, ...]
 
+    def named(self, text: str) -> str:
+        """Return a sentence of the discs as it is of what the rig has."""
+        return text if self.plant is None else self.plant.pair.named(text)
+
 
 def prepare(case: Case) -> PlanProblem:
     """Lay out a plan; refuses one beyond its limits."""
     limits = case.get(Limits, Limits())
     plan = case.require(Plan)
-    plant = Plant.from_case(case) if Twin.table in case else None
+    plant = plant_of(case) if Twin.table in case else None
     return PlanProblem(plan, planned_files(plan, limits), plant, tuple(warnings(case)))
 
 
@@ -57,7 +62,7 @@ def warnings(case: Case) -> list[str]:
     found = _too_brief(case.require(Plan), given)
     if Twin.table in case:
         limits = case.get(Limits, Limits())
-        starting = Plant.from_case(case).starting_torque
+        starting = plant_of(case).starting_torque
         if limits.torque < starting:
             found.append(
                 f"limits.torque is {limits.torque:g} N m, below the {starting:.2g} N m of the "
@@ -118,7 +123,7 @@ def answer(problem: PlanProblem, run: Run) -> PlanResult:
         velocity_ratio=ratio,
         steel_turns=steel,
         bronze_turns=bronze,
-        notes=tuple(_notes(problem, expected)),
+        notes=tuple(map(problem.named, _notes(problem, expected))),
     )
 
 
@@ -173,9 +178,15 @@ def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
                 f"{_TELLING[1]:g}, where the law's parameters are told apart best: they lie at "
                 + ", ".join(f"{value:.2g}" for value in _some(known))
             )
+        geared = problem.plant is not None and problem.plant.pair.geared
         notes.append(
-            "turns and k are those of the simulated rig, whose motors and friction are fitted to a "
-            "few published figures and whose other parameters are placeholders"
+            "turns and k are those of the simulated rig, "
+            + (
+                "whose teeth are a drive of the same case, and whose motor is of no rig that stands"
+                if geared
+                else "whose motors and friction are fitted to a few published figures and whose "
+                "other parameters are placeholders"
+            )
         )
     if problem.plant is not None and problem.plant.sonotrode.current_limit is None:
         fastest = max(plan.frequencies)

@@ -28,7 +28,7 @@ from asperity.tribometer.instruments.protocols import (
 )
 from asperity.tribometer.live import Preview, units_of
 from asperity.tribometer.options import Plan, Reduction
-from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
 from asperity.tribometer.procedure import checks
@@ -86,7 +86,7 @@ class Machine:
         self._run = run
         self._signals = signals
         self._plan = case.require(Plan)
-        self._pair = Pair.from_case(case)
+        self._pair = pair_of(case)
         self._sonotrode = case.require(Sonotrode)
         self._settling = (case.get(Reduction, Reduction())).settling
         self._interlock = Interlock.from_case(case, bench.scope.inputs)
@@ -262,9 +262,8 @@ class Machine:
                 name: logger.during(supply, supply.reading)
                 for name, supply in self._bench.motors.items()
             }
-            checks.check_changes(rest, running)
-            radii = {"steel": self._pair.steel.radius, "bronze": self._pair.bronze.radius}
-            checks.check_map(running, given, radii)
+            checks.check_changes(rest, running, self._pair.slower)
+            checks.check_map(running, given, self._pair.torque_share)
             meter = self._bench.tachometer
             measured = {
                 name: logger.during(meter, functools.partial(meter.speed, name)) for name in _DISCS

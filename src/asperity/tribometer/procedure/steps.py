@@ -108,8 +108,38 @@ class Action:
         )
 
 
-def sequence(files: Sequence[PlannedFile]) -> Iterator[Action]:
-    """Yield everything a plan needs, in order."""
+_GEARED = {
+    3: "Install worm and wheel; build the rig for {mode} vibration.",
+    17: "Record; switch motor and brake on and let the gearset run.",
+    25: "Remove worm and wheel.",
+    30: "Repeat with a new worm and wheel.",
+}
+_NOT_GEARED = frozenset((1, 2, 4, 26))
+"""Steps of discs alone: they are wiped, weighed and pressed together."""
+
+
+def sequence(files: Sequence[PlannedFile], *, geared: bool = False) -> Iterator[Action]:
+    """Yield everything a plan needs, in order.
+
+    Parameters
+    ----------
+    files : sequence of PlannedFile
+        Of the plan.
+    geared : bool
+        Whether a worm and its wheel stand in place of the discs.
+    """
+    for action in _sequence(files):
+        if not geared:
+            yield action
+        elif not _NOT_GEARED.intersection(action.steps):
+            (first, *_) = action.steps
+            told = action.act in ("ask", "arrange", "rest") and first in _GEARED
+            mode = action.file.mode if action.file is not None else ""
+            text = _GEARED[first].format(mode=mode) if told else action.text
+            yield dataclasses.replace(action, text=text)
+
+
+def _sequence(files: Sequence[PlannedFile]) -> Iterator[Action]:
     for step in (5, 6, 7):
         yield Action(f"start/step-{step}", (step,), "ask", STEPS[step])
     before: PlannedFile | None = None

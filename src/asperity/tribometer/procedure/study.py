@@ -24,7 +24,7 @@ from asperity.tribometer.instruments.protocols import StillOnError
 from asperity.tribometer.instruments.replay import replay_bench
 from asperity.tribometer.journal_lines import NAME
 from asperity.tribometer.options import Plan
-from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.study import warnings
@@ -34,7 +34,7 @@ from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.steps import Action, sequence
 from asperity.tribometer.recording.joining import joined_all
 from asperity.tribometer.signals import SIMULATED
-from asperity.tribometer.twin.plant import Plant
+from asperity.tribometer.twin.plants import plant_of
 from asperity.tribometer.twin.provenance import standing
 
 _HELD = ".rig-run"
@@ -85,7 +85,6 @@ def prepare(
     plan = case.require(Plan)
     files = planned_files(plan, limits)
     sonotrode = case.require(Sonotrode)
-    Pair.from_case(case)
     inputs_for(case)
     most = plan.sample_rate / _LEAST_SAMPLES_A_CYCLE
     for frequency in plan.frequencies:
@@ -102,12 +101,12 @@ def prepare(
         raise InputError("--backend replay and --recordings DIR, a run's folder, go together")
     if backend == REPLAY and resume:
         raise InputError("a replay is not gone on with; leave --resume out, and begin it anew")
-    actions = tuple(sequence(files))
+    actions = tuple(sequence(files, geared=pair_of(case).geared))
     if backend == REPLAY:
         # What is asked of a person and what is tried beforehand is in no recording.
         actions = tuple(one for one in actions if one.act in _RECORDED)
     elif backend == "sim":
-        plant = Plant.from_case(case)
+        plant = plant_of(case)
         for one in files:
             for cell in one.cells:
                 if sonotrode.velocity(one.mode, cell.frequency) is None:

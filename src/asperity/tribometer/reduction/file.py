@@ -13,12 +13,14 @@ from asperity.tribometer import discs
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.options import Reduction
 from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Lubricant, Sonotrode
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import quantities, wear
 from asperity.tribometer.reduction.blocks import Blocks, angle, turns
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL, Following
+from asperity.tribometer.reduction.geared import geared_numbers
 from asperity.tribometer.reduction.heard.acceleration import Heard as Tones
 from asperity.tribometer.reduction.heard.listen import Listened
 from asperity.tribometer.reduction.joint import TORQUE, Joint, estimate_jointly
@@ -53,7 +55,7 @@ def reduce_file(
     sonotrode: Sonotrode | None,
 ) -> tuple[FileResult, list[SegmentResult]]:
     """Reduce a recording whose segments are found, by what was heard without its zeros."""
-    pair, blocks = Pair.from_case(case), heard.blocks
+    pair, blocks = pair_of(case), heard.blocks
     usable = [one for one in segments if not one.refused]
     windows = Windows.of(blocks, usable, given) if usable else None
     joint = _joint(blocks, windows, pair, given) if windows else None
@@ -83,7 +85,7 @@ def reduce_file(
             values["quality"] = DOUBTFUL
         found.append(SegmentResult(**common, **values))
         asked.append(question)
-    ratios = model_ratios(case, pair.rig.load, asked)
+    ratios = model_ratios(case, 0.0 if pair.geared else pair.load, asked)
     found = [
         dataclasses.replace(one, model_ratio=ratio)
         for one, ratio in zip(found, ratios, strict=True)
@@ -142,7 +144,7 @@ def _joint(blocks: Blocks, windows: Windows, pair: Pair, given: Reduction) -> Jo
 def _common(recording: Recording, case: Case, segment: Segment) -> dict[str, Any]:
     """What is told of a segment whether it is refused or not."""
     oil = case.get(Lubricant, Lubricant())
-    pair = Pair.from_case(case)
+    pair = pair_of(case)
     told = [
         event.text for event in recording.events
         if event.kind == "steel_supply" and event.time <= segment.start
@@ -183,6 +185,8 @@ def _numbers(
         "turns_seen": _turns(blocks, STEEL, pair.drives.gear_ratio, segment.shaken),
         "bronze_turns": _turns(blocks, BRONZE, pair.drives.bronze_gear_ratio, segment.shaken),
     }  # fmt: skip
+    if pair.geared:
+        values |= geared_numbers(pair, blocks, segment, float(levels[STEEL][1]))
     if (oil := case.get(Lubricant)) is not None:
         rolling = float(discs.rolling_velocity(*following.rims(levels, 0)))
         values["film_parameter"] = pair.film(oil, rolling)
@@ -212,8 +216,10 @@ def _numbers(
         amplitude = _amplitude(blocks, tones, doubt)
         values["k_v"] = following.velocity_ratio(peak, amplitude)
         # What a chain that passes one tone leaves of a triangle is a sine.
-        question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
-    flags += _flags(recording, blocks, segment, values)
+        if not pair.geared:
+            # What a worm's torque does is no body's friction: fit --model drive.
+            question = (pair.rig.mode, "sine", shaken, peak, segment.commanded)
+    flags += _flags(recording, case, blocks, segment, values)
     doubtful = bool(odd or segment.flags) or change.high - change.low > 2.0 * _WIDE
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
 
@@ -251,7 +257,7 @@ def _velocity(
         return peak, peak * abs(line.gain_deviation / line.gain), []
     if sonotrode is None:
         return None, 0.0, []
-    mode = Pair.from_case(case).rig.mode
+    mode = pair_of(case).rig.mode
     peak_of_sine = sonotrode.velocity(mode, frequency)
     if peak_of_sine is None:
         return None, 0.0, [f"v_a is not known at {frequency:g} Hz"]
@@ -269,12 +275,12 @@ def _past(recording: Recording, case: Case) -> Iterator[str]:
 
 
 def _flags(
-    recording: Recording, blocks: Blocks, segment: Segment, values: dict[str, Any]
+    recording: Recording, case: Case, blocks: Blocks, segment: Segment, values: dict[str, Any]
 ) -> list[str]:
     """Return what a reader of a segment's numbers should know beside its interval."""
-    flags = []
+    flags, named = [], pair_of(case).named
     if values["turns_seen"] < _PART_TURN:
-        flags.append(f"{values['turns_seen']:.2g} of a turn of the steel disc is seen")
+        flags.append(named(f"{values['turns_seen']:.2g} of a turn of the steel disc is seen"))
     if values["sliding_velocity_with"].value <= 0.0:
         flags.append("the bronze disc outruns the steel disc")
     begin, end = segment.before.first * blocks.length, segment.shaken.last * blocks.length
@@ -297,12 +303,11 @@ def _file(
     steel, bronze = (
         np.where(lost, 0.0, blocks.means[f"speed_{one}"]) for one in ("steel", "bronze")
     )
-    rim = pair.steel.radius * steel / pair.drives.gear_ratio
-    sliding = np.abs(rim - pair.bronze.radius * bronze / pair.drives.bronze_gear_ratio)
+    sliding = np.abs(np.subtract(*pair.rims(steel, bronze)))
     distance = float(sliding.sum() * blocks.length)
-    path = distance
+    path: float | None = None if pair.geared else distance
     for segment, one in zip(segments, found, strict=True):
-        if one.k_v_with is not None:
+        if path is not None and one.k_v_with is not None:
             # All of the vibration, not only the window that is reduced.
             part = sliding[round(segment.start / blocks.length) : segment.shaken.last + 1]
             share = wear.path_share(one.k_v_with, pair.rig.mode)
@@ -312,7 +317,9 @@ def _file(
     for name, disc in (("steel", pair.steel), ("bronze", pair.bronze)):
         loss = losses[name]
         numbers[f"mass_loss_{name}"] = None if loss is None else 1e6 * loss
-        numbers[f"wear_{name}"] = wear.archard(loss, disc, pair.rig.load, path)
+        numbers[f"wear_{name}"] = (
+            None if path is None else wear.archard(loss, disc, pair.load, path)
+        )
     if levels is not None:
         numbers |= {
             "runout_steel": 100.0 * levels.runout[0], "runout_bronze": 100.0 * levels.runout[1],

@@ -130,7 +130,8 @@ class Following:
 
     def rims(self, of: Pairs, place: int) -> tuple[float, float]:
         """Return the velocities of both rims, m/s."""
-        return self.pair.rims(float(of[STEEL][place]), float(of[BRONZE][place]))
+        steel, bronze = self.pair.rims(float(of[STEEL][place]), float(of[BRONZE][place]))
+        return float(steel), float(bronze)
 
     def _of_power(self, one: Efficiency) -> Budgeted | None:
         if not self.powered or CURRENT not in self.levels or self.voltage <= 0.0:

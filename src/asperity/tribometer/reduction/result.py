@@ -25,6 +25,11 @@ _MEASURED = (
     "sd vibration.velocity_amplitude [mm/s]", "vibration.frequency [Hz]",
     "vibration.direction [deg]",
 )  # fmt: skip
+_OF_DRIVES = (
+    "ratio", "sd", "operation.worm_speed [rpm]", "operation.output_torque [N m]",
+    "vibration.velocity_amplitude [mm/s]", "sd vibration.velocity_amplitude [mm/s]",
+    "vibration.frequency [Hz]",
+)  # fmt: skip
 _ENDS = "low", "high"
 GOOD, DOUBTFUL, REFUSED = "good", "doubtful", "refused"
 
@@ -108,6 +113,8 @@ class SegmentResult(Quantities):
         return None if self.sliding_velocity_with is None else self.sliding_velocity_with.deviation
 
     bronze_turns: float | None = _beside("", "", "turns of the bronze disc in the window")
+    worm_speed: float | None = _beside("n_1", "rpm", "speed of the worm with vibration")
+    wheel_torque: float | None = _beside("T_2", "N m", "torque of the wheel with vibration")
     film_parameter: float | None = _beside("lambda", "", "film over roughness before")
     start: float | None = _beside("t", "s", "start of the vibration")
 
@@ -323,8 +330,11 @@ class Reduced(Result):
     def to_measurements(self) -> str:
         """Return torque with over torque before, with its conditions: a table for ``fit``.
 
-        Of a triangle the velocity is that of its first harmonic, as a sine.
+        Of a triangle the velocity is that of its first harmonic, as a sine. Of a worm and its
+        wheel the conditions are those of a drive: ``fit --model drive``.
         """
+        if any(one.worm_speed is not None for one in self.segments):
+            return self._of_drives()
         rows = [
             (1.0 + one.torque_change.value / 100.0, one.deviation / 100.0,
              one.sliding_velocity_with.value, one.sliding_velocity_deviation,
@@ -337,6 +347,18 @@ class Reduced(Result):
         ]  # fmt: skip
         text = io.StringIO()
         csv.writer(text, lineterminator="\n").writerows([_MEASURED, *rows])
+        return text.getvalue()
+
+    def _of_drives(self) -> str:
+        rows = [
+            (1.0 + one.torque_change.value / 100.0, one.deviation / 100.0, one.worm_speed,
+             one.wheel_torque, one.velocity_amplitude, one.velocity_deviation, one.commanded)
+            for one in self.segments
+            if one.torque_change is not None and one.deviation and one.commanded is not None
+            and one.velocity_amplitude and one.worm_speed and one.wheel_torque
+        ]  # fmt: skip
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows([_OF_DRIVES, *rows])
         return text.getvalue()
 
     def to_csv(self) -> str:

@@ -17,6 +17,9 @@ from asperity.units import split_unit, to_si
 
 _NEEDED = ("torque_steel", "speed_steel", "speed_bronze")
 _COUNTED = 3.0  # s, the longest between a start and an encoder that shows it
+_DRIVEN = "torque_steel", "torque_bronze", "current_steel", "current_bronze"
+_AGREE = 2  # of these, at least
+_IDLE = 0.25  # of a level, below which nothing is driven
 _SAMPLES_A_CYCLE = 6.0  # that tell a third harmonic
 _COMMAND = re.compile(r"\s*(?:(sine|triangle)\s+)?([0-9.]+\s*\w+)\s*", re.ASCII)
 
@@ -93,6 +96,8 @@ def _segment(
         on = next((one for one in running if shaking.first < one.first < shaking.last), None)
     moving = _moving(recording.events, blocks, on, shaking) if on else shaking.first
     begun = max([*(one.last for one in earlier), moving])
+    if not _started(recording.events, shaking.first * blocks.length):
+        begun = max(begun, _driven(blocks, begun, shaking.first))
     before = Stretch(begun + settling, shaking.first - 1)
     end = min(shaking.last, on.last) if on else shaking.first
     shaken = Stretch(max(shaking.first, on.first if on else 0) + settling, end - 1)
@@ -129,12 +134,37 @@ def _moving(events: Sequence[Event], blocks: Blocks, on: Stretch, shaking: Stret
     that gave it, and at the start of a recording what turned before. What a supply gave when the
     recording began is no start.
     """
-    told = [event for event in events if event.kind == "steel_supply"
-            and 0.0 < event.time <= shaking.first * blocks.length]  # fmt: skip
-    if not told or told[-1].text == "off":
+    told = _started(events, shaking.first * blocks.length)
+    if told is None:
         return on.first
-    started = blocks.at_least(told[-1].time)
+    started = blocks.at_least(told.time)
     return started if on.first - started <= blocks.at_least(_COUNTED) else on.first
+
+
+def _started(events: Sequence[Event], time: float) -> Event | None:
+    """Return what tells that the steel disc's motor was switched on before a time."""
+    told = [event for event in events if event.kind == "steel_supply" and 0.0 < event.time <= time]
+    return told[-1] if told and told[-1].text != "off" else None
+
+
+def _driven(blocks: Blocks, first: int, last: int) -> int:
+    """Return from where on discs are driven, as torques and currents show that an encoder does not.
+
+    It shows for seconds what turned before: a start that it hides is where torque and current,
+    nothing before, both are there.
+    """
+    driven = [
+        np.abs(blocks.means[signal][first:last]) for signal in _DRIVEN
+        if signal in blocks.means and not blocks.lost[signal][first:last].any()
+    ]  # fmt: skip
+    levels = [float(np.median(one[one.size // 2 :])) for one in driven if one.size]
+    if len(levels) < _AGREE:
+        return first
+    idle = [one < _IDLE * level for one, level in zip(driven, levels, strict=True)]
+    # One alone may have a loose contact.
+    both = np.sum(idle, axis=0) >= max(_AGREE, len(idle) - 1)
+    found = np.flatnonzero(both[:-1] & both[1:])
+    return first + int(found[-1]) + 2 if found.size else first
 
 
 def _torn(blocks: Blocks, shaking: Stretch) -> bool:

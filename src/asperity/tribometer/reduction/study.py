@@ -14,7 +14,7 @@ from asperity.errors import InputError
 from asperity.runs import Run
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.options import Plan, Reduction
-from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Rig, Sonotrode
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import wear
@@ -118,7 +118,7 @@ def prepare(case: Case, budget: bool = False, **_: Any) -> Series:
     """Return the recordings, refused where a configuration lacks what is needed."""
     found = case.reducible if isinstance(case, _Opened) else ()
     for one in found:
-        Pair.from_case(one.case)
+        pair_of(one.case)
         one.case.require(Channels)
     return Series(found, budget)
 
@@ -140,7 +140,7 @@ def answer(series: Series, run: Run) -> Reduced:
         if segment.quality == REFUSED:
             run.notify(f"{segment.file}: {refusal(segment)}")
     deviation, freedom = repeats(segments)
-    pair, notes = Pair.from_case(problem[0].case), list(_notes(problem))
+    pair, notes = pair_of(problem[0].case), list(_notes(problem))
     weighed = [
         *wear.between_weighings(pair, files),
         *wear.of_journals(pair, [one.recording.path for one in problem], files, notes),

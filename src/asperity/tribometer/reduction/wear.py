@@ -107,7 +107,7 @@ def _worn(pair: Pair, name: str, loss: float, files: Sequence[FileResult]) -> di
     path = sum(one.path or one.distance for one in files)
     return {
         "disc": name, "mass_loss_mg": 1e6 * loss, "distance_m": distance, "path_m": path,
-        "archard": archard(loss, disc, pair.rig.load, path),
+        "archard": archard(loss, disc, pair.load, path),
     }  # fmt: skip
 
 

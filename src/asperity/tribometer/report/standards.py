@@ -14,7 +14,7 @@ from asperity.results.interval import numbers_of
 from asperity.results.table import Table
 from asperity.tribometer import discs
 from asperity.tribometer.channels import Channels
-from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Conditions, Disc, Lubricant
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.blocks import lines_of
@@ -90,7 +90,7 @@ def measured(signal: str, case: Case, recordings: Sequence[Recording]) -> str:
 
 def friction(case: Case, segments: Sequence[SegmentResult]) -> Table:
     """Return the coefficient of friction of each segment, with its interval."""
-    pair = Pair.from_case(case)
+    pair = pair_of(case)
 
     def of(torque: float | None) -> float | str:
         if torque is None:
@@ -130,7 +130,7 @@ def _conformance(standard: str, case: Case) -> Iterator[tuple[str, str]]:
 
 
 def _contact(case: Case) -> Iterator[tuple[str, str]]:
-    pair = Pair.from_case(case)
+    pair = pair_of(case)
     yield "apparatus", pair.rig.name
     yield "contact", f"line, {1e3 * pair.length:g} mm long, {2e3 * pair.half_width:.3g} mm wide"
     yield "largest Hertz pressure", f"{1e-6 * pair.pressure:.1f} N/mm2"
@@ -138,7 +138,7 @@ def _contact(case: Case) -> Iterator[tuple[str, str]]:
 
 
 def _specimens(case: Case) -> Iterator[tuple[str, str]]:
-    pair = Pair.from_case(case)
+    pair = pair_of(case)
     for name, one in (("steel disc", pair.steel), ("bronze disc", pair.bronze)):
         yield f"{name}: material", one.material or MISSING
         yield f"{name}: composition", one.composition or MISSING
@@ -155,7 +155,7 @@ def _specimens(case: Case) -> Iterator[tuple[str, str]]:
 def _parameters(
     standard: str, case: Case, used: Sequence[SegmentResult], files: Sequence[FileResult]
 ) -> Iterator[tuple[str, str]]:
-    pair = Pair.from_case(case)
+    pair = pair_of(case)
     yield "normal force", f"{pair.rig.load:.1f} N"
     speeds = [one.value for segment in used for one in
               (segment.sliding_velocity_before, segment.sliding_velocity_with)
@@ -206,7 +206,7 @@ def _friction(used: Sequence[SegmentResult], reduced: Reduced) -> Iterator[tuple
 
 
 def _wear(case: Case, reduced: Reduced) -> Iterator[tuple[str, str]]:
-    pair = Pair.from_case(case)
+    pair = pair_of(case)
     for name, one in (("steel", pair.steel), ("bronze", pair.bronze)):
         lost = [1e-6 * worn["mass_loss_mg"] for worn in reduced.weighed if worn["disc"] == name]
         masses = [loss for file in reduced.files

@@ -11,7 +11,8 @@ from asperity.runs import Run
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.deposit import Package
 from asperity.tribometer.options import Plan
-from asperity.tribometer.pair import BOUNDARY, Pair
+from asperity.tribometer.pair import BOUNDARY
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Conditions, Lubricant
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import study as reduction
@@ -61,7 +62,8 @@ def read(
             own = recording.case(known)
             own = dataclasses.replace(own, raw=own.raw | beside).replace(settings)
             found.append(Reducible(recording, own))
-            Pair.from_case(found[-1].case)
+            if pair_of(found[-1].case).geared:
+                raise InputError("it is of a gear rig, and a report is of discs")
             found[-1].case.require(Channels)
         except AsperityError as error:
             if path.stem not in _ANSWERS:
@@ -126,7 +128,7 @@ def _cells(case: Case) -> int:
 
 def _conditions(problem: Gathered, segments: Sequence[SegmentResult]) -> Iterator[tuple[str, str]]:
     """Yield what the tests were made under, in words."""
-    pair = Pair.from_case(problem)
+    pair = pair_of(problem)
     rig, steel, bronze = pair.rig, pair.steel, pair.bronze
     yield "rig", rig.name
     yield "steel disc", f"{steel.material}, {1e3 * steel.diameter:g} mm"

@@ -18,6 +18,7 @@ from asperity.tribometer.reduction.study import Reducible, reduce_recording
 from asperity.tribometer.twin.chain import disc_velocity
 from asperity.tribometer.twin.contact import Rotor, cycle_mean, share_at
 from asperity.tribometer.twin.plant import Plant
+from asperity.tribometer.twin.plants import plant_of
 
 BOUNDS = {
     "mu": (0.01, 2.0),
@@ -180,7 +181,7 @@ def fit_states(case: Case, rows: Sequence[Measured], free: Sequence[str] = USUAL
 
     def errors(x: FloatArray) -> FloatArray:
         changed = case.replace_values({f"twin.{key}": one for key, one in values(x).items()})
-        plant = Plant.from_case(changed)
+        plant = plant_of(changed)
         supply = plant.pair.drives.bronze_supply
         return np.concatenate([_errors(plant, row, supply) for row in rows])
 

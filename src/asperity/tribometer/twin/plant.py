@@ -4,7 +4,7 @@ import dataclasses
 import functools
 import math
 from collections.abc import Callable
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 
@@ -61,9 +61,9 @@ class Plant:
     sonotrode: Sonotrode
 
     @classmethod
-    def from_case(cls, case: Case) -> Self:
-        """Gather the tables; raises InputError where one is missing."""
-        return cls(Pair.from_case(case), case.require(Twin), case.require(Sonotrode))
+    def from_case(cls, case: Case) -> "Plant":
+        """Gather the tables of discs; raises InputError where one is missing."""
+        return Plant(Pair.from_case(case), case.require(Twin), case.require(Sonotrode))
 
     @functools.cached_property
     def steel(self) -> Motor:
@@ -113,7 +113,7 @@ class Plant:
         """The contact."""
         twin = self.twin
         return Surface(
-            twin.mu * self.pair.rig.load, twin.mu_drop, twin.stribeck_velocity, twin.max_deflection
+            twin.mu * self.pair.load, twin.mu_drop, twin.stribeck_velocity, twin.max_deflection
         )
 
     @property
@@ -147,6 +147,32 @@ class Plant:
         if key not in found:
             found[key] = self._friction(*key) if key else mean_friction(self.surface)
         return found[key]
+
+    def loaded(
+        self, waveform: str, frequency: float, mode: str, *, powered: bool
+    ) -> tuple[Motor, MeanFriction]:
+        """Return what drives or brakes the bronze side, and the friction, as it is told.
+
+        Parameters
+        ----------
+        waveform : str
+            Of the vibration.
+        frequency : float
+            Hz; 0: none.
+        mode : str
+            Its direction.
+        powered : bool
+            Whether the supply of the bronze side is on.
+        """
+        return self.bronze, self.friction(waveform, frequency, mode=mode)
+
+    def acceleration(self, waveform: str, frequency: float, mode: str) -> float:
+        """Return the amplitude at its frequency of what is shaken, m/s2."""
+        if not frequency:
+            return 0.0
+        shaken = disc_velocity(self.sonotrode, mode, waveform, frequency)
+        first = 2.0 * abs(np.fft.rfft(shaken)[1]) / shaken.size
+        return float(2.0 * math.pi * frequency * first)
 
     @functools.cached_property
     def _tables(self) -> dict[Any, MeanFriction]:

@@ -40,6 +40,8 @@ class Motor(NamedTuple):
         Torque of the disc's bearings, N m.
     most : float
         Current its supply gives at most, A.
+    tied : float
+        Speed over that of the other motor where teeth give it, else 0.
     """
 
     constant: float
@@ -51,6 +53,7 @@ class Motor(NamedTuple):
     radius: float
     bearing: float
     most: float
+    tied: float = 0.0
 
 
 class Sensing(NamedTuple):
@@ -99,12 +102,15 @@ class Drive(NamedTuple):
         Of the vibration, Hz; 0: none.
     triangle : bool
         Whether its drive signal is a triangle.
+    acceleration : float
+        Amplitude of what is shaken at that frequency, m/s2.
     """
 
     steel: float
     bronze: float
     frequency: float
     triangle: bool
+    acceleration: float = 0.0
 
 
 STATE = np.dtype(
@@ -197,6 +203,8 @@ def move(steel, bronze, sensing, drive, speeds, forces, state, step):
     state.motor_bronze, state.current_bronze = turned(
         bronze, state.motor_bronze, drive.bronze, braked, 0.0, step
     )
+    if bronze.tied > 0.0:
+        state.motor_bronze = bronze.tied * state.motor_steel
     full = 2.0 * math.pi
     state.angle_steel = (state.angle_steel + step * state.motor_steel / steel.ratio) % full
     state.angle_bronze = (state.angle_bronze + step * state.motor_bronze / bronze.ratio) % full
@@ -277,6 +285,7 @@ def sample(
         level[CURRENT_BRONZE] = state.current_bronze
         level[LOAD_CELL] = sensing.preload
         level[DRIVE_VOLTAGE] = 0.0
+        level[ACCELERATION] = 0.0
         if drive.frequency > 0.0:
             state.phase = (state.phase + drive.frequency * interval) % 1.0
             if drive.triangle:
@@ -284,6 +293,7 @@ def sample(
             else:
                 wave = math.sin(2.0 * math.pi * state.phase)
             level[DRIVE_VOLTAGE] = sensing.middle + sensing.swing * wave
+            level[ACCELERATION] = drive.acceleration * math.cos(2.0 * math.pi * state.phase)
         for column in range(channels.size):
             signal = channels[column]
             value = level[signal] + sensing.noise[signal] * normals[n, signal]

@@ -6,6 +6,7 @@ A figure is worth no more than the weakest of what it rests on.
 from typing import Literal
 
 from asperity.casefile import Case
+from asperity.gearset import Gearset
 from asperity.tribometer.options import Twin
 
 Standing = Literal["measured", "fitted", "placeholder", "given"]
@@ -34,6 +35,7 @@ TWIN: dict[str, tuple[Standing, object, str]] = {
     "drift": ("placeholder", 0.1, ""),
     "encoder_gate": ("placeholder", 1.0, ""),
     "encoder_lag": ("placeholder", 0.2, ""),
+    "brake_resistance": ("placeholder", 20.0, "of gear rigs alone"),
 }
 """By key of ``[twin]``: what the value that ships rests on, that value, and more about it."""
 
@@ -107,6 +109,11 @@ def standing(case: Case) -> list[str]:
         "placeholder": "placeholders",
         "given": "as the case gives them",
     }
+    if Gearset.table in case:
+        return [
+            "the worm's torques are those of asperity drive on this case, at the means of its "
+            "motion; motor, brake, sensors and noise of [twin] are of no rig that stands"
+        ]
     told = [f"[twin] {words[kind]}: {names}" for kind, names in named.items() if names]
     return [
         *told,

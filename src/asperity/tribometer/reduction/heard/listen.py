@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.casefile import Case
 from asperity.tribometer.options import Reduction
-from asperity.tribometer.pair import Pair
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.blocks import Blocks
 from asperity.tribometer.reduction.heard import acceleration, drive, motors, moving
@@ -70,7 +70,7 @@ def listen(
         np.isfinite(one).all() for one in (*blocks.means.values(), *blocks.deviations.values())
     ):
         return Listened(blocks, Tare({}), (), {}, at_rest=False)
-    of = Material(recording, case, Pair.from_case(case), blocks, segments, given)
+    of = Material(recording, case, pair_of(case), blocks, segments, given)
     rest = resting(of)
     taken, found = tare(of, zeros_of(of, rest))
     of = dataclasses.replace(of, blocks=taken.off(blocks))

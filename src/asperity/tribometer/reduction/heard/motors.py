@@ -19,20 +19,43 @@ _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vib
 _ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be told
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
 _FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are together
+_CARRIES = 0.6, 1.6  # of what a motor takes for a change of the torque, by [twin]
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
 _FITS = 3.0  # times better do speeds fit their supplies the other way round
+_TEETH = 0.05  # of the wheel's speed, by which it may be off what the worm's has it
 _MAP = "look at the cables and at the map of [channels]"
 
 
 def findings(of: Material) -> Iterator[Finding]:
     """Yield what does not fit together."""
-    if of.windows:
+    if of.windows and of.pair.geared:
+        yield from _signs(of)
+        yield from _teeth(of)
+        yield from _supplied(of)
+    elif of.windows:
         yield from _signs(of)
         yield from _torques(of)
         told = list(_exchanged(of, "speed"))
         yield from told or _other_way_round(of)
         yield from _exchanged(of, "current")
         yield from _supplied(of)
+        yield from _carried(of)
+
+
+def _teeth(of: Material) -> Iterator[Finding]:
+    """Yield a wheel that does not turn as its teeth have it."""
+    names = "speed_steel", "speed_bronze"
+    worm, wheel = (_middle(of, name)[0] for name in names)
+    wanted = of.pair.wheel_speed(worm)
+    error = 0.5 * _encoder_step(of, names[1]) * abs(of.blocks.lines[names[1]].gain)
+    if abs(worm) < least_of(names[0]) or abs(wheel - wanted) <= _TEETH * abs(wanted) + error:
+        return
+    yield Finding(
+        "speeds are not as the teeth",
+        f"speed_bronze is {wheel:.3g} rad/s, the gear ratio gives {wanted:.3g} of the worm's",
+        "look at both calibrations, at the map of [channels] and at the coupling to the brake",
+        names, of.course(names[1]),
+    )  # fmt: skip
 
 
 def _levels(of: Material, signal: str) -> FloatArray:
@@ -222,7 +245,7 @@ def _supplied(of: Material) -> Iterator[Finding]:
     twin = of.case.get(Twin)
     if twin is None or volts <= 0.0:
         return
-    for disc in ("steel", "bronze"):
+    for disc in ("steel",) if of.pair.geared else ("steel", "bronze"):
         volts, name = of.supply(disc, time), f"speed_{disc}"
         turning = abs(_middle(of, name)[0])
         back = twin.motor_constant * turning
@@ -239,3 +262,35 @@ def _supplied(of: Material) -> Iterator[Finding]:
                 "look at its scale and channel, at the supply's volts, and at twin.motor_constant",
                 (name,), of.course(name), spoils=disc == "steel" or back + drop > _FASTER * volts,
             )  # fmt: skip
+
+
+def _carried(of: Material) -> Iterator[Finding]:
+    """Yield a current that answers the torque by another part than motor and gear make of it.
+
+    A motor gives k i, and of a change of the disc's torque ratio and efficiency of its gear leave
+    it that part; what it drags by itself changes nothing of that.
+    """
+    twin = of.case.get(Twin)
+    if twin is None or not of.has("current_steel"):
+        return
+    torque, current = _levels(of, "torque_steel"), _levels(of, "current_steel")
+    changes = [one[:, 2] - one[:, 0] for one in (torque, current)]
+    size = float(changes[0] @ changes[0])
+    if not (size > 0.0 and np.all(np.isfinite(changes))):
+        return
+    part = 1.0 / (of.pair.drives.gear_ratio * twin.gear_efficiency * twin.motor_constant)
+    # A sign that is wrong is told as such.
+    share = abs(float(changes[0] @ changes[1])) / size / part
+    errors = [float(np.median(np.hypot(one[:, 1], one[:, 3]))) for one in (torque, current)]
+    unsure = _SURE * math.hypot(share * errors[0], errors[1] / part) / math.sqrt(size)
+    if share + unsure >= _CARRIES[0] and share - unsure <= _CARRIES[1]:
+        return
+    yield Finding(
+        "current_steel does not fit its torque",
+        f"it answers the vibration by {share:.2g} of what motor and gear take for the torque's "
+        "answer, by [twin] and the gear's ratio",
+        "look at the calibrations of its clamp and of the torque, and at motor_constant and "
+        "gear_efficiency of [twin]",
+        ("current_steel",), Course(changes[0], changes[1], "change of torque_steel (N m)",
+                                   "change of current_steel (A)"),
+    )  # fmt: skip

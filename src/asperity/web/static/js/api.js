@@ -201,6 +201,10 @@ export function forgetCase(name) {
 const shipped = signal([]);
 get("shown/live/index.json").then((found) => (shipped.value = found), () => {});
 
+/** Answers that ship, of jobs: what was asked, and the folder they stand in. Asked for before any screen is there. */
+export const shippedJobs = signal([]);
+get("shown/index.json").then((found) => (shippedJobs.value = found), () => {});
+
 /** Where the answer to what is asked ships; "" where none does. */
 const shippedAt = (verb, text) => {
   const found = shipped.value.find((each) => each.verb === verb && JSON.stringify(each.body) === text);

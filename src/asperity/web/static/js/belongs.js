@@ -1,12 +1,13 @@
 /** Where a job belongs: its screen, and what stands in the address there. */
 import { axisFrom } from "./axes.js";
+import { ANY } from "./told.js";
 import { nameOf } from "./work.js";
 
 /** By command: the screen, and what tells the job from another of the command there. */
 const SCREENS = {
   sweep: ["sweep"], optimise: ["size"], flank: ["flanks"], directions: ["drive"], locking: ["drive"],
-  control: ["drive"],
-  rate: ["gear", () => "-report"], drive: ["drive", ({ options }) => (options?.static ? "-static" : "")],
+  rate: ["gear", () => "-report"], slide: ["slide", () => "-report"],
+  drive: ["drive", ({ options }) => (options?.static ? "-static" : "")],
   block: ["block", ({ settings }) => `-${settings?.["solve.method"]}`],
   "rig reduce": ["rig"], "rig import": ["rig"], "rig run": ["rig"], fit: ["rig"],
 };
@@ -19,8 +20,10 @@ const RIG = "disc-on-disc";
  * @returns {{screen: string, params: Record<string, string>} | null}
  */
 export function belongsTo({ id, asked, files }, jobs) {
-  const [screen, slot] = SCREENS[asked?.command] ?? [];
-  if (!screen) return null;
+  if (!asked) return null;
+  const [screen, slot] = SCREENS[asked.command] ?? [];
+  // What has no screen of its own is told as its command tells it.
+  if (!screen) return { screen: "answer", params: { [`job-${ANY}`]: `${id}.` } };
   const { command, settings = {}, options = {}, arguments: given = {} } = asked;
   // A block's method is set by its screen.
   const own = Object.entries(settings).filter(([path]) => command !== "block" || path !== "solve.method");

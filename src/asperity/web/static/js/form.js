@@ -146,18 +146,25 @@ export function Form({ tables, brief = false }) {
       ${brief ? null : html`<p class="says">${meaning}</p>`}
       ${keys.filter(said).map(field)}
       ${others.length
-        ? html`<details><summary>${others.length} more</summary>${others.map(field)}</details>`
+        ? html`<${Unfolded} says=${`${others.length} more`} made=${() => others.map(field)} />`
         : null}
     </fieldset>`;
   });
 }
 
-/** Every key of some tables, made when it is opened: a slider that is dragged draws none of them. */
-export function AllKeys({ tables, brief }) {
+/**
+ * What is folded away, made when it is opened: a slider that is dragged draws none of it.
+ * @param {{says: string, made: () => any}} props
+ */
+export function Unfolded({ says, made }) {
   const [open, setOpen] = useState(false);
-  return html`<details onToggle=${(event) => setOpen(event.target.open)}><summary>every key of the case</summary>
-    ${open ? html`<${Form} tables=${tables} brief=${brief} />` : null}</details>`;
+  return html`<details onToggle=${(event) => event.target.open !== open && setOpen(event.target.open)}>
+    <summary>${says}</summary>${open ? made() : null}</details>`;
 }
+
+/** Every key of some tables. */
+export const AllKeys = ({ tables, brief }) => html`<${Unfolded} says="every key of the case"
+  made=${() => html`<${Form} tables=${tables} brief=${brief} />`} />`;
 
 /** What is set, folded away at first where there is room for one column only. */
 export const Folded = ({ children }) => html`<details open=${innerWidth > 900}>

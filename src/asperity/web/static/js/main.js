@@ -1,7 +1,7 @@
 /** The list of screens, and the one that is open. */
 import { html, render, signal, useEffect } from "../vendor/preact.js";
 import { about, loadAbout, loadForms } from "./api.js";
-import { App } from "./shell.js";
+import { App, HIDDEN } from "./shell.js";
 import { handed, route, whenHanded } from "./state.js";
 
 /** In the order in which they are offered. @type {import("./shell.js").Listed[]} */
@@ -17,6 +17,8 @@ const SCREENS = [
   { name: "rig", title: "Rig", kind: "rig", group: "Measured and published" },
   { name: "thesis", title: "Thesis", kind: "", group: "Measured and published" },
   { name: "jobs", title: "Jobs", kind: "", group: "What runs" },
+  // Opened from the list of jobs.
+  { name: "answer", title: "Answer", kind: "", group: HIDDEN },
 ].map((screen) => ({ ...screen, load: () => import(`./screens/${screen.name}.js`) }));
 
 // The screen that stands in the address is on its way before anything is known.

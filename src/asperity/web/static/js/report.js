@@ -25,8 +25,8 @@ export function Report({ work, files = false }) {
     wanted.current = true;
     start();
   };
-  return html`<button type="button" disabled=${running || !can} onClick=${ask}
-      title=${there ? TITLE : `${TITLE}; it is solved first`}>
+  return html`<button type="button" disabled=${running || !(can || there)} onClick=${ask}
+      title=${there ? TITLE : can ? `${TITLE}; it is solved first` : `${TITLE}; there is nothing to solve yet`}>
       ${running && wanted.current ? "report is being written" : "report"}</button>
     ${there && files ? html`<${Files} job=${job} />` : null}`;
 }

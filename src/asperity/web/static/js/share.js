@@ -6,7 +6,7 @@ import { download } from "./figure.js";
 const STYLES = ["style.css", "gear.css", "stage.css"];
 /** What of a screen is of use with a server only. */
 const OF_SERVER = ".controls, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav,"
-  + " .choice, .passing, .grip, .drop, .of-server, .on-paper, label:has(input), label:has(select)";
+  + " .choice, .passing, .to-press, .grip, .drop, .of-server, .on-paper, label:has(input), label:has(select)";
 /** What a file has at most, bytes: so much is sent by every means. */
 const MOST = 1_950_000;
 const POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";

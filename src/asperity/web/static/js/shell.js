@@ -11,6 +11,9 @@ import { visited } from "./visited.js";
  *   load: () => Promise<{view: () => any}>}} Listed a screen; `kind` of the cases it opens
  */
 
+/** The group of screens that stand in no list. */
+export const HIDDEN = "hidden";
+
 /** What was just done, for a moment. */
 const said = signal("");
 /** Whether a file of the screen is being made. */
@@ -74,7 +77,7 @@ export function App({ screens, children }) {
       skip to the answer</button>
     <nav aria-label="screens">
       <p class="brand"><img src="icon.svg" alt="" width="22" height="22" /> asperity</p>
-      ${[...new Set(screens.map(({ group }) => group))].map((group) => html`
+      ${[...new Set(screens.map(({ group }) => group))].filter((group) => group !== HIDDEN).map((group) => html`
         <div class="group" key=${group}>${group ? html`<p>${group}</p>` : null}
           <ul>${screens.filter((each) => each.group === group).map(link)}</ul></div>`)}
     </nav>

@@ -1,6 +1,7 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
-import { html, signal, useEffect, useState } from "../vendor/preact.js";
-import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, useAsked, useLive } from "./api.js";
+import { html, useEffect, useState } from "../vendor/preact.js";
+import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, shippedJobs, useAsked,
+  useLive } from "./api.js";
 import { download } from "./figure.js";
 import { Notes } from "./shell.js";
 import { route, setParam } from "./state.js";
@@ -30,10 +31,6 @@ export function nameOf(body) {
   return sum.toString(36);
 }
 
-/** Answers that ship, of what the screens open with: what was asked, and the folder they stand in. */
-const shipped = signal([]);
-get("shown/index.json").then((found) => (shipped.value = found), () => {});
-
 /** What a case is called on the page. */
 const aliasOf = (name) => about.value?.cases.find((each) => each.name === name)?.alias || name;
 
@@ -47,7 +44,7 @@ function exampleOf(asked, slot, any) {
   const named = (name) => about.value?.cases.find(({ alias }) => alias && alias === name)?.name ?? name;
   // What was read from a file is an answer to no other.
   const kind = ({ command, options, arguments: given }) => nameOf({ command, options, given });
-  const alike = shipped.value.filter((each) => each.slot === slot && kind(each.asked) === kind(asked));
+  const alike = shippedJobs.value.filter((each) => each.slot === slot && kind(each.asked) === kind(asked));
   const own = alike.find((each) => named(each.asked.case) === named(asked.case));
   const found = own ?? (any ? alike[0] : null);
   const same = own && nameOf({ ...own.asked, case: asked.case });
@@ -56,7 +53,7 @@ function exampleOf(asked, slot, any) {
 
 /** The answer that ships for a command, whatever is set: its id and what it is; null until it is there, or unwanted. */
 export function useShipped(command, wanted) {
-  const example = wanted && shipped.value.find(({ asked }) => asked.command === command);
+  const example = wanted && shippedJobs.value.find(({ asked }) => asked.command === command);
   const id = example ? `shown/${example.at}` : "";
   const data = useAsked(id && answerOf(id), (leave) => get(answerOf(id), leave)).found;
   return data && { ...example, id, data };
@@ -143,6 +140,17 @@ export function useTaken(work, command, body) {
   return work.stale ? now : { ...now, ...work.data };
 }
 
+/** Whether something has been there and was drawn: what stands below it waits for that. @param {boolean} there */
+export function useAfter(there) {
+  const [drawn, setDrawn] = useState(false);
+  useEffect(() => {
+    if (!there) return;
+    const frame = requestAnimationFrame(() => setTimeout(() => setDrawn(true)));
+    return () => cancelAnimationFrame(frame);
+  }, [there]);
+  return drawn;
+}
+
 /** Variables of what a job left, null until they are there. @param {Job} work */
 export function useData({ from, job }, names) {
   const path = from && (isShipped(from) || job?.state === "done") ? dataOf(from, names) : "";
@@ -158,7 +166,7 @@ export function lasting(seconds) {
 }
 
 /** Draw anew every second while something goes on. */
-function useTicking(on) {
+export function useTicking(on) {
   const [, setCount] = useState(0);
   useEffect(() => {
     const timer = on ? setInterval(() => setCount((old) => old + 1), 1000) : 0;

@@ -1,6 +1,6 @@
 /** A worm gearset under load and shaken: what the motor is spared, and what that costs. */
 import { html, useMemo } from "../../vendor/preact.js";
-import { useLive } from "../api.js";
+import { useAsked, useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
 import { span } from "../colours.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
@@ -15,7 +15,7 @@ import { route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { firstError, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -153,13 +153,21 @@ function Locking({ answer, found, data }) {
     ]} />` : null}`;
 }
 
+/** What is further asked, loaded once the screen stands. */
+function Later(given) {
+  const { found } = useAsked("further", () => import("../further.js"));
+  return found ? html`<${found.Further} ...${given} />` : null;
+}
+
 export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: {} } : null;
   const shaken = useJob("drive", body, "", true);
-  const loaded = useJob("drive", body && { ...body, options: { static: true } }, "-static", true);
-  const ways = useJob("directions", body, "", true);
-  const held = useJob("locking", body, "", true);
+  // The answer and its picture come first, what stands below them after that.
+  const below = useAfter(Boolean(shaken.data || shaken.error || shaken.job)) ? body : null;
+  const loaded = useJob("drive", below && { ...below, options: { static: true } }, "-static", true);
+  const ways = useJob("directions", below, "", true);
+  const held = useJob("locking", below, "", true);
   const { geometry } = useLive("rate", body && { case: name, settings }, 200).data?.answer ?? {};
   const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const mode = useValue("vibration.mode").text;
@@ -199,6 +207,7 @@ export function view() {
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
           says="A minute or several: it is marched at several amplitudes.">
         ${held.data ? html`<${Locking} answer=${held.data.answer} found=${holding} data=${creep} />` : null}<//>
+      ${below ? html`<${Later} name=${name} settings=${settings} />` : null}
     </section></div>
   <//>`;
 }

@@ -76,10 +76,12 @@ function Travel({ error, setAll }) {
 /** The ratio; another one is a question for Size, with the torque and speed that are set. */
 function Ratio({ geometry }) {
   const [torque, speed] = ["output_torque", "worm_speed"].map((key) => useValue(`operation.${key}`).text);
-  const ask = (ratio) => go("size", { ...caseParams(route.peek().params), ratio, output_torque: torque,
+  // What is set may not be known yet, though an answer that ships is shown.
+  const ask = (ratio) => torque && go("size", { ...caseParams(route.peek().params), ratio, output_torque: torque,
     worm_speed: speed });
   return html`<div class="field"><label for="ratio">ratio</label>
-    <${Box} id="ratio" text=${geometry ? digits(geometry.gear_ratio) : ""} onSet=${ask} describedby="ratio-says" />
+    <${Box} id="ratio" text=${geometry && torque ? digits(geometry.gear_ratio) : ""} onSet=${ask}
+      describedby="ratio-says" />
     <p class="says" id="ratio-says">another ratio: gearsets that hold at this torque and speed are proposed</p></div>`;
 }
 

@@ -1,10 +1,11 @@
 /** What runs, what waits and what is done, with its files. */
 import { html, useEffect, useRef, useState } from "../../vendor/preact.js";
-import { fetchRaw, get, post, remove, useAddress, useAsked } from "../api.js";
+import { get, post, remove } from "../api.js";
 import { belongsTo } from "../belongs.js";
 import { copy, Screen } from "../shell.js";
 import { address, go } from "../state.js";
-import { Files, left, placeOf } from "../work.js";
+import { Drawn } from "../told.js";
+import { Files, left } from "../work.js";
 
 /** In the order in which they are listed; what waits stands beside what runs. */
 const SIGNS = { running: "▶", queued: "…", stopped: "❚❚", done: "✓", failed: "✗" };
@@ -41,21 +42,10 @@ export function view() {
   <//>`;
 }
 
-/** A small picture of what a job left, fetched once it is seen; nothing where it left none. */
+/** A small picture of what a job left; nothing where it left none. */
 function Picture({ job: { id, command, case: name, files, state } }) {
-  const box = useRef(null);
-  const [seen, setSeen] = useState(false);
   const file = state === "done" ? files.find((each) => each.endsWith(".png")) : "";
-  useEffect(() => {
-    if (!box.current) return;
-    const watch = new IntersectionObserver(([entry]) => entry.isIntersecting && setSeen(true));
-    watch.observe(box.current);
-    return () => watch.disconnect();
-  }, [file]);
-  const path = seen && file ? placeOf(id, encodeURIComponent(file)) : "";
-  const source = useAddress(useAsked(path, async (leave) => (await fetchRaw(path, leave)).blob()).found);
-  return file ? html`<div class="small" ref=${box}>
-    ${source ? html`<img src=${source} alt=${`what ${command} ${name} drew`} />` : null}</div>` : null;
+  return file ? html`<${Drawn} id=${id} file=${file} kind="small" alt=${`what ${command} ${name} drew`} />` : null;
 }
 
 function Job({ job, jobs, act }) {

@@ -248,7 +248,7 @@ function Curves({ k, ratio, failed }) {
       marks=${failed || ratio === undefined || ratio === null ? [] : [{ x: at, y: ratio }]} />` : null}
     ${curve && ratio !== null ? html`<${Best} curve=${curve} ratio=${ratio} over=${over} pick=${pick} />` : null}
     <p class="says">${shaky.length ? "Shaded: no stable state was found there. " : ""}
-      Click into the curve to go there.</p>
+      <span class="to-press">Click into the curve to go there.</span></p>
   </section>`;
 }
 

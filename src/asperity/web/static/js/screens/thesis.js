@@ -56,9 +56,9 @@ export function view() {
               ${" "}${said} ${key === "all" ? ledger.claims.length : count(ledger.claims, key)}</label>`)}
           </fieldset>
         </div>
-        <p class="says">${ledger.read}</p>
+        <details class="says"><summary>what was read</summary><p>${ledger.read}</p></details>
         <p class="says" role="status">${claims.length} of ${ledger.claims.length} claims,
-          ${" "}${figures.length} of ${ledger.figures.length} figures.
+          ${" "}${figures.length} of ${ledger.figures.length} figures.${" "}
           <span class="of-server">${unmade(ledger)}</span></p>
       </section>
       ${chapters.map((chapter) => html`<${Chapter} key=${chapter.number} ...${chapter} />`)}`

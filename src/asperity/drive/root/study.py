@@ -1,0 +1,84 @@
+"""The command `roots`: stresses at the fillets of a loaded wheel's teeth over a pitch."""
+
+import numpy as np
+
+from asperity.casefile import Case
+from asperity.drive.friction import rating_inputs
+from asperity.drive.lacking import require_all
+from asperity.drive.problem import DriveProblem
+from asperity.drive.root.loads import loads_of
+from asperity.drive.root.model import COARSER, COUNTS, TEETH, RootModel, Roots
+from asperity.drive.root.result import Largest, RootStress
+from asperity.drive.static.solve import StaticModel
+from asperity.drive.teeth.sector import right_handed
+from asperity.errors import InputError
+from asperity.rating.parameters import RatingOptions
+from asperity.rating.standards import rate_by, tables_of
+from asperity.runs import Run
+
+
+def prepare(case: Case) -> DriveProblem:
+    """Return what is loaded.
+
+    Parameters
+    ----------
+    case : Case
+        Of a gearset's drive; its vibration counts for nothing.
+
+    Raises
+    ------
+    InputError
+        Something of a drive is missing.
+    """
+    require_all(case, shaken=False)
+    return DriveProblem.from_case(case, shaken=False)
+
+
+def answer(problem: DriveProblem, run: Run) -> RootStress:
+    """Find the stresses at the roots of all teeth that bear, at each phase of a pitch.
+
+    Raises
+    ------
+    InputError
+        There is no such wheel or mesh, or the teeth cannot carry the torque.
+    ConvergenceError
+        No balance was found.
+    """
+    run.forecast(60.0, "loads and two meshes")
+    with run.interruptible():
+        static = StaticModel(problem, run)
+        loads = loads_of(static)
+        run.checkpoint(1, 3, what="meshes")
+        wheel = right_handed(static.sector.wheel)
+        teeth = min(TEETH, static.sector.teeth)
+        models = []
+        found: list[Roots] = []
+        for done, counts in enumerate((COARSER, COUNTS)):
+            model = RootModel(wheel, problem.gearset.wheel_material, counts, teeth)
+            surface = static.sector.surface
+            nodal = np.column_stack([model.nodal(surface, load.forces) for load in loads])
+            found.append(model.solve(nodal))
+            models.append(model)
+            run.checkpoint(2 + done, 3, what="meshes")
+    coarse, fine = found
+    worst = Largest.of(models[1], fine)
+    before = Largest.of(models[0], coarse)
+    shear, safety = _nominal(problem)
+    return RootStress.of(
+        problem, models[1], fine, loads, worst, before.tension / worst.tension - 1.0,
+        static.phases, shear, safety,
+    )  # fmt: skip
+
+
+def _nominal(problem: DriveProblem) -> tuple[float | None, float | None]:
+    """Return the nominal shear stress at the root by ISO/TR 14521, Pa, and its safety, if any."""
+    case = problem.case
+    assert case is not None
+    try:
+        options = case.get(RatingOptions, RatingOptions())
+        rated = rate_by("iso14521", rating_inputs(case), tables_of(options, case.folder))
+    except InputError:
+        return None, None
+    if "tau_F_MPa" not in rated or "S_F" not in rated:
+        return None, None
+    return 1e6 * float(rated["tau_F_MPa"]), float(rated["S_F"])

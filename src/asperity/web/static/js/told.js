@@ -1,0 +1,51 @@
+/** An answer as its command tells it: sentences, tables with what is said below them, pictures. */
+import { html, useEffect, useRef, useState } from "../vendor/preact.js";
+import { fetchRaw, useAddress, useAsked } from "./api.js";
+import { inWords, symbol } from "./symbols.js";
+import { Table } from "./table.js";
+import { placeOf } from "./work.js";
+
+/** What stands for the command of a job of any. */
+export const ANY = "any";
+
+/**
+ * A picture that a job left, fetched once it is seen.
+ * @param {{id: string, file: string, alt: string, kind: string}} props
+ */
+export function Drawn({ id, file, alt, kind }) {
+  const box = useRef(null);
+  const [seen, setSeen] = useState(false);
+  useEffect(() => {
+    if (!box.current) return;
+    const watch = new IntersectionObserver(([entry]) => entry.isIntersecting && setSeen(true));
+    watch.observe(box.current);
+    return () => watch.disconnect();
+  }, [file]);
+  const path = seen ? placeOf(id, encodeURIComponent(file)) : "";
+  const source = useAddress(useAsked(path, async (leave) => (await fetchRaw(path, leave)).blob()).found);
+  return html`<div class=${kind} ref=${box}>${source ? html`<img src=${source} alt=${alt} />` : null}</div>`;
+}
+
+/** @param {{title: string, columns: any[], rows: string[][], remarks: string[], name: string}} props */
+function One({ title, columns, rows, remarks, name }) {
+  const cell = ({ typeset }, at) => (row) => (typeset ? symbol(row[at]) : inWords(row[at]));
+  const shown = columns.map((one, at) => [inWords(one.heading), cell(one, at), one.right ? "right" : at ? "" : "row"]);
+  return html`${rows.length ? html`<${Table} kind="of-command" caption=${title && inWords(title)} columns=${shown}
+      rows=${rows} region=${title || name} wide="whole" />` : title ? html`<p><b>${inWords(title)}</b></p>` : null}
+    ${remarks.length ? html`<ul class="says">${remarks.map((each) =>
+      html`<li key=${each}>${inWords(each)}</li>`)}</ul>` : null}`;
+}
+
+/** What a job's command tells. @param {{work: import("./work.js").Job}} props */
+export function Told({ work }) {
+  const { told } = work.data ?? {};
+  const pictures = work.job?.files?.filter((each) => each.endsWith(".png")) ?? [];
+  const named = (file) => file.replace(/\.png$/, "").replaceAll(/[-_]/g, " ");
+  if (!told) return null;
+  const said = (text) => inWords(text.charAt(0).toUpperCase() + text.slice(1));
+  return html`${told.sentences.map((each, at) => html`<p class=${at ? "" : "big"} key=${each}>${said(each)}</p>`)}
+    ${told.tables.map((each, at) => html`<${One} key=${at} ...${each} name=${`table ${at + 1}`} />`)}
+    <div class="grid">${pictures.map((file) => html`<figure class="plot" key=${file}>
+      <figcaption>${named(file)}</figcaption>
+      <${Drawn} id=${work.id} file=${file} kind="drawn-by" alt=${`${named(file)}, drawn`} /></figure>`)}</div>`;
+}

@@ -1,0 +1,91 @@
+"""What is told of settings, of forms of one thing, and in which units and language."""
+
+import pytest
+
+STEP = "spectrum.step=60 N m, 700 rpm, 10 h"
+CLASS = "spectrum.duty_class=EN 15714-2 A"
+
+
+@pytest.mark.parametrize(
+    ("command", "first", "later", "table"),
+    [
+        (("rate", "gearset-3"), STEP, CLASS, "spectrum"),
+        (("rate", "gearset-3"), CLASS, STEP, "spectrum"),
+        (("rate", "gearset-3"), "tolerances.fit=C", "tolerances.thread=['-40 um','-70 um']",
+         "tolerances"),
+        (("size", "--ratio", "50", "--output-torque", "60 N m", "--worm-speed", "700 rpm",
+          "--uncut"), STEP, CLASS, "spectrum"),
+    ],
+)  # fmt: skip
+def test_a_setting_that_gives_way_to_another_form_is_named(asperity, command, first, later, table):
+    more = ("--set", "tolerances.tooth=['-50 um','-100 um']") if table == "tolerances" else ()
+    code, _, errors = asperity(*command, "--set", first, "--set", later, *more)
+    # The fit and the tooth's allowances are two forms as well.
+    assert code == 0 or "tolerances" in errors
+    assert f"--set {first} gives way to --set {later}: [{table}] takes one of them" in errors
+    code, _, errors = asperity(*command, "--set", later)
+    assert "gives way" not in errors
+
+
+def test_ways_to_find_a_temperature_that_is_given_are_refused(asperity):
+    settings = ("--set", "operation.oil_temperature=60 degC")
+    code, _, errors = asperity(
+        "rate", "actuator-duty", *settings, "--set", "spectrum.oil_temperature=mean"
+    )
+    assert code == 2
+    assert "spectrum.oil_temperature is 'mean', and operation.oil_temperature 60 degC" in errors
+    assert len(errors.strip().splitlines()) == 1
+    code, _, errors = asperity("rate", "actuator-duty", *settings)
+    assert code == 0, errors
+
+
+def test_teeth_and_starts_that_are_held_are_the_ratio(asperity):
+    asked = ("size", "--output-torque", "250 N m", "--worm-speed", "1400 rpm", "--uncut", "--json",
+             "--set", "gearset.wheel_teeth=41")  # fmt: skip
+    code, output, errors = asperity(*asked, "--set", "gearset.starts=2")
+    assert code == 0, errors
+    assert '"wheel_teeth": 41' in output
+    code, _, errors = asperity(*asked)
+    assert code == 2
+    assert "ratio is missing" in errors
+
+
+def test_cases_side_by_side_are_in_the_units_and_language_that_are_asked_for(asperity):
+    cases = ("compare", "gearset-2", "gearset-3")
+    code, output, errors = asperity(*cases, "--units", "us", "--language", "de")
+    assert code == 0, errors
+    rows = {line.split("  ")[0]: line.split() for line in output.splitlines() if line}
+    assert rows["Achsabstand"][1:] == ["in", "2.369", "2.95"]
+    assert rows["Ölsumpf"][1] == "degF"
+    assert "gearset-2: hält nicht nach ISO/TR 14521" in output
+    code, plain, _ = asperity(*cases)
+    assert "centre distance" in plain
+    assert "60.17" in plain
+    told = [asperity(*cases, "--json", *more)[1] for more in ((), ("--units", "us"))]
+    assert told[0] == told[1]
+    code, _, errors = asperity(*cases, "--units", "uk")
+    assert code == 2
+    assert "--units uk: it must be one of" in errors
+
+
+def test_what_a_case_lacks_is_said_in_the_language_that_is_asked_for(asperity, tmp_path):
+    code, output, errors = asperity("check", "gearset-3", "--language", "de")
+    assert code == 0, errors
+    assert output.startswith("gearset-3: keine Fehler; asperity rate")
+    (tmp_path / "own.toml").write_text('[project]\nlanguage = "de"\n[gearset]\nstarts = 1\n')
+    code, output, _ = asperity("check", str(tmp_path / "own.toml"))
+    assert code == 2
+    assert "gearset.wheel_teeth fehlt" in output
+
+
+def test_a_wheel_that_no_standard_rates_is_not_sized(asperity, tmp_path):
+    code, _, errors = asperity("new", "plastic", "pom.toml", cwd=tmp_path)
+    assert code == 0, errors
+    code, _, errors = asperity(
+        "--materials", "pom.toml", "size", "--ratio", "40", "--output-torque", "5 N m",
+        "--worm-speed", "1000 rpm", "--uncut", "--set", "gearset.wheel_material=my POM",
+        "--set", "operation.oil_temperature=60 degC", cwd=tmp_path,
+    )  # fmt: skip
+    assert code == 2
+    assert "gearsets are proposed by the efficiency of ISO/TR 14521: gearset.wheel_mat" in errors
+    assert len(errors.strip().splitlines()) == 1
