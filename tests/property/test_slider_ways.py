@@ -308,7 +308,7 @@ def check_finer_steps(seed, count, folder, method, **options):
         given = answered(lot, folder, **settings)
         if given is None:
             continue
-        settings["step"] = f"{given.model.step / 4.0!r} s"
+        settings["step"] = f"{given.model.step / given.model.finer / 4.0!r} s"
         finer = answered(lot, folder, **settings)
         if finer is None or not (given.settled and finer.settled) or given.notes != finer.notes:
             continue

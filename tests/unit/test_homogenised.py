@@ -110,6 +110,15 @@ def test_one_velocity_has_the_force_that_it_has_among_others(law):
         law(math.nan)
 
 
+@pytest.mark.parametrize(("times", "force"), [(0.5, 3.14), (6.0, None)])
+def test_a_body_that_friction_could_carry_along_is_told_to_have_another_state(times, force):
+    # Its inertia is 2 pi 4000/s 0.5 kg v_a; friction has 5.5 N at most.
+    model = body("table-4.3", "solve.method=homogenised", f"vibration.velocity_ratio={times}")
+    told = [note for note in solve(model, history=False).notes if "carry the body along" in note]
+    assert len(told) == (force is not None)
+    assert all("5.5 N at its limit" in note and f"takes {force} N" in note for note in told)
+
+
 def test_the_law_of_a_sampled_wave_turns_with_the_base(tmp_path):
     # F(-v) is -F(v) under a vibration turned by half a turn; this wave shows the difference.
     turn = np.linspace(0.0, 2.0 * math.pi, 61)

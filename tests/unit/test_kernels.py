@@ -38,7 +38,6 @@ ROOM_OF_THEIR_OWN = {
     "asperity.slider.held_kernels.carry",
     "asperity.slider.kernels.march_stretches",
     "asperity.slider.on_twice._moved",
-    "asperity.slider.on_twice._halves",
     "asperity.slider.on_twice._pairs",
     "asperity.slider.search_room.room_for",
     "asperity.slider.shooting.run",

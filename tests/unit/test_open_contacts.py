@@ -55,7 +55,7 @@ def body(folder, text, *settings):
     return Model.from_case(read_case(path, TABLES, settings))
 
 
-@pytest.mark.parametrize(("keeps", "ratio"), [("stiffness", 0.106), ("deflection", 0.304)])
+@pytest.mark.parametrize(("keeps", "ratio"), [("stiffness", 0.106), ("deflection", 0.3030)])
 def test_an_open_contact_lets_its_asperity_go_under_lugre_as_under_dahl(tmp_path, keeps, ratio):
     lugre, dahl = (
         solve(
@@ -65,7 +65,7 @@ def test_an_open_contact_lets_its_asperity_go_under_lugre_as_under_dahl(tmp_path
         for model in ("lugre", "dahl")
     )
     assert lugre == pytest.approx(dahl, rel=2e-3)
-    assert dahl == pytest.approx(ratio, rel=5e-3)
+    assert dahl == pytest.approx(ratio, rel=5e-3 if keeps == "stiffness" else 1e-3)
 
 
 def test_halves_of_an_odd_number_of_cycles_are_of_whole_cycles(tmp_path):

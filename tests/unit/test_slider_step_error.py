@@ -5,8 +5,10 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.runs import Run
-from asperity.slider import TABLES, Model, solve
+from asperity.slider import TABLES, Model, solve, step_error
 from asperity.slider.continuation import Walk, follow
+from asperity.slider.cycle_map import Cycle
+from asperity.slider.periodic import cycle_steps, settle
 from asperity.slider.step_error import WANTED
 from asperity.sweep.branches import answer, prepare
 
@@ -75,3 +77,63 @@ def test_branches_tell_each_state_s_error_and_in_one_note_that_the_given_step_is
     (note,) = (note for note in found.notes if "the step makes" in note)
     assert f"in {2 * sum(great)} of 6 states" in note
     assert found.to_json()["step_error"][1] == found.step_error[1].tolist()
+
+
+def at_its_state(*settings, name="table-4.3"):
+    model = Model.from_case(read_case(name, TABLES, ["solve.method=periodic", *settings]))
+    steps = cycle_steps(model)
+    cycle = Cycle(model, steps, 1.0 / (steps * model.frequency))
+    assert settle(cycle)[0]
+    return model, cycle
+
+
+@pytest.mark.parametrize(
+    ("name", "settings"),
+    [
+        ("table-4.3", ("friction.contact_damping=20 N s/m", "friction.model=lugre")),
+        ("normal-pin", ()),
+        # The wave normal to the plane has its corners elsewhere, which steps miss by a little.
+        ("normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg")),
+    ],
+)
+def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):
+    _, cycle = at_its_state(*settings, "vibration.waveform=triangle", name=name)
+    found = step_error._closed(step_error._on_half(cycle), cycle.jacobian)
+    foreseen = step_error._foreseen(cycle, cycle.jacobian, cycle.slopes)
+    here = step_error._ratio(cycle)
+    assert abs(found - here) > 1e-7
+    assert foreseen - here == pytest.approx(found - here, rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("first", "ratio", "enough"),
+    [(1e-6, 2e-6, True), (1e-2, 2e-2, False), (2e-5, 1e-6, False), (1e-8, 1e-9, True)],
+)
+def test_it_is_found_in_full_where_one_cycle_may_not_be_enough(monkeypatch, first, ratio, enough):
+    _, cycle = at_its_state("vibration.waveform=triangle")
+    here = step_error._ratio(cycle)
+    told = here + first, here + ratio
+    monkeypatch.setattr(step_error, "predicted_on_half", lambda *given: told)
+    foreseen = step_error._foreseen(cycle, cycle.jacobian, cycle.slopes)
+    assert (foreseen is not None) == enough
+
+
+def test_of_coulomb_that_stops_at_corners_more_is_told_than_of_order_two():
+    coulomb, _ = at_its_state("vibration.waveform=triangle", "friction.model=coulomb")
+    dahl, _ = at_its_state("vibration.waveform=triangle")
+    assert step_error._part_of_difference(coulomb) == 2.0
+    assert step_error._part_of_difference(dahl) == pytest.approx(4.0 / 3.0)
+
+
+def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch):
+    monkeypatch.setattr(step_error, "_closed", lambda *given: 5.0)
+    monkeypatch.setattr(step_error, "_cycles_again", lambda *given: 1.25e-5)
+    case = read_case("table-4.3", TABLES, ["solve.duration=0.6 s"])
+    assert solve(Model.from_case(case), history=False).step_error == 1.25e-5
+
+
+def test_where_no_state_is_next_to_it_one_is_searched(monkeypatch):
+    model, cycle = at_its_state("vibration.waveform=triangle")
+    told = step_error.error_of_state(cycle, model)
+    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: None)
+    assert step_error.error_of_state(cycle, model) == pytest.approx(told, rel=0.05)

@@ -61,18 +61,33 @@ class Cycle:
         self.residual = math.inf
         self.run = 0
         self.period = 1
-        still = np.zeros(steps + 1)
-        shaken = model.vibrates
-        self.increments = cycle_of_wave(model.wave(step, lead=phase), steps) if shaken else still
-        self.rises = still
         self.springs = np.zeros((2, 0))
         self.q = None
         if isinstance(self.body, LoadedIntegrator):
             self.q, self.springs = self.body.q, self.body.kept["springs"]
-            if shaken:
-                lead = phase + model.normal_lead
-                self.rises = cycle_of_wave(model.wave(step, lead=lead), steps)
+        self.increments, self.rises = self.waves(steps, step)
+        if isinstance(self.body, LoadedIntegrator):
             self.body.place(1.0, ramped=False)
+
+    def waves(self, steps: int, step: float) -> tuple[FloatArray, FloatArray]:
+        """Return increments in the plane and up over steps in s, and over one of the next cycle."""
+        model = self.body.model
+        still = np.zeros(steps + 1)
+        if not model.vibrates:
+            return still, still
+        along = cycle_of_wave(model.wave(step, lead=self.phase), steps)
+        if self.q is None:
+            return along, still
+        lead = self.phase + model.normal_lead
+        return along, cycle_of_wave(model.wave(step, lead=lead), steps)
+
+    def halves(self) -> tuple[FloatArray, FloatArray]:
+        """Return the same over half the steps, which end nearer to corners that steps miss."""
+        steps = (self.increments.size - 1) // self.period
+        along, up = self.waves(2 * steps, 0.5 * self.step)
+        if self.period == 1:
+            return along, up
+        return _repeated(along, self.period), _repeated(up, self.period)
 
     @property
     def at_the_limit(self) -> bool:

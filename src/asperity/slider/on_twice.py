@@ -22,19 +22,10 @@ def _pairs(increments):
 
 
 @kernel
-def _halves(increments):
-    """Increments over halves of steps in which velocities are constant, of a wave with corners."""
-    halves = np.empty(2 * increments.size - 1)
-    for i in range(halves.size):
-        halves[i] = 0.5 * increments[i // 2]
-    return halves
-
-
-@kernel
 def _moved(start, springs, p, q, increments, rises, sums, longer):
     """What `close` takes of the body on steps that are longer, twice or half: copies.
 
-    Of twice the steps are even.
+    Increments are those over the first, an even number, for twice, and those over the halves else.
     """
     states, records, held = np.empty_like(start), np.empty_like(sums), np.empty_like(springs)
     states[0] = start[0]
@@ -47,11 +38,11 @@ def _moved(start, springs, p, q, increments, rises, sums, longer):
     gained = half * other.mobility_x * (state.drive_force - state.friction_x)
     state.velocity_x = longer * state.velocity_x + gained
     state.velocity_y = longer * state.velocity_y - half * other.mobility_y * state.friction_y
-    steps = _pairs(increments) if longer > 1.0 else _halves(increments)
+    steps = _pairs(increments) if longer > 1.0 else increments
     if q is None:
         return states, held, other, pressing, steps, steps, records
     state.rise *= longer
-    rise_steps = _pairs(rises) if longer > 1.0 else _halves(rises)
+    rise_steps = _pairs(rises) if longer > 1.0 else rises
     return states, held, other, pressing, steps, rise_steps, records
 
 
@@ -96,14 +87,13 @@ def _predicted(start, springs, p, q, increments, rises, sums, jacobian, slopes):
         room.defect,
     )  # fmt: skip
     first = mean_drive(sums, start[0], end[0], p)
-    if worst <= CLOSE:
-        return first, first
     for i in range(count):
         step[i] = -room.defect[i]
         for j in range(count):
             matrix[i, j] = jacobian[i, j]
     if not (worst < 1e300 and eliminate(matrix, step, count, 1e-14)):
-        return first, np.inf
+        # Found without Newton's method: it is in its state in a cycle, or goes there by itself.
+        return first, (first if worst <= CLOSE else np.inf)
     mean = first
     for i in range(count):
         mean += slopes[i] * step[i]
@@ -111,11 +101,11 @@ def _predicted(start, springs, p, q, increments, rises, sums, jacobian, slopes):
 
 
 @kernel
-def predicted_on_half(start, springs, p, q, increments, rises, sums, jacobian, slopes):
+def predicted_on_half(start, springs, p, q, halves, rise_halves, sums, jacobian, slopes):
     """Foresee the state on steps half as long, as `_predicted`; what is given is left as it is."""
-    states, held, shorter, pressing, halves, rise_halves, records = _moved(
-        start, springs, p, q, increments, rises, sums, 0.5
+    states, held, shorter, pressing, steps, rise_steps, records = _moved(
+        start, springs, p, q, halves, rise_halves, sums, 0.5
     )
     return _predicted(
-        states, held, shorter, pressing, halves, rise_halves, records[0], jacobian, slopes
+        states, held, shorter, pressing, steps, rise_steps, records[0], jacobian, slopes
     )

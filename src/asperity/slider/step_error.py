@@ -111,6 +111,8 @@ def error_of_state(cycle: Cycle, model: Model) -> float | None:
         return 0.0
     other = _closed_beside(cycle, cycle.jacobian, cycle.slopes)
     if other is None:
+        other = _found_beside(cycle)
+    if other is None:
         return _cycles_again(cycle, _CLOSING // 2)
     return abs(other - _ratio(cycle)) * _part_of_difference(model)
 
@@ -274,6 +276,16 @@ def _on_half(cycle: Cycle) -> Cycle:
     return half
 
 
+def _found_beside(cycle: Cycle) -> float | None:
+    """Return the ratio of the state on half the steps, searched with a Jacobian of its own."""
+    half = _on_half(cycle)
+    if not half.find(-1):
+        return None
+    # Of the difference to half the step, what stands for that to twice.
+    part = 1.0 if cycle.body.model.meets_corners else _of_the_error(cycle.body.model) + 1.0
+    return _ratio(cycle) + part * (_ratio(half) - _ratio(cycle))
+
+
 def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
     """Return the ratio of the state next to where a body is, which goes there; None if none is."""
     body = cycle.body
@@ -310,8 +322,8 @@ def _foreseen(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float |
     """
     body, here = cycle.body, _ratio(cycle)
     first, ratio = predicted_on_half(
-        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
-        body.kept["sums"], np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
+        body.kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), body.kept["sums"],
+        np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
     )  # fmt: skip
     most = WANTED * max(abs(here), _LEAST_RATIO) / _part_of_difference(body.model)
     apart = abs(first - here) + abs(ratio - first)
