@@ -32,6 +32,7 @@ def findings(of: Material) -> Iterator[Finding]:
         yield from _signs(of)
         yield from _teeth(of)
         yield from _supplied(of)
+        yield from _carried(of)
     elif of.windows:
         yield from _signs(of)
         yield from _torques(of)
@@ -279,8 +280,9 @@ def _carried(of: Material) -> Iterator[Finding]:
         ("steel", twin.motor_drag, carried), ("bronze", twin.bronze_drag, 0.0),
     ):  # fmt: skip
         name = f"current_{disc}"
-        # A drag that nobody told is not nothing.
-        if drag <= 0.0 or not of.has(name):
+        # A drag that nobody told is not nothing; a brake's coil drives nothing.
+        braked = disc == "bronze" and of.pair.geared
+        if drag <= 0.0 or braked or not of.has(name):
             continue
         current, wanted = _middle(of, name)[0], (drag + load) / twin.motor_constant
         if current < least_of(name) or _CARRIES[0] <= current / wanted <= _CARRIES[1]:
