@@ -306,6 +306,7 @@ def painted(page, chromium):
             shown = browser.new_page()
             shown.goto(address(page))
             shown.wait_for_selector("[data-key=ratio]")
+            shown.wait_for_selector("#slide-vibration-direction")
             shown.wait_for_timeout(1000)
             times = shown.evaluate(PAINTED, 60)[10:]
             empty = shown.evaluate(

@@ -108,7 +108,7 @@ def test_static_safety_is_judged_for_rollers_by_more_than_for_balls(run, tmp_pat
         for life in bearing["cases"].values()
     )
     assert (own["safety"], own["asked"], own["holds"]) == (least, 1.0, True)
-    assert own["by"].endswith("at 2.5 times the torque")
+    assert own["by"].endswith("at 2.5 T_2")
     # Without the balls on the wheel's shaft the rollers of B come nearest.
     text = run("cases", CASE).stdout.partition("[wheel_shaft]")[0]
     file = tmp_path / "rollers.toml"
@@ -116,6 +116,16 @@ def test_static_safety_is_judged_for_rollers_by_more_than_for_balls(run, tmp_pat
     own = at_rest(answer(run, "shafts", str(file)))
     assert own["asked"] == 1.5
     assert own["by"].startswith("worm bearing B")
+
+
+def test_what_is_not_given_of_shafts_is_named_on_the_screen(run, tmp_path):
+    assert "not given" not in run("rate", CASE).stdout
+    text = run("cases", CASE).stdout.partition("[wheel_shaft]")[0]
+    (tmp_path / "own.toml").write_text(text.replace('material = "42CrMo4"', ""), "utf-8")
+    said = run("rate", str(tmp_path / "own.toml")).stdout
+    assert "not given: wheel shaft, steel of the worm shaft, oil's cleanness" in said
+    code = run("rate", str(tmp_path / "own.toml"), "--language", "de")
+    assert "nicht gegeben: Radwelle, Stahl der Schneckenwelle, Reinheit des Öls" in code.stdout
 
 
 def test_a_bearing_that_does_not_bear_at_rest_fails_the_gearbox(run):

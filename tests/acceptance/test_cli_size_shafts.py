@@ -138,6 +138,15 @@ def duty_without_shafts():
     return values
 
 
+def test_what_is_not_given_of_shafts_is_told_with_the_proposals():
+    values = begun()
+    assert not any("not given" in note for note in proposals(values, RATIO).notes)
+    values.pop("wheel_shaft")
+    values["worm_shaft"].pop("material")
+    said = "not given: wheel shaft, steel of the worm shaft"
+    assert said in proposals(values, RATIO).notes
+
+
 def test_a_margin_that_is_asked_for_counts_for_shafts_too():
     values = begun(dynamic_rating="4 kN")
     free = proposals(values, RATIO).found[0]
@@ -220,6 +229,24 @@ def test_the_smallest_bearing_of_the_shelf_that_does_stands_where_none_is_named(
     assert code == 2
     assert "worm_shaft.bearing at 30 mm names none, and of the 1 of data files none has" in errors
     assert len(errors.strip().splitlines()) == 1
+
+
+@pytest.mark.slow
+def test_optimise_keeps_what_shafts_and_bearings_bear(asperity):
+    case = ("actuator-shafts", "--set", "worm_shaft.peak=15")
+    code, output, errors = asperity("optimise", *case, "--json")
+    assert code == 0, errors
+    told = json.loads(output)
+    for design in ("given", "optimum", "made"):
+        assert all(row["holds"] for row in told["rows"][design]), design
+    # Nearly all of what the worm's shaft has to spare is used up, and some of the efficiency lost.
+    least = next(row for row in told["rows"]["optimum"] if row["name"] == "worm shaft")
+    assert 1.2 <= least["safety"] < 1.25
+    (note,) = (note for note in told["notes"] if note.startswith("q_1 is held at"))
+    without = float(note.split()[-2])
+    assert told["given"]["iso14521"]["eta_z1_2"] < told["optimum"]["iso14521"]["eta_z1_2"]
+    assert 100.0 * told["optimum"]["iso14521"]["eta_z1_2"] < without
+    assert any("bounds are assumed" in note for note in told["notes"])
 
 
 def test_optimise_tells_what_shafts_and_bearings_come_to_with_its_design(asperity, tmp_path):

@@ -76,3 +76,16 @@ def test_what_a_case_lacks_is_said_in_the_language_that_is_asked_for(asperity, t
     code, output, _ = asperity("check", str(tmp_path / "own.toml"))
     assert code == 2
     assert "gearset.wheel_teeth fehlt" in output
+
+
+def test_a_wheel_that_no_standard_rates_is_not_sized(asperity, tmp_path):
+    code, _, errors = asperity("new", "plastic", "pom.toml", cwd=tmp_path)
+    assert code == 0, errors
+    code, _, errors = asperity(
+        "--materials", "pom.toml", "size", "--ratio", "40", "--output-torque", "5 N m",
+        "--worm-speed", "1000 rpm", "--uncut", "--set", "gearset.wheel_material=my POM",
+        "--set", "operation.oil_temperature=60 degC", cwd=tmp_path,
+    )  # fmt: skip
+    assert code == 2
+    assert "gearsets are proposed by the efficiency of ISO/TR 14521: gearset.wheel_mat" in errors
+    assert len(errors.strip().splitlines()) == 1

@@ -243,6 +243,8 @@ VIBRATIONS = (250.0, 500.0, 750.0, 1000.0, 2000.0, 3000.0)
 RATIOS = (0.31, 0.22, 0.1434, 0.23, 0.18, 0.61)
 """Of the torques at those frequencies, about what the thesis reports at 1 V."""
 TORQUE = 0.6448
+TAKEN = 1.0 / (30.0 * 0.7 * 0.0515)
+"""What gear and motor of `rig-final` take of current for the torque, A per N m."""
 _HELD = 2.86e-3  # velocity of the bronze disc's rim, m/s
 _SLIDING = {1.0: (2.5e-3, 5.5e-3), 3.0: (42e-3, 43e-3), 5.5: (90e-3, 90.5e-3)}
 _RADII = 0.030, 0.0225
@@ -275,6 +277,7 @@ def run_of(
             torque_steel=TORQUE * ratio,
             torque_bronze=pushed * ratio,
             speed_steel=speeds[1],
+            current_steel=quiet.current_steel - TAKEN * TORQUE * (1.0 - ratio),
             frequency=frequency,
             waveform=waveform,
         )

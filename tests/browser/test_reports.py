@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 HERE = Path(__file__).parent
 ASKED = {
     "slide": {"case": "body-shaken-along", "set.vibration.direction": "37 deg"},
-    "sweep": {"x": "vibration.velocity_ratio~1~8~3~log", "y": "none"},
+    "sweep": {"x": "vibration.velocity_ratio~2~8~3~log", "y": "none"},
     "gear": {"case": "worm-15-to-1"},
     "size": {"ratio": "20", "output_torque": "200 N m"},
     "thesis": {},

@@ -12,16 +12,17 @@ from pathlib import Path
 
 import pytest
 
-from asperity.casefile import read_case
+from asperity.casefile import Case, read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.flanks.export.rexs.document import read_document
 from asperity.flanks.export.rexs.export import answer, prepare
-from asperity.flanks.export.rexs.read import read_rexs
+from asperity.flanks.export.rexs.read import found_in, read_rexs
 from asperity.flanks.parameters import Disc, Hob, Mount
 from asperity.gearset import Gearset
-from asperity.rating import Operation, rate
+from asperity.rating import Operation, rate, rate_case
 from asperity.runs import Run
+from asperity.shafts import study
 
 FILES = Path(__file__).parents[1] / "rexs"
 EXAMPLE = FILES / "FVA_worm_stage_1-4.rexs"
@@ -285,3 +286,63 @@ def test_of_adjusted_bearings_each_takes_the_axial_force_one_way(arrangement, ta
     document = answer(given._replace(worm_shaft=shaft), Run()).document
     found = [one for one in document.components if one.type == "concept_bearing"][:2]
     assert [one.text("axial_force_absorption") for one in found] == takes
+
+
+CARRIED = ("actuator-shafts", "actuator-duty")
+
+
+@pytest.mark.parametrize("name", CARRIED)
+def test_what_the_format_has_no_place_for_comes_back(name, tmp_path):
+    settings = ["tolerances.grade=8", "blank.web_width=12 mm", "rating.friction_factor=1.1"]
+    case, path = written(name, tmp_path, settings)
+    found = found_in(read_document(path))
+    assert not found.remarks
+    back = Case("back", tmp_path, {}, found.tables, case_tables()).replace(())
+    for table in set(case.raw) - {"gearset", "operation", "project"}:
+        assert back.tables[table] == case.tables[table], table
+    before, after = rate_case(case), rate_case(back)
+    for standard, rating in before.found.items():
+        for entry in rating:
+            if isinstance(entry.value, float):
+                assert after.found[standard][entry.key] == pytest.approx(entry.value, rel=1e-9)
+
+
+def test_shafts_come_back_and_come_to_the_same(tmp_path):
+    case, path = written("actuator-shafts", tmp_path, [])
+    back = Case("back", tmp_path, {}, found_in(read_document(path)).tables, case_tables())
+    one, other = (study.answer(study.prepare(each), Run()) for each in (case, back.replace(())))
+    for row, own in zip(one.rows, other.rows, strict=True):
+        assert own.value == pytest.approx(row.value, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "gone"),
+    [
+        ("actuator-shafts", ">30.0<", ">32.0<", "[worm_shaft], [wheel_shaft], [bearings]"),
+        ("actuator-duty", ">1400.0<", ">1200.0<", "[spectrum]"),
+    ],
+)
+def test_what_another_program_changed_is_not_overruled(name, old, new, gone, tmp_path):
+    _, path = written(name, tmp_path, [])
+    text = path.read_text("utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), "utf-8")
+    found = found_in(read_document(path))
+    assert any(f"what it carries of {gone} is left out" in said for said in found.remarks)
+    assert not {"worm_shaft", "wheel_shaft", "spectrum"} & set(found.tables)
+
+
+@pytest.mark.parametrize("text", ["{", "[1]", '{"housing": 3}', "[" * 100_000])
+def test_carried_tables_that_cannot_be_read_are_told(text, tmp_path):
+    _, path = written("actuator-duty", tmp_path, [])
+    document = read_document(path)
+    unit = next(document.of_type("gear_unit"))
+    unit.attributes["custom_asperity_tables"] = (text, "none")
+    assert any("cannot be read" in said for said in found_in(document).remarks)
+
+
+def test_what_no_file_holds_is_named(tmp_path):
+    case = read_case("drive-thesis", case_tables())
+    notes = answer(prepare(case), Run()).notes
+    (said,) = [note for note in notes if note.startswith("left out: ")]
+    assert "[drive]" in said

@@ -13,7 +13,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.runs import Run
 from asperity.shafts import study as shafts
-from asperity.shafts.loads import on_wheel_shaft, on_worm_shaft
+from asperity.shafts.loads import forces, on_wheel_shaft, on_worm_shaft
 from asperity.shafts.rolling import equivalent, life
 from asperity.shafts.statics import PointLoad, reactions
 from asperity.shafts.steel import ShaftSteel
@@ -350,3 +350,29 @@ def test_a_pair_bears_twice_the_load_that_never_tires_it():
         kappa = one.load.viscosity / float(nu_1)
         values.append(float(life.life_modification(kappa, 0.3, 2.0 * 26e3 / 22.0, p, "ball")))
     assert least == pytest.approx(min(values), rel=1e-5)
+
+
+def test_the_forces_of_a_worm_of_2_30_in_shigley():
+    """Budynas and Nisbett: 2/30, 1 hp at 1200 rpm, 2 in, 6 teeth an inch, 14.5 deg, friction 0.03.
+
+    The book goes on from W rounded to 278 lbf and has W_x 52.5, W_y 69.6 and W_z 264 lbf; the data
+    of the example are from memory. Pounds and inches throughout.
+    """
+    normal, friction, pitch_diameter = math.radians(14.5), 0.03, 2.0
+    lead = math.atan(2.0 * math.pi / 6.0 / (math.pi * pitch_diameter))
+    along = 33000.0 / (math.pi * pitch_diameter / 12.0 * 1200.0)
+    assert along == pytest.approx(52.5, abs=0.05)
+    # Ours: the wheel's torque gives the same force across the flanks, and with it the others.
+    wheel, round_wheel = 5.0, along / math.tan(lead + math.atan(friction / math.cos(normal)))
+    torque = round_wheel * wheel / 2e3
+    tangential, axial, radial, _ = forces(torque, friction / math.cos(normal), wheel, lead, normal)
+    assert tangential == pytest.approx(along, rel=1e-12)
+    across = axial / (math.cos(normal) * math.cos(lead) - friction * math.sin(lead))
+    assert across == pytest.approx(278.0, abs=0.5)
+    assert axial == pytest.approx(264.0, abs=0.5)
+    assert 278.0 * math.sin(normal) == pytest.approx(69.6, abs=0.05)
+    # By ISO/TR 14521, which leaves out the cosine of the friction angle, 0.05 % more.
+    assert radial == pytest.approx(across * math.sin(normal), rel=6e-4)
+    # With mu for mu/cos(alpha_n), as the standard has it, the wheel gets half a percent more.
+    plain = along / math.tan(lead + math.atan(friction))
+    assert plain / axial == pytest.approx(1.005, abs=5e-4)

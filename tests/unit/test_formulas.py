@@ -309,3 +309,55 @@ def test_a_formula_says_what_it_is():
             "a standard (one source).",
         ]
     )
+
+
+def test_what_rests_on_the_very_same_arrays_is_worked_out_once_and_no_other_is_taken_for_it():
+    calls = []
+
+    @formula(symbol="c", equation="a b")
+    def product(a: Annotated[float, Symbol("a", "")], b: Annotated[float, Symbol("b", "")]):
+        """Return a product."""
+        calls.append(1)
+        return a * b
+
+    first, second = np.array([1.0, 2.0]), np.array([1.0, 2.0])
+    with masking((2,)) as mask:
+        one = product(first, 3.0)
+        assert product(first, 3.0) is one
+        assert len(calls) == 1
+        # Equal arrays are not the same, nor is another number.
+        assert product(second, 3.0) is not one
+        assert product(first, 4.0).tolist() == [4.0, 8.0]
+        assert len(calls) == 3
+        for number in range(50):
+            # What is thrown away gives its place to the next, whose values are others.
+            assert product(np.array([number, 2.0]), 3.0).tolist() == [3.0 * number, 6.0]
+    assert not mask.reason.any()
+    product(first, 3.0)
+    product(first, 3.0)
+    assert len(calls) == 55
+
+
+def test_an_array_that_was_looked_at_is_still_refused_where_another_bound_is_not_met():
+    above = Annotated[float, Symbol("a", "", positive)]
+
+    @formula(symbol="c", equation="2 a")
+    def twice(a: Annotated[float, Symbol("a", "")]):
+        """Return twice as much."""
+        return 2.0 * a
+
+    @formula(symbol="c", equation="3 a")
+    def thrice(a: above):
+        """Return three times as much."""
+        return 3.0 * a
+
+    values = np.array([-1.0, 2.0, np.nan])
+    with masking((3,)) as mask:
+        assert np.array_equal(twice(values), [-2.0, 4.0, np.nan], equal_nan=True)
+        assert mask.reason.tolist() == [0, 0, 1]
+        again = thrice(values)
+        assert np.array_equal(again, [np.nan, 6.0, np.nan], equal_nan=True)
+        assert mask.reason.tolist() == [2, 0, 1]
+        # What has its reason goes on as it is.
+        assert np.array_equal(thrice(again), [np.nan, 18.0, np.nan], equal_nan=True)
+        assert mask.reason.tolist() == [2, 0, 1]

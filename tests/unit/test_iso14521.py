@@ -70,6 +70,8 @@ FORMULAS = {
     iso.thermal.cooling_area: (13.0, 132.0),
     iso.thermal.bulk_temperature: (60.0, 1300.0, 23000.0, 0.0017),
     iso.balance.housing_area: (100.0,),
+    iso.balance.ribbed_area: (100.0,),
+    iso.balance.least_area: (100.0,),
     iso.balance.conductance: (15.0, 0.4, 0.2),
     iso.balance.steady_rise: (419.1, 6.0),
     iso.balance.time_constant: (9500.0, 6.0),

@@ -171,5 +171,5 @@ def test_a_family_of_plastic_is_not_given_by_hand():
         case(
             "gearset.wheel_material={family='plastic', youngs_modulus='2.6 GPa', "
             "poisson_ratio=0.4, material_factor=1, pitting_strength='300 MPa', "
-            "shear_strength='90 MPa'}"
+            "shear_strength='90 MPa', own={root=3}}"
         )

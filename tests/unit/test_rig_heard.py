@@ -56,7 +56,7 @@ TOLD = {
     "samples missing in the drive": "drive_voltage has samples missing",
     "zeros of torque and speed off": "zero of torque_steel: 0.0",
     "zero of the speed far off": "zero of speed_steel",
-    "current told half as large": "current_steel does not fit its motor",
+    "current told half as large": "current_steel does not fit its torque",
 }
 
 
@@ -191,12 +191,13 @@ def test_a_zero_that_is_off_and_drifts_is_taken_off(tmp_path):
 @pytest.mark.campaign(tried_by="test_a_zero_that_is_off_and_drifts_is_taken_off")
 @pytest.mark.parametrize("size", [0.01, 0.02])
 def test_intervals_hold_the_truth_whatever_the_zero(tmp_path, size):
-    held, _ = covered(range(200), size, tmp_path / "run.nc")
-    # 1,800 intervals: of files with nine each, the share has a deviation of 0.006; one of a kind
-    # alone has 0.01.
+    held, _ = covered(range(600), size, tmp_path / "run.nc")
     assert 0.93 <= np.mean(list(held.values())) <= 0.97
-    shares = {name: np.mean(one) for name, one in held.items()}
-    assert all(0.93 <= one <= 0.98 for one in shares.values()), shares
+    for name, one in held.items():
+        # Of a share of 0.97 as many intervals hold the truth as a binomial lets them: 1,800 of a
+        # kind have a deviation of 0.004, of which two are chance.
+        chance = 2.0 * math.sqrt(0.97 * 0.03 / len(one))
+        assert 0.93 - chance <= np.mean(one) <= 0.97 + chance, name
 
 
 @pytest.mark.parametrize("seed", [339, 447])

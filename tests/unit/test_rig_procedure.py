@@ -1,5 +1,6 @@
 """A run keeps what is done, goes on at its cell, and latches with vibration and motors off."""
 
+import concurrent.futures as cf
 import dataclasses
 import functools
 import os
@@ -7,6 +8,8 @@ import random
 import resource
 import shutil
 import signal
+import threading
+import time
 
 import h5py
 import numpy as np
@@ -18,11 +21,14 @@ from asperity.errors import InputError, StorageError
 from asperity.processes.alone import alone
 from asperity.runs import Run
 from asperity.tribometer.guardian import journal as journals
+from asperity.tribometer.guardian.in_time import beaten
 from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.procedure import packer as packing
 from asperity.tribometer.procedure import study
 from asperity.tribometer.procedure.columns import over_time
-from asperity.tribometer.recording import Recording
+from asperity.tribometer.recording import Recorder, Recording, Source
+from asperity.tribometer.recording.blocks import blocks_beside
 from asperity.tribometer.reduction.study import Reducible, reduce_recording
 
 VIBRATES = lambda rig: rig.vibrates  # noqa: E731
@@ -111,6 +117,57 @@ def test_a_run_whose_recording_holds_something_else_is_not_gone_on_with(undistur
             file["raw"].resize(first + samples - 1, axis=0)
     with pytest.raises(InputError, match=r"file-01\.nc .*(check sums differ|cannot be gone on)"):
         rigs.run(rigs.small_case(), folder, resume=True)
+
+
+def left_in_blocks(folder, name):
+    made = Recorder(folder / name, [Source("torque_steel", "V", 1e-3)], 1e-3)
+    made.append(np.arange(500, dtype=np.int16)[:, None], 0.5)
+    made.leave()
+    return folder / name
+
+
+def test_what_could_not_be_packed_is_joined_when_everything_is_off(tmp_path, monkeypatch):
+    paths = [left_in_blocks(tmp_path, name) for name in ("one.nc", "two.nc")]
+    begun, goes_on = threading.Event(), threading.Event()
+    real = packing.compressed
+
+    def compressed(*given):
+        begun.set()
+        goes_on.wait(60.0)
+        real(*given)
+
+    monkeypatch.setattr(packing, "compressed", compressed)
+    packer = packing.Packer(pytest.fail)
+
+    def packs_and_trips():
+        with packer:
+            for path in paths:
+                packer.pack(path)
+            assert begun.wait(60.0)
+            raise InstrumentError("tripped")
+
+    with pytest.raises(InstrumentError, match="tripped"):
+        packs_and_trips()
+    # Nothing that went wrong has waited for it.
+    assert not paths[1].exists()
+    packer.join_left()
+    assert paths[1].exists()
+    assert not blocks_beside(paths[1]).exists()
+    goes_on.set()
+
+
+def test_what_is_waited_for_is_told_until_its_time_is_over():
+    beats = []
+    never = cf.Future()
+    with pytest.raises(cf.TimeoutError):
+        beaten(never, lambda: beats.append(time.monotonic()), 0.35)
+    assert 3 <= len(beats) <= 5
+    done, failed = cf.Future(), cf.Future()
+    done.set_result("given")
+    failed.set_exception(TimeoutError("of its own"))
+    assert beaten(done, lambda: None, 1.0) == "given"
+    with pytest.raises(TimeoutError, match="of its own"):
+        beaten(failed, lambda: None, 60.0)
 
 
 def replayed(case, undisturbed, folder):

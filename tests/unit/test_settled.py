@@ -33,6 +33,22 @@ def test_a_march_that_is_too_short_has_not_settled_and_says_so_above_its_numbers
     assert answer.settled_by in answer.headline()[0]
 
 
+RINGS = "normal.damping_ratio=0", "solve.method=march", "solve.duration=10 ms"
+
+
+def test_no_duration_is_advised_for_a_contact_that_nothing_damps():
+    model = body(*RINGS, name="pin-on-disc")
+    answers = solve(model), *solve_many([model, model])
+    for answer in answers:
+        assert not answer.settled
+        assert any(note.startswith("no solve.duration is foreseen") for note in answer.notes)
+        assert not any("would do, by the means" in note for note in answer.notes)
+    # Nor is its mean drawn as if it were a prediction.
+    assert "not settled, no prediction" in answers[0].plot().axes[0].get_title("left")
+    settled = solve(body("solve.method=periodic")).plot().axes[0].get_title("left")
+    assert settled.endswith(r"0.137 $\mu F_N$")
+
+
 def test_a_vibration_that_still_grows_has_not_settled():
     answer = solve(body("vibration.ramp=0.1 s", "vibration.start=0 s", "solve.duration=0.12 s"))
     assert not answer.settled
@@ -81,6 +97,12 @@ class TestASweep:
         assert [text.get_text() for text in panel.get_legend().get_texts()] == ["not settled"]
         crosses = [line for line in panel.lines if line.get_marker() == "x"]
         assert [line.get_xdata().tolist() for line in crosses] == [[0.5]]
+
+    def test_of_two_axes_too_whose_lines_keep_their_names(self):
+        axes = ["vibration.velocity_ratio=0.5,6", "friction.law=split,vector"]
+        (panel,) = run(read_case("table-4.3", TABLES, EARLY), axes).figure().axes
+        names = [text.get_text() for text in panel.get_legend().get_texts()]
+        assert names == ["split", "vector", "not settled"]
 
 
 def longer(answer):

@@ -105,7 +105,7 @@ def test_cases_that_are_compared_say_what_was_asked_and_have_units_where_there_a
     # The table has as many.
     _, table = found.tables()
     shown = next(row for row in table.rows if row[0] == meanings["ratio"])
-    assert [float(text) for text in shown[1:]] == pytest.approx(values["ratio"], rel=1e-3)
+    assert [float(text) for text in shown[2:]] == pytest.approx(values["ratio"], rel=1e-3)
 
 
 @pytest.mark.parametrize(
@@ -113,13 +113,13 @@ def test_cases_that_are_compared_say_what_was_asked_and_have_units_where_there_a
 )
 def test_a_file_of_bearings_is_asked_for_nothing(tmp_path, settings, ratio, torque):
     path = tmp_path / "mine.toml"
-    with pytest.raises(InputError, match="are of a case; a data file of bearings has none"):
-        new._new_bearing(path, {"output_torque": torque}, settings, ratio, as_json=False)
+    with pytest.raises(InputError, match="are of a case; a data file"):
+        new._new_data("bearing", path, {"output_torque": torque}, settings, ratio, as_json=False)
     assert not path.exists()
-    new._new_bearing(path, {"output_torque": None}, (), "", as_json=True)
+    new._new_data("bearing", path, {"output_torque": None}, (), "", as_json=True)
     assert path.read_text("utf-8").startswith("#")
     with pytest.raises(InputError, match="is there already; name another file"):
-        new._new_bearing(path, {"output_torque": None}, (), "", as_json=True)
+        new._new_data("bearing", path, {"output_torque": None}, (), "", as_json=True)
 
 
 def test_a_case_is_opened_where_it_lies_and_in_no_other_folder(tmp_path):

@@ -10,6 +10,7 @@ import numpy as np
 
 from asperity.results.figures import BLACK, BLUE, panels
 from asperity.results.panels import Panel, drawn, level, line
+from asperity.slider.plots import unsettled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -80,7 +81,7 @@ def plot_settled(dataset: "xr.Dataset") -> "Figure":
         ]
         panels.append(Panel(y="friction (N)", marks=marks))
     among = level(mean, "mean drive force", color=BLUE, dashes=(1, 1))
-    title = rf"Along the drive, mean {mean / full:.4g} $\mu F_N$"
+    title = rf"Along the drive, mean {mean / full:.4g} $\mu F_N${unsettled(dataset)}"
     panels[0] = dataclasses.replace(
         panels[0], marks=[*panels[0].marks, among], title=title, legend={"loc": "best"}
     )

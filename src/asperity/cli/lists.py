@@ -85,6 +85,10 @@ def _json(model: type[Sourced], thing: Sourced) -> dict[str, Any]:
     return {
         "kind": model.section,
         "name": thing.name,
-        **{key: _text(thing, key) for key in model.model_fields if key not in ("name", "sources")},
+        **{
+            key: _text(thing, key)
+            for key in model.model_fields
+            if key not in ("name", "sources", "own")
+        },
         "sources": sources,
     }

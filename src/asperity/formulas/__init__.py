@@ -45,6 +45,7 @@ from asperity.formulas.masks import (
     common_shape,
     current_mask,
     masking,
+    once,
     real,
 )
 from asperity.formulas.symbols import (
@@ -74,6 +75,7 @@ __all__ = [
     "formula",
     "masking",
     "not_negative",
+    "once",
     "positive",
     "real",
 ]

@@ -12,6 +12,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, shown, suggestion
 from asperity.formulas.masks import (
     Invalid,
+    Mask,
     Masked,
     check,
     common_shape,
@@ -100,7 +101,12 @@ def formula(
                 return Masked(values, mask.reason, mask.legend)
             if on_invalid not in ("raise", "mask"):
                 raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'mask'")
-            return made.evaluate(given, shape, system)
+            kept = current_mask() if shape else None
+            if kept is None:
+                return made.evaluate(given, shape, system)
+            # What rests on the same arrays is worked out once.
+            of, whole = (made, system, *given), tuple(given.values())
+            return kept.once(lambda: made.evaluate(given, shape, system), whole, *of)
 
         record: dict[str, Any] = {
             "symbol": symbol,
@@ -207,7 +213,8 @@ class _Made:
         """Return what the body gives for the arguments, checked before and after."""
         if system not in self.checks:
             raise InputError(f"units is {system!r}; it must be one of {choices(self.checks)}")
-        holes = []
+        holes: list[Any] = []
+        mask = current_mask() if shape else None
         for name, symbol, lowest, highest, size in self.checks[system]:
             value = given.get(name)
             if value is None:
@@ -216,6 +223,10 @@ class _Made:
                 checked = check(name, value, symbol)
                 if checked is not value:
                     holes.append(np.isnan(checked))
+                elif mask is not None and type(value) is np.ndarray:
+                    known = mask.seen(value)
+                    if known is not None and known.holes is not None:
+                        holes.append(known.holes)
                 value = checked
             if type(value) is float:
                 # A Python float raises where an array has an infinite number.
@@ -241,12 +252,21 @@ class _Made:
             values = np.asarray(values, dtype=np.float64)
             if values.shape != shape:
                 values = np.broadcast_to(values, shape).copy()
-            for hole in holes:
+            if holes:
+                hole = functools.reduce(np.logical_or, holes)
                 values = np.where(hole, np.nan, values)
-            if values.size and not (values.min() >= lowest and values.max() <= highest):
+            if values.size and not self._holds(values, mask):
                 values = self._refuse(values, given)
             scale = self.scales[system]
         return values if scale == 1.0 else values * scale
+
+    def _holds(self, values: FloatArray, mask: Mask | None) -> bool:
+        """Whether all are results, but for NaN that has its reason already."""
+        lowest, highest = self.result.bounds.ends
+        known = None if mask is None else mask.seen(values)
+        if known is not None:
+            return lowest <= known.lowest and known.highest <= highest
+        return bool(values.min() >= lowest and values.max() <= highest)
 
     def _refuse_none(self, given: dict[str, Any]) -> None:
         for name in self.needed:

@@ -2,8 +2,9 @@
 
 import contextlib
 import contextvars
+import functools
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -36,6 +37,28 @@ class Masked(NamedTuple):
     legend: Mapping[int, str]
 
 
+_BY_VALUE = (float, int, str, bool, type(None), np.float64)
+
+
+class Seen(NamedTuple):
+    """What is known of an array whose formulas go on: its ends, and where it has no number.
+
+    Attributes
+    ----------
+    array : ndarray
+        The array itself, so that no other takes its place in memory.
+    lowest, highest : float
+        Of its numbers.
+    holes : ndarray of bool or None
+        Where it is NaN, each with its reason; None where it nowhere is.
+    """
+
+    array: FloatArray
+    lowest: float
+    highest: float
+    holes: npt.NDArray[np.bool_] | None
+
+
 class Mask:
     """Why elements of arrays have no answer: the first reason of each.
 
@@ -55,6 +78,52 @@ class Mask:
     def __init__(self, shape: tuple[int, ...] = ()) -> None:
         self.reason: Reasons = np.zeros(shape, dtype=np.int16)
         self.legend: dict[int, str] = {}
+        self._seen: dict[int, Seen] = {}
+        self._kept: dict[tuple[Any, ...], tuple[tuple[Any, ...], Any]] = {}
+
+    def once(self, function: Callable[..., Any], given: tuple[Any, ...], *about: Any) -> Any:
+        """Return what a function gives for the very same arrays, worked out once.
+
+        Parameters
+        ----------
+        function : callable
+            Called without arguments where it is not known yet.
+        given : tuple
+            What it rests on: numbers and words are the same by value, all else by identity.
+        *about
+            What else tells it from others.
+        """
+        key = (*about, *(one if type(one) in _BY_VALUE else id(one) for one in given))
+        known = self._kept.get(key)
+        if known is None:
+            # What is known by its place in memory is kept, so that no other takes it.
+            known = self._kept[key] = given, function()
+        return known[1]
+
+    def seen(self, array: FloatArray) -> Seen | None:
+        """Return what is known of an array of the mask's shape, looked at once.
+
+        None where it is of another shape, or has NaN for which there is no reason yet.
+        """
+        known = self._seen.get(id(array))
+        if known is not None:
+            return known
+        if array.shape != self.reason.shape or not array.size:
+            return None
+        lowest, holes = float(array.min()), None
+        if math.isnan(lowest):
+            holes = np.isnan(array)
+            if np.any(self.reason[holes] == 0) or holes.all():
+                return None
+            lowest, highest = float(np.fmin.reduce(array, None)), float(np.fmax.reduce(array, None))
+        else:
+            highest = float(array.max())
+        return self.remember(Seen(array, lowest, highest, holes))
+
+    def remember(self, known: Seen) -> Seen:
+        """Keep what is known of an array, which must not change any more."""
+        self._seen[id(known.array)] = known
+        return known
 
     def copy(self) -> "Mask":
         """Return another that goes on from here."""
@@ -122,6 +191,19 @@ def masking(mask: Mask | tuple[int, ...] = ()) -> Iterator[Mask]:
         _MASK.reset(token)
 
 
+def once(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a part of a formula work out once, within `masking`, what rests on the same arrays."""
+
+    @functools.wraps(function)
+    def wrapped(*given: Any) -> Any:
+        mask = _MASK.get()
+        if mask is None or not any(isinstance(one, np.ndarray) for one in given):
+            return function(*given)
+        return mask.once(lambda: function(*given), given, function)
+
+    return wrapped
+
+
 def check(name: str, value: Real, symbol: Symbol) -> Real:
     """Return a number or array of which all is allowed; NaN within `masking` where it is not.
 
@@ -132,14 +214,18 @@ def check(name: str, value: Real, symbol: Symbol) -> Real:
     """
     lowest, highest = symbol.bounds.ends
     number = not isinstance(value, np.ndarray)
-    if number:
-        if lowest <= value <= highest:
-            return value
-    elif value.size == 0 or (value.min() >= lowest and value.max() <= highest):
+    if number and lowest <= value <= highest:
         return value
+    mask = _MASK.get()
+    if not number:
+        known = None if mask is None else mask.seen(value)
+        if known is not None:
+            if lowest <= known.lowest and known.highest <= highest:
+                return value
+        elif value.size == 0 or (value.min() >= lowest and value.max() <= highest):
+            return value
     # Comparisons with NaN are false, so that NaN is not allowed either.
     outside = np.True_ if number else ~symbol.bounds.holds(value)
-    mask = _MASK.get()
     if mask is None or number:
         first = value if number else value[outside].flat[0]
         first = first.value if isinstance(first, Traced) else first
@@ -151,7 +237,8 @@ def check(name: str, value: Real, symbol: Symbol) -> Real:
             mask.refuse(True, sentence)
         return np.float64(np.nan)
     mask.refuse(outside, f"{name} is not allowed; {symbol.allowed}")
-    return np.where(outside, np.nan, value)
+    # The same array for the same, so that what rests on it is known again.
+    return mask.once(lambda: np.where(outside, np.nan, value), (value,), lowest, highest)
 
 
 def real(name: str, value: Any) -> Any:

@@ -92,7 +92,7 @@ class WheelMaterial(Material):
 
     @model_validator(mode="after")
     def _of_plastic(self) -> "WheelMaterial":
-        if (self.family == "plastic") != (self.own is not None):
+        if (self.family == "plastic") != hasattr(self.own, "bears"):
             raise InputError(
                 f"{self.table}.family is {self.family!r}; a plastic is named by its own table of "
                 "a data file: asperity new plastic begins one"

@@ -133,7 +133,7 @@ class Plastic(Material):
         if cycles > self.cycles[-1] * (1.0 + 1e-9):
             raise InputError(
                 f"a tooth has {cycles:.4g} cycles of load; plastic.{what} of {self.name!r} ends at "
-                f"{self.cycles[-1]:.4g}: add to the table"
+                f"{self.cycles[-1]:.4g}: add to the table, or ask for a shorter life"
             )
         logs = [math.log(each) for each in self.cycles]
         at = math.log(max(cycles, self.cycles[0]))

@@ -218,7 +218,8 @@ class Rated(Result):
 
     def brief(self) -> str:
         """Return the verdict on one screen."""
-        play = () if self.backlash is None else (self.backlash.sentence(),)
+        play: tuple[str, ...] = () if self.backlash is None else (self.backlash.sentence(),)
+        play += self.shafts.lacking if self.shafts else ()
         shown = self.verdict, self.found, self.self_locking, len(self.assumed), self.notes
         return screen(*shown, self.of_duty, play)
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from asperity.results.language import Spoken, said
+from asperity.results.words import Number, Sentence
 
 if TYPE_CHECKING:
     from asperity.gearset.drawn import Views
@@ -14,6 +15,10 @@ if TYPE_CHECKING:
 
 class Shafts(Protocol):
     """What others than the standards know of the shafts of the same gearbox."""
+
+    @property
+    def lacking(self) -> tuple[str, ...]:
+        """What is to be said of what they lack."""
 
     def seen(self) -> "Views":
         """Return both views of the gearset with its shafts, each as SVG with its caption."""
@@ -68,6 +73,22 @@ class Row(NamedTuple):
     def stands(self) -> str:
         """What there is of what is asked."""
         return f"{self.value:.3g}{self._unit} of the {self.asked:.4g} asked"
+
+    def nearest(self, key: str = "") -> Sentence:
+        """Return in a sentence that it is what is nearest to its limit, or fails first.
+
+        Parameters
+        ----------
+        key : str
+            Where it stands in JSON.
+        """
+        value = f"{key}.{'life_h' if self.unit else 'safety'}" if key else ""
+        asked = f"{key}.asked{'_h' if self.unit else ''}" if key else ""
+        return Sentence(
+            f"{'nearest to its limit' if self.holds else 'first to fail'}: {self.name} by "
+            f"{self.standard}, ", Number.of(self.value, ".3g", value), f"{self._unit} of the ",
+            Number.of(self.asked, ".4g", asked), " asked",
+        )  # fmt: skip
 
     @property
     def _unit(self) -> str:

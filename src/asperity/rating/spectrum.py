@@ -228,16 +228,16 @@ class Spectrum(Table):
         )
 
     def require_beside(self, oil_temperature: float | None) -> None:
-        """Refuse a way to find the sump's temperature beside that temperature; raises InputError.
+        """Refuse the mean of the sump's temperatures beside that temperature; raises InputError.
 
         Parameters
         ----------
         oil_temperature : float or None
             Of the operation, K.
         """
-        if oil_temperature is not None and "oil_temperature" in self.model_fields_set:
+        if oil_temperature is not None and self.oil_temperature == "mean":
             raise InputError(
-                f"spectrum.oil_temperature is {self.oil_temperature!r}, and "
+                "spectrum.oil_temperature is 'mean', and "
                 f"operation.oil_temperature {oil_temperature - 273.15:.4g} degC, which is that of "
                 "all steps; keep one of them"
             )

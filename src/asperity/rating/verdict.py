@@ -194,11 +194,11 @@ class Verdict(NamedTuple):
         str
             One of each kind that there is.
         """
-        yield from Standing.sentences(self.standing, whole)
         failing = [f"{row.name} by {row.standard}" for row in self.rows if not row.holds]
         if failing:
             yield f"does not hold: {listed(failing)}"
-        elif self.rows and not self.safeties:
+        yield from Standing.sentences(self.standing, whole)
+        if not failing and self.rows and not self.safeties:
             yield f"holds by {listed([*dict.fromkeys(row.standard for row in self.rows)])}"
 
     def sentences(self) -> Iterator[str]:
@@ -210,6 +210,9 @@ class Verdict(NamedTuple):
     def nearest(self) -> Iterator[Sentence]:
         """Yield what fails first or is nearest to it, and what moves that most."""
         first = self.first
+        place, row = min(enumerate(self.rows), key=lambda one: one[1].margin, default=(0, None))
+        if row is not None and (first is None or row.margin < first.margin):
+            yield row.nearest(f"verdict.rows.{place}")
         if first is None:
             return
         d, own = first.demand, f"verdict.safeties.{self.safeties.index(first)}"

@@ -168,6 +168,20 @@ class ShaftStudy(Drawn):
         return rows_of(self)
 
     @property
+    def lacking(self) -> tuple[str, ...]:
+        """What is not given and so not judged, in a line; nothing where all is."""
+        names = {"worm_shaft": "worm shaft", "wheel_shaft": "wheel shaft"}
+        lacks = [name for key, name in names.items() if key not in self.found]
+        for key, shaft in self.found.items():
+            if any(place.bearing is None for place in shaft.model.places):
+                lacks.append(f"bearings of the {names[key]}")
+            if shaft.model.table.material is None:
+                lacks.append(f"steel of the {names[key]}")
+        if any(shaft.options.contamination is None for shaft in self.found.values()):
+            lacks.append("oil's cleanness")
+        return (f"not given: {', '.join(lacks)}",) if lacks else ()
+
+    @property
     def holds(self) -> bool:
         """Whether everything does."""
         return all(row.holds for row in self.rows)

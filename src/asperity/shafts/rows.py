@@ -43,8 +43,6 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
             most = max(range(len(worst.damage)), key=worst.damage.__getitem__)
             torque = found.every[0][most].load.torque
             by.append(f"{torque:g} N m {100.0 * worst.damage[most]:.0f} %")
-        if worst.a_iso is not None:
-            by.append(f"a_ISO {worst.a_iso:.2g}")
         if any(f"bearing {end} " in note for note in found.model.misseated):
             by.append("cannot sit there")
         yield Row(f"{name} bearing {end}", "ISO 281", worst.told, asked, "h", ", ".join(by))
@@ -63,7 +61,7 @@ def _at_rest(found: Mapping[str, ShaftFound]) -> Iterator[Row]:
         return
     value, asked, key, end, condition = first_least(every, lambda one: one[0] / one[1])
     peak = found[key].model.table.peak
-    under = "" if peak == 1.0 else f", at {peak:g} times the torque"
+    under = "" if peak == 1.0 else f", at {peak:g} T_2"
     by = f"{NAMES[key]} bearing {end}, {condition.short}{under}"
     yield Row("bearings at rest", "ISO 76", value, asked, "", by)
 

@@ -11,6 +11,7 @@ from typing import Protocol, TypeVar
 from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
+from asperity.slider.ringing import rings
 from asperity.slider.timetable import (
     FAR,
     UNSTEADY,
@@ -105,6 +106,8 @@ def needed(
     broke : bool
         Whether it has broken away.
     """
+    if rings(model):
+        return None
     slider = model.slider
     window = model.window / WINDOW_SHARE
     least = [1.0 * model.duration]

@@ -56,7 +56,7 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     panels = [
         Panel(
             f"time ({unit})", "drive force (N)", [*drive, level(force, **_DASHED)],
-            rf"Drive force, mean {float(dataset['ratio']):.4g} $\mu F_N$",
+            rf"Drive force, mean {float(dataset['ratio']):.4g} $\mu F_N${unsettled(dataset)}",
             limits={"ymargin": 0.12}, more=whole,
         ),
         Panel(
@@ -75,6 +75,11 @@ def plot_slide(dataset: "xr.Dataset") -> "Figure":
     panels[1] = dataclasses.replace(panels[1], marks=[*friction, *flight])
     title = f"Normal force, {100.0 * share:.3g} % of the time in flight"
     return drawn([*panels, Panel(over, "normal force (N)", pressed, title)], height=8.6)
+
+
+def unsettled(dataset: "xr.Dataset") -> str:
+    """Return what follows a mean in a title; nothing of one that has settled."""
+    return "" if bool(dataset.attrs["settled"]) else ": not settled, no prediction"
 
 
 def flight_of(at: np.ndarray, load: np.ndarray, label: str | None = None) -> list[Mark]:

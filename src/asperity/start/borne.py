@@ -63,7 +63,8 @@ def borne_by(
         if shelf:
             problem, chosen = from_shelf(problem, shelf, asked.safety)
         names = {f"{at.table}.bearing.{at.number + 1}": name for at, name in chosen.items()}
-        return Borne(studied(problem).rows, names)
+        found = studied(problem)
+        return Borne(found.rows, names, found.lacking)
 
     return borne
 

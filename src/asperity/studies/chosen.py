@@ -29,10 +29,13 @@ class Borne(NamedTuple):
         By what is judged.
     bearings : dict of str to str
         Names of those that are chosen, by where they stand in the case.
+    lacking : tuple of str
+        What is to be said of what is not judged.
     """
 
     rows: tuple[Row, ...] = ()
     bearings: Mapping[str, str] = MappingProxyType({})
+    lacking: tuple[str, ...] = ()
 
 
 class Judges(NamedTuple):

@@ -39,6 +39,7 @@ from asperity.studies.quantities import varied_quantity
 from asperity.studies.requirements import Requirements
 from asperity.studies.rounding import rounded
 from asperity.studies.search import bounds_of, known_safeties, least_safeties
+from asperity.studies.shafted import with_shafts
 from asperity.studies.tradeoff import TradeOff, trade_off
 
 if TYPE_CHECKING:
@@ -346,28 +347,15 @@ def answer(problem: Problem, _: Run) -> Optimum:
         ],
         axis=-1,
     )
-    best = optimise(*tables, folder=gears.folder, least=least, begin=begin, requirements=kept)
-    return dataclasses.replace(_with_shafts(best, problem.rows), curve=curve)
 
+    def search(bounds: Bounds | None) -> Optimum:
+        within = *tables[:3], bounds
+        return optimise(*within, folder=gears.folder, least=least, begin=begin, requirements=kept)
 
-def _with_shafts(best: Optimum, rows_of: Callable[[Gearset], tuple[Row, ...]] | None) -> Optimum:
-    """Return an optimum with what its shafts come to; the search does not know them."""
-    if rows_of is None:
-        return best
-
-    def judged(rated: Rated) -> Rated:
-        return dataclasses.replace(rated, rows=rows_of(rated.gearset))
-
-    made = None if best.made is None else judged(best.made)
-    before, after = judged(best.before), judged(best.after)
-    notes = [
-        f"{row.name} by {row.standard} does not hold: {row.stands}, which the search does not keep"
-        for row in (made or after).rows
-        if not row.holds
-    ]
-    return dataclasses.replace(
-        best, before=before, after=after, made=made, notes=(*best.notes, *notes)
-    )
+    best = search(problem.bounds)
+    if problem.rows is not None:
+        best = with_shafts(best, problem.rows, problem.bounds, search)
+    return dataclasses.replace(best, curve=curve)
 
 
 def _notes(before: Rated, bounds: Bounds | None) -> tuple[str, ...]:

@@ -125,6 +125,11 @@ def propose(
         axial_module=module / FROM_SI["mm"],
         diameter_factor=factor,
     )
+    if "iso14521.eta_ges" not in rated:
+        why = next(note for note in rated.notes if note.startswith("iso14521: "))
+        raise InputError(
+            f"gearsets are proposed by the efficiency of ISO/TR 14521: {why.partition(': ')[2]}"
+        )
     margins, least, rated_by_all = _margins(rated)
     efficiency = np.asarray(rated["iso14521.eta_ges"])
     known = np.isfinite(margins) & np.isfinite(efficiency) & (efficiency > 0.0)
@@ -157,7 +162,7 @@ def propose(
     holds = bool(holding.any())
 
     def proposal(n: int) -> Proposal:
-        rows, bearings = chosen.borne.get(n, Borne())
+        rows, bearings, _ = chosen.borne.get(n, Borne())
         weak = rows and weakest(rows).margin == margins[n]
         return Proposal(
             int(starts[n]),
@@ -207,6 +212,7 @@ def propose(
     if operation.wear_assumed:
         notes.append(operation.wear_assumed)
     notes += _told_of_shafts(chosen)
+    notes += chosen.borne.get(int(shown[0]), Borne()).lacking
     if holds:
         if not rated_by_all[shown].all():
             notes.append(

@@ -59,8 +59,7 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
         for values, name, colour, marker in zip(curves.T, names, COLOURS, MARKERS, strict=False):
             _line(panel, along, values, color=colour, marker=marker, label=name or None)
         if across is not None:
-            title = _label(across, with_unit=False)
-            legend(panel, title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+            _beside(panel, _label(across, with_unit=False))
     else:
         _many_lines(panel, along, curves, across)
     if "settled" in dataset:
@@ -114,6 +113,11 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
     return figure
 
 
+def _beside(panel: "Axes", title: str) -> None:
+    """Say beside a panel what its lines are."""
+    legend(panel, title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
 def _mark_unsettled(
     panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset", ratio: "xr.DataArray"
 ) -> None:
@@ -129,12 +133,12 @@ def _mark_unsettled(
         panel.plot(places[out], column[out], linestyle="", marker="x", color=BLACK, zorder=5)[0]
         for column, out in zip(values.T, loose.T, strict=True)
     ]
-    # A legend beside the panel may say what the lines are.
-    beside = panel.get_legend()
     crosses[0].set_label("not settled")
-    legend(panel, handles=crosses[:1])
-    if beside is not None:
-        panel.add_artist(beside)
+    lines = panel.get_legend()
+    if lines is None:
+        legend(panel, handles=crosses[:1])
+    else:
+        _beside(panel, lines.get_title().get_text())
 
 
 def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") -> None:

@@ -6,6 +6,7 @@ from typing import Any
 
 from asperity.casefile import Case, naming_source
 from asperity.casefile.check import check_case
+from asperity.casefile.named import named_files
 from asperity.commands import case_tables
 from asperity.commands.request import Body, CommandRequest, mapping, settings
 from asperity.errors import InputError
@@ -15,7 +16,7 @@ from asperity.results.dataset import variables
 from asperity.results.payload import as_payload
 from asperity.runs import Run
 from asperity.start.write import as_set, as_written
-from asperity.web.ask import case_of, confine, confine_settings, request_of
+from asperity.web.ask import case_of, confine, request_of
 from asperity.web.folder import SO_FAR, Folder
 
 _MOST_POINTS = 400
@@ -61,7 +62,8 @@ def size(folder: Folder, body: Body) -> dict[str, Any]:
     # A page waits for milliseconds: no wheel is cut here.
     given = SIZE.given({}, {**mapping(body, "options"), "uncut": True})
     changes, ratio = settings(body), ratio_of(given["ratio"])
-    confine_settings(changes, folder)
+    for name in named_files(changes, case_tables()):
+        folder.inside(name)
     of_it = {name: text for name, text in given.items() if name not in ("ratio", "uncut")}
     found = size(ratio, **of_it, settings=changes, cut=False)
     if body.get("report") is True:

@@ -4,13 +4,7 @@ A case is one that ships or one of the folder, and every file that a table, a se
 or an option names lies in the folder.
 """
 
-from collections.abc import Iterable
-from typing import Any
-
 from asperity.casefile import Case
-from asperity.casefile.case import apply
-from asperity.casefile.table import names_file
-from asperity.commands import case_tables
 from asperity.commands.request import Body, CommandRequest
 from asperity.web.folder import Folder
 
@@ -47,12 +41,3 @@ def confine(case: Case, folder: Folder) -> None:
     for one in getattr(case, "reducible", ()):
         for _, path in one.case.files():
             folder.inside(path)
-
-
-def confine_settings(settings: Iterable[str], folder: Folder) -> None:
-    """Refuse settings without a case of which any names a file outside the folder."""
-    known, raw = case_tables(), dict[str, dict[str, Any]]()
-    for setting in settings:
-        table, _, key = apply(raw, setting, known).partition(".")
-        if names_file(known[table], key):
-            folder.inside(str(raw[table].get(key, "")))

@@ -1,15 +1,14 @@
 """What the roots of a loaded wheel's teeth bear."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.result import inputs
+from asperity.drive.root.loads import Load
 from asperity.drive.root.model import RootModel, Roots
 from asperity.drive.static.notes import few_phases
 from asperity.gearset import Geometry
@@ -17,9 +16,6 @@ from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.results.words import Number
-
-if TYPE_CHECKING:
-    from asperity.drive.root.study import Load
 
 _MEGA, _MILLI, _PERCENT = 1e-6, 1e3, 100.0
 _PHASE, _FILLET = ("phase",), ("row", "column")

@@ -1,39 +1,20 @@
 """The command `roots`: stresses at the fillets of a loaded wheel's teeth over a pitch."""
 
-from typing import NamedTuple
-
 import numpy as np
 
-from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.drive.friction import rating_inputs
 from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
+from asperity.drive.root.loads import loads_of
 from asperity.drive.root.model import COARSER, COUNTS, TEETH, RootModel, Roots
 from asperity.drive.root.result import Largest, RootStress
-from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.solve import StaticModel
-from asperity.drive.static.sweep import LoadCase
-from asperity.drive.teeth.sector import Sector, lattice, right_handed
+from asperity.drive.teeth.sector import right_handed
 from asperity.errors import InputError
 from asperity.rating.parameters import RatingOptions
 from asperity.rating.standards import rate_by, tables_of
 from asperity.runs import Run
-
-_LOADED = 0.02  # of all normal force, below which nobody asks for a tooth's root
-_FOOT = 0.2  # of the flank's height, the part that bears beside the fillet
-
-
-class Load(NamedTuple):
-    """A tooth as it is loaded at a phase, with those beside it."""
-
-    phase: int
-    tooth: int
-    normal: float  #: On it, N
-    foot: float  #: Share of it on the lowest part of its flank
-    #: (3, n, 3): On the flanks of the teeth before, of it and after in the mesh, each in its own
-    #: frame, N
-    forces: FloatArray
 
 
 def prepare(case: Case) -> DriveProblem:
@@ -87,46 +68,6 @@ def answer(problem: DriveProblem, run: Run) -> RootStress:
         problem, models[1], fine, loads, worst, before.tension / worst.tension - 1.0,
         static.phases, shear, safety,
     )  # fmt: skip
-
-
-def loads_of(static: StaticModel) -> list[Load]:
-    """Return every tooth that bears at every phase of a pitch."""
-    sector = static.sector
-    low = _low_rows(sector)
-    found: list[Load] = []
-
-    def keep(number: int, balance: Balance) -> None:
-        contact, action = balance.contact, balance.action
-        own = contact.nodal_forces().reshape(contact.slots, -1, 3)
-        none = np.zeros_like(own[0])
-        # In the mesh teeth follow one another against their numbers.
-        rows = [none, *own, none]
-        for k, normal in enumerate(action.normal):
-            if normal < _LOADED * action.normal.sum():
-                continue
-            force = np.linalg.norm(own[k], axis=1)
-            forces = np.array([rows[k + 2], rows[k + 1], rows[k]])
-            found.append(
-                Load(
-                    number,
-                    action.teeth[k],
-                    float(normal),
-                    float(force[low].sum() / force.sum()),
-                    forces,
-                )
-            )
-
-    static.courses([LoadCase(static.problem.load, evaluate=keep)])
-    return found
-
-
-def _low_rows(sector: Sector) -> FloatArray:
-    """Return which nodes of a flank lie on its lowest part."""
-    nodes = lattice(sector.surface)
-    count = max(1, round(_FOOT * len(nodes)))
-    low = np.zeros(nodes.size, dtype=bool)
-    low[nodes[:count]] = True
-    return low
 
 
 def _nominal(problem: DriveProblem) -> tuple[float | None, float | None]:

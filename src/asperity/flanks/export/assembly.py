@@ -70,6 +70,17 @@ class Assembly:
         return self.pair.mounting.origin * [1.0, 1.0, self.pair.mirror]
 
     @property
+    def shaft_turn(self) -> FloatArray:
+        """How the wheel's shaft is turned on it: by itself it goes along z from its driving end.
+
+        That end is where z of the forces points, which go along the worm to its driven end and
+        from the wheel to the worm.
+        """
+        driven = self.worm_rotation @ [0.0, 0.0, float(self.pair.mirror)]
+        ahead = np.cross(driven, self.worm_place)[2] > 0.0
+        return np.eye(3) if ahead else np.diag([1.0, -1.0, -1.0])
+
+    @property
     def wheel_rotation(self) -> FloatArray:
         """The matrix that turns the wheel to where it stands."""
         cosine, sine = np.cos(self.wheel_angle), np.sin(self.wheel_angle)

@@ -14,7 +14,10 @@ from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset.blanks import Blanks, chamfer_of, rounded, sizes_given, wheel_sizes
+from asperity.gearset.drawn import Views
+from asperity.gearset.geometry import Geometry
 from asperity.gearset.keys import key_of
+from asperity.shafts.drawing import views_of
 from asperity.shafts.parameters import WheelShaft, WormShaft
 from asperity.shafts.shape import FROM_END, LENGTH, Keyway, Shape, on_shaft, require_once, shape_of
 
@@ -67,6 +70,12 @@ class Bodies(NamedTuple):
             raise InputError(f"{said}: {error}") from None
         worm_shape(pair, made)
         return made
+
+    def seen(self, g: Geometry, hand: str) -> Views | None:
+        """Return both views of a gearset with its shafts; None where no shaft is described."""
+        if self.worm is None and self.wheel is None:
+            return None
+        return views_of(g, hand, self.worm, self.wheel, self.blanks)
 
 
 Beside = Blanks | Bodies | None

@@ -9,7 +9,13 @@ from numpy.typing import ArrayLike
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.export.patch import Body, Patch
-from asperity.flanks.export.turned import Beside, shaft_sections, threads_of
+from asperity.flanks.export.turned import (
+    Beside,
+    Bodies,
+    sections_of,
+    shaft_sections,
+    threads_of,
+)
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.setting import Pair
 
@@ -86,6 +92,12 @@ def whole_worm(pair: Pair, beside: Beside = None, spacing: Spacing = EXACT) -> B
     thread = worm_body(pair, spacing=spacing, between=threads_of(pair, beside))
     shaft = Body("", [], [], sections).moved(np.diag([1.0, 1.0, pair.mirror]))
     return Body(thread.name, thread.patches, thread.rings, shaft.turned)
+
+
+def wheel_shaft(beside: Beside) -> Body | None:
+    """Return the wheel's shaft, its mesh at z = 0; None where it is not described."""
+    shape = beside.wheel if isinstance(beside, Bodies) else None
+    return None if shape is None else Body("wheel_shaft", [], [], sections_of(shape))
 
 
 def mounted_worm(pair: Pair) -> Body:

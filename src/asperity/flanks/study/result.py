@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from asperity.flanks.export.cad.solids import Solids
+    from asperity.gearset.drawn import Views
     from asperity.results.report import Picture
 
 _DRAWING = "drawing.csv"
@@ -121,6 +122,11 @@ class FlankStudy(Drawn):
     def hand(self) -> str:
         """Of the worm."""
         return self.wheel.pair.hand
+
+    def seen(self) -> "Views":
+        """Return both views of it, with the shafts of the case."""
+        own = self.beside if isinstance(self.beside, Bodies) else Bodies()
+        return own.seen(self.geometry, self.hand) or super().seen()
 
     @property
     @labelled(

@@ -276,8 +276,9 @@ def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None
         for place, own in enumerate(parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
         most = _place_of_most([own["delta_Wn_mm"] for own in parts])
+        there = [most == place for place in range(len(parts))] if np.ndim(most) else []
         for key in _OF_WEAR:
-            v[key] = _chosen(most, [own[key] for own in parts])
+            v[key] = _chosen(most, there, [own[key] for own in parts])
     v["delta_Wn_mm"] = given.total(own["delta_Wn_mm"] for own in parts)
     v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
     v["theta_S_max_degC"] = given.greatest(own["theta_S_degC"] for own in parts)
@@ -292,8 +293,16 @@ def _place_of_most(depths: list[Real]) -> Any:
     return np.argmax(np.stack(np.broadcast_arrays(*plain)), axis=0)
 
 
-def _chosen(place: Any, values: list[Real]) -> Real:
-    return np.choose(place, np.broadcast_arrays(*values)) if np.ndim(place) else values[int(place)]
+def _chosen(most: Any, there: list[Any], values: list[Real]) -> Real:
+    """Return the value of the part that is most: of one gearset, or of each of many."""
+    if not there:
+        return values[int(most)]
+    if all(value is values[0] for value in values):
+        return values[0]
+    chosen = np.array(np.broadcast_to(values[0], np.shape(most)))
+    for here, value in zip(there[1:], values[1:], strict=True):
+        np.copyto(chosen, value, where=here)
+    return chosen
 
 
 def _forces(given: Inputs, v: Values, torque: Real) -> None:

@@ -5,7 +5,7 @@ from typing import Annotated
 import numpy as np
 
 from asperity.arrays import Real
-from asperity.formulas import Bounds, Symbol, formula, positive
+from asperity.formulas import Bounds, Symbol, formula, once, positive
 from asperity.rating.iso14521 import symbols as s
 from asperity.rating.iso14521.film_failure import FilmParameterError, too_thin
 from asperity.rating.iso14521.tables import Edition, Flank
@@ -114,6 +114,11 @@ def film_thickness(
 
     The torque is that with the application factor.
     """
-    oil = pressure_coefficient**0.6 * dynamic_viscosity**0.7 * worm_speed**0.7
-    size = centre_distance**1.39 * reduced_modulus**0.03
+    speed, size = _speed_and_size(worm_speed, centre_distance, reduced_modulus)
+    oil = pressure_coefficient**0.6 * dynamic_viscosity**0.7 * speed
     return 21.0 * film_parameter * oil * size / wheel_torque**0.13
+
+
+@once
+def _speed_and_size(speed: Real, centre_distance: Real, modulus: Real) -> tuple[Real, Real]:
+    return speed**0.7, centre_distance**1.39 * modulus**0.03

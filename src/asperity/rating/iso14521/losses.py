@@ -3,7 +3,7 @@
 import numpy as np
 
 from asperity.arrays import Real
-from asperity.formulas import formula
+from asperity.formulas import formula, once
 from asperity.rating.iso14521 import symbols as s
 
 
@@ -82,7 +82,13 @@ def bearing_loss(
     >>> round(bearing_loss(165.876, 60.17, 60.0, 101.98), 2)
     7.7
     """
-    return loss_coefficient * output_power * centre_distance**0.44 * ratio / wheel_mean_diameter
+    size = _power(centre_distance, 0.44)
+    return loss_coefficient * output_power * size * ratio / wheel_mean_diameter
+
+
+@once
+def _power(base: Real, exponent: float) -> Real:
+    return base**exponent
 
 
 @formula(symbol="P_VD", unit="W", equation="n_D 11.78e-6 d_m1^2 n_1", source=s.VERIFIED)

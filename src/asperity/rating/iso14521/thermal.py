@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from asperity.arrays import Real
-from asperity.formulas import Bounds, Symbol, check, formula, not_negative
+from asperity.formulas import Bounds, Symbol, check, formula, not_negative, once
 from asperity.gearset.materials import BaseOilName
 from asperity.rating.iso14521 import symbols as s
 
@@ -47,7 +47,18 @@ def sump_temperature(
     if fan:
         worm_speed = check("worm_speed", worm_speed, _N_1_OF_A_FAN)
         centre_distance = check("centre_distance", centre_distance, _A_OF_A_FAN)
-    n, a, nu = worm_speed / 60.0, centre_distance, viscosity_40 / 100.0
+    k = _OIL_CONSTANT[base_oil]
+    c_0, c_1, c_2 = _of_sump(worm_speed, ratio, centre_distance, viscosity_40, k, fan)
+    size = (centre_distance / 63.0) ** 3
+    return ambient_temperature + (c_1 * wheel_torque / size + c_0) * c_2
+
+
+@once
+def _of_sump(
+    worm_speed: Real, ratio: Real, a: Real, viscosity_40: Real, k: float, fan: bool
+) -> tuple[Real, Real, Real]:
+    """Return c_0, c_1 and c_2, which know nothing of the torque."""
+    n, nu = worm_speed / 60.0, viscosity_40 / 100.0
     if fan:
         c_0 = 0.081 * (n - 0.23) ** 0.7 * nu**0.41 * (a + 32.0) ** 0.63
         c_1 = 0.039 * (n + 2.0) ** 0.34 * nu**-0.17 * ratio**-0.22 * (a - 48.0) ** 0.34
@@ -56,9 +67,8 @@ def sump_temperature(
         c_1 = 0.034 * (n + 0.22) ** 0.43 * (10.8 - nu) ** -0.0636 * ratio**-0.18
         c_1 = c_1 * (a - 20.4) ** 0.26
     below = (0.012 * ratio + 0.092) * np.sqrt(worm_speed) - 0.745 * ratio + 82.877
-    k = _OIL_CONSTANT[base_oil]
     c_2 = np.where(below > k, 1.0 - k / below, np.nan)
-    return ambient_temperature + (c_1 * wheel_torque / (a / 63.0) ** 3 + c_0) * c_2
+    return c_0, c_1, c_2
 
 
 @formula(

@@ -82,16 +82,16 @@ class Guardian:
         self._alarm, self._trouble = Alarm(say, relay), trouble
         self._now = now
         self._of = {key: device for device in devices for key in device.keys}
+        self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._tripped, self._urgent = "", False
         self._stop_button = StopButton(self.stop)
         self._writing = Writing(self._stop_button.watch, folder)
         self._switching = Switching(
             devices, by_hand, limit=longest(deadline), now=now, tick=self._tick
         )
         self._verdicts = Verdicts(self._switching, self._writing, self._alarm, by_hand, say, now)
-        self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._awaited: dict[cf.Future[Any], Asked] = {}
         self._on: set[str] = set()
-        self._tripped, self._urgent = "", False
         self._kind = SWITCHED_OFF
         self._switched = True  # whether that has had everything told to be off
         self._deserted: float | None = None

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 
-from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.export.assembly import Assembly
 from asperity.flanks.export.cad.brep import solid
@@ -16,8 +15,8 @@ from asperity.flanks.export.extras import require_cad
 from asperity.flanks.export.patch import Body
 from asperity.flanks.export.space.scene import BRONZE, STEEL
 from asperity.flanks.export.tooth import tooth_body, wheel_body
-from asperity.flanks.export.turned import Beside, Bodies, sections_of
-from asperity.flanks.export.worm import whole_worm
+from asperity.flanks.export.turned import Beside
+from asperity.flanks.export.worm import wheel_shaft, whole_worm
 from asperity.flanks.wheel.enveloped import Wheel
 
 _BOTH = "worm", "wheel"
@@ -53,11 +52,10 @@ class Solids:
             "worm": (assembly.worm_rotation, assembly.worm_place, STEEL),
             "wheel": (assembly.wheel_rotation, middle, BRONZE),
         }
-        shaft = beside.wheel if isinstance(beside, Bodies) else None
+        shaft = wheel_shaft(beside)
         if shaft is not None:
-            sections = sections_of(shaft)
-            bodies["wheel_shaft"] = lambda: Body("wheel_shaft", [], [], sections)
-            stands["wheel_shaft"] = _along_the_wheel(assembly), middle, STEEL
+            bodies["wheel_shaft"] = lambda: shaft
+            stands["wheel_shaft"] = assembly.wheel_rotation @ assembly.shaft_turn, middle, STEEL
         parts, refused = {}, {}
         for name, body in bodies.items():
             try:
@@ -91,15 +89,3 @@ class Solids:
             mounted = [part for part in (*_BOTH, "wheel_shaft") if part in self.parts]
             write_assembly(folder / names[-1], name, [self.parts[part] for part in mounted])
         return names
-
-
-def _along_the_wheel(assembly: Assembly) -> FloatArray:
-    """Return how the wheel's shaft is turned: its end that drives to where z of the forces points.
-
-    These go along the worm to its driven end and from the wheel to the worm; it turns with the
-    wheel.
-    """
-    driven = assembly.worm_rotation @ [0.0, 0.0, float(assembly.pair.mirror)]
-    if np.cross(driven, assembly.worm_place)[2] > 0.0:
-        return assembly.wheel_rotation
-    return assembly.wheel_rotation @ np.diag([1.0, -1.0, -1.0])

@@ -152,12 +152,13 @@ def _add(parent: ElementTree.Element, component: Component) -> None:
         if isinstance(value, tuple):
             array = ElementTree.SubElement(attribute, "array")
             for each in value:
-                ElementTree.SubElement(array, "c").text = _written(each)
+                ElementTree.SubElement(array, "c").text = written_as(each)
         else:
-            attribute.text = _written(value)
+            attribute.text = written_as(value)
 
 
-def _written(value: object) -> str:
+def written_as(value: object) -> str:
+    """Return a value as the text that a file has for it."""
     if isinstance(value, bool):
         return "true" if value else "false"
     return repr(value) if isinstance(value, float) else plain(str(value))

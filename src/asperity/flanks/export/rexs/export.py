@@ -8,6 +8,7 @@ from typing import ClassVar
 from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.files.store import write_text
+from asperity.flanks.export.rexs.carried import carried_of, left_out, with_carried
 from asperity.flanks.export.rexs.document import VERSION, Document
 from asperity.flanks.export.rexs.parts import Given
 from asperity.flanks.export.rexs.write import document
@@ -76,6 +77,7 @@ def prepare(case: Case) -> Given:
     given = Given(
         gearset, None, case.get(Hob), case.get(Disc), case.get(Mount),
         worm_shaft=case.get(WormShaft), wheel_shaft=case.get(WheelShaft),
+        carried=carried_of(case), left_out=tuple(left_out(case)),
     )  # fmt: skip
     if operation is None:
         return given
@@ -96,8 +98,15 @@ def prepare(case: Case) -> Given:
 
 def answer(given: Given, _: Run) -> Exchanged:
     """Return the model of a case."""
-    made = document(given)
+    made = with_carried(document(given), given.carried)
     notes = ["results of a rating are left out: the format has names for those of DIN 3996:2019"]
+    if given.carried:
+        listed = ", ".join(f"[{name}]" for name in given.carried)
+        notes.append(
+            f"carried in an attribute of our own, which other programs pass over: {listed}"
+        )
+    if given.left_out:
+        notes.append(f"left out: {', '.join(given.left_out)}")
     for part in ("worm", "wheel"):
         if getattr(given, f"{part}_shaft") is None:
             notes.append(

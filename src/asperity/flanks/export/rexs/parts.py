@@ -1,6 +1,8 @@
 """Components of a REXS model by what they are of a gearbox; materials, oil and tools of one."""
 
 import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from asperity.flanks.export.rexs.document import Attributes, Component
@@ -63,6 +65,10 @@ class Given(NamedTuple):
         Hours, torque of the wheel, N m, and speed of the worm, rpm, of each step of the load.
     worm_shaft, wheel_shaft : WormShaft, WheelShaft or None
         The shafts.
+    carried : mapping of str to mapping
+        Tables of the case that the format has no place for.
+    left_out : tuple of str
+        What of the case the file does not hold.
     """
 
     gearset: Gearset
@@ -75,6 +81,8 @@ class Given(NamedTuple):
     steps: tuple[tuple[float, float, float], ...] = ()
     worm_shaft: WormShaft | None = None
     wheel_shaft: WheelShaft | None = None
+    carried: Mapping[str, Mapping[str, Any]] = MappingProxyType({})
+    left_out: tuple[str, ...] = ()
 
 
 def component(what: str, type_: str, name: str = "", /, **attributes: Any) -> Component:

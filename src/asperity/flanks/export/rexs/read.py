@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from asperity.errors import InputError, plain
+from asperity.flanks.export.rexs.carried import carried_in
 from asperity.flanks.export.rexs.document import Component, Document, read_document
 from asperity.flanks.export.rexs.operation import count, is_known, mm, needed, operation_of, written
 from asperity.flanks.export.rexs.parts import OWN
@@ -69,8 +70,14 @@ def found_in(document: Document) -> Found:
     tables: Tables = {"gearset": gearset}
     tables |= _making(document, stage, worm, wheel, gearset)
     operation = operation_of(document, stage, worm, wheel, remarks)
+    carried = carried_in(document, remarks)
     if operation:
+        if "spectrum" in carried:
+            operation.pop("duty_cycle", None)
+        if "worm_shaft" in carried:
+            operation.pop("bearing_span", None)
         tables["operation"] = operation
+    tables |= carried
     return Found(tables, tuple(remarks))
 
 

@@ -37,6 +37,9 @@ def gearset_scene(wheel: Wheel, assembly: Assembly, beside: Beside = None) -> No
         for number in range(teeth)
     ]
     hub = Node("hub", Body("hub", [], [], [section]).surface(), colour=BRONZE)
+    own = worm.wheel_shaft(beside)
+    if own is not None:
+        ring.append(Node("shaft", own.surface(), assembly.shaft_turn, colour=STEEL))
     nodes = [
         Node(
             "worm",

@@ -104,21 +104,23 @@ class _Moved(NamedTuple):
 
 
 def _bodies(node: Node, above: FloatArray | None = None) -> Iterator[_Moved]:
-    """Yield what turns in a scene, each with all that it carries."""
+    """Yield what turns in a scene with all that it carries, of each colour."""
     placed = (np.eye(4) if above is None else above) @ _matrix(node.rotation, node.place)
     if not node.turns:
         for child in node.children:
             yield from _bodies(child, placed)
         return
-    own = [*_surfaces(node, np.eye(4))]
-    counts = np.cumsum([0, *(len(surface.points) for surface, _, _ in own)])
-    yield _Moved(
-        np.concatenate([s.points @ m[:3, :3].T + m[:3, 3] for s, m, _ in own]),
-        np.concatenate([s.triangles + n for (s, _, _), n in zip(own, counts, strict=False)]),
-        own[0][2],
-        node.turns,
-        placed,
-    )
+    every = [*_surfaces(node, np.eye(4))]
+    for colour in dict.fromkeys(colour for *_, colour in every):
+        own = [(surface, at) for surface, at, of in every if of == colour]
+        counts = np.cumsum([0, *(len(surface.points) for surface, _ in own)])
+        yield _Moved(
+            np.concatenate([s.points @ m[:3, :3].T + m[:3, 3] for s, m in own]),
+            np.concatenate([s.triangles + n for (s, _), n in zip(own, counts, strict=False)]),
+            colour,
+            node.turns,
+            placed,
+        )
 
 
 def _surfaces(

@@ -19,7 +19,7 @@ _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vib
 _ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be told
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
 _FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are together
-_CARRIES = 0.6, 1.6  # of what a motor takes for its drag and the torque, by [twin]
+_CARRIES = 0.6, 1.6  # of what a motor takes for a change of the torque, by [twin]
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
 _FITS = 3.0  # times better do speeds fit their supplies the other way round
 _TEETH = 0.05  # of the wheel's speed, by which it may be off what the worm's has it
@@ -266,31 +266,32 @@ def _supplied(of: Material) -> Iterator[Finding]:
 
 
 def _carried(of: Material) -> Iterator[Finding]:
-    """Yield currents that are not what the motor takes for its drag and the disc's torque.
+    """Yield a current that answers the torque by another part than motor and gear make of it.
 
-    A motor gives k i; of that its drag is taken, and the rest times ratio and efficiency of the
-    gear is the disc's torque. That its worm carries no load is taken of the bronze disc's.
+    A motor gives k i, and of a change of the disc's torque ratio and efficiency of its gear leave
+    it that part; what it drags by itself changes nothing of that.
     """
     twin = of.case.get(Twin)
-    if twin is None:
+    if twin is None or not of.has("current_steel"):
         return
-    torque = abs(_middle(of, "torque_steel")[0])
-    carried = torque / (of.pair.drives.gear_ratio * twin.gear_efficiency)
-    for disc, drag, load in (
-        ("steel", twin.motor_drag, carried), ("bronze", twin.bronze_drag, 0.0),
-    ):  # fmt: skip
-        name = f"current_{disc}"
-        # A drag that nobody told is not nothing; a brake's coil drives nothing.
-        braked = disc == "bronze" and of.pair.geared
-        if drag <= 0.0 or braked or not of.has(name):
-            continue
-        current, wanted = _middle(of, name)[0], (drag + load) / twin.motor_constant
-        if current < least_of(name) or _CARRIES[0] <= current / wanted <= _CARRIES[1]:
-            continue
-        yield Finding(
-            f"{name} does not fit its motor",
-            f"{current:.3g} A, where {drag:.2g} N m of drag and {load:.2g} N m of load take "
-            f"{wanted:.3g} A by [twin]",
-            "look at the calibration of its clamp, and at motor_constant and drags of [twin]",
-            (name,), of.course(name), spoils=disc == "steel",
-        )  # fmt: skip
+    torque, current = _levels(of, "torque_steel"), _levels(of, "current_steel")
+    changes = [one[:, 2] - one[:, 0] for one in (torque, current)]
+    size = float(changes[0] @ changes[0])
+    if not (size > 0.0 and np.all(np.isfinite(changes))):
+        return
+    part = 1.0 / (of.pair.drives.gear_ratio * twin.gear_efficiency * twin.motor_constant)
+    # A sign that is wrong is told as such.
+    share = abs(float(changes[0] @ changes[1])) / size / part
+    errors = [float(np.median(np.hypot(one[:, 1], one[:, 3]))) for one in (torque, current)]
+    unsure = _SURE * math.hypot(share * errors[0], errors[1] / part) / math.sqrt(size)
+    if share + unsure >= _CARRIES[0] and share - unsure <= _CARRIES[1]:
+        return
+    yield Finding(
+        "current_steel does not fit its torque",
+        f"it answers the vibration by {share:.2g} of what motor and gear take for the torque's "
+        "answer, by [twin] and the gear's ratio",
+        "look at the calibrations of its clamp and of the torque, and at motor_constant and "
+        "gear_efficiency of [twin]",
+        ("current_steel",), Course(changes[0], changes[1], "change of torque_steel (N m)",
+                                   "change of current_steel (A)"),
+    )  # fmt: skip

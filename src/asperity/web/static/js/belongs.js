@@ -6,7 +6,8 @@ import { nameOf } from "./work.js";
 /** By command: the screen, and what tells the job from another of the command there. */
 const SCREENS = {
   sweep: ["sweep"], optimise: ["size"], flank: ["flanks"], directions: ["drive"], locking: ["drive"],
-  rate: ["gear", () => "-report"], drive: ["drive", ({ options }) => (options?.static ? "-static" : "")],
+  rate: ["gear", () => "-report"], slide: ["slide", () => "-report"],
+  drive: ["drive", ({ options }) => (options?.static ? "-static" : "")],
   block: ["block", ({ settings }) => `-${settings?.["solve.method"]}`],
   "rig reduce": ["rig"], "rig import": ["rig"], "rig run": ["rig"], fit: ["rig"],
 };

@@ -1,10 +1,9 @@
 /** A worm gearset under load and shaken: what the motor is spared, and what that costs. */
 import { html, useMemo } from "../../vendor/preact.js";
-import { useLive } from "../api.js";
+import { useAsked, useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
 import { span } from "../colours.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
-import { Further } from "../further.js";
 import { Gears, Way } from "../gears.js";
 import { FlankMap } from "../map.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
@@ -154,6 +153,12 @@ function Locking({ answer, found, data }) {
     ]} />` : null}`;
 }
 
+/** What is further asked, loaded once the screen stands. */
+function Later(given) {
+  const { found } = useAsked("further", () => import("../further.js"));
+  return found ? html`<${found.Further} ...${given} />` : null;
+}
+
 export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: {} } : null;
@@ -202,7 +207,7 @@ export function view() {
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
           says="A minute or several: it is marched at several amplitudes.">
         ${held.data ? html`<${Locking} answer=${held.data.answer} found=${holding} data=${creep} />` : null}<//>
-      <${Further} name=${name} settings=${settings} />
+      ${below ? html`<${Later} name=${name} settings=${settings} />` : null}
     </section></div>
   <//>`;
 }

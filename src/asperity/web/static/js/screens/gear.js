@@ -80,7 +80,8 @@ function Ratio({ geometry }) {
   const ask = (ratio) => torque && go("size", { ...caseParams(route.peek().params), ratio, output_torque: torque,
     worm_speed: speed });
   return html`<div class="field"><label for="ratio">ratio</label>
-    <${Box} id="ratio" text=${geometry && torque ? digits(geometry.gear_ratio) : ""} onSet=${ask} describedby="ratio-says" />
+    <${Box} id="ratio" text=${geometry && torque ? digits(geometry.gear_ratio) : ""} onSet=${ask}
+      describedby="ratio-says" />
     <p class="says" id="ratio-says">another ratio: gearsets that hold at this torque and speed are proposed</p></div>`;
 }
 

@@ -23,7 +23,8 @@ const COLUMNS = [
 const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs",
   "safety"];
 /** Tables of the case that go into what is asked. */
-const ASKING = ["gearset", "operation", "rating", "requirements", "spectrum", "housing", "tolerances"];
+const ASKING = ["gearset", "operation", "rating", "requirements", "spectrum", "housing", "tolerances",
+  "worm_shaft", "wheel_shaft", "bearings"];
 /** What is set of a load spectrum. */
 const LOADS = ["duty_class", "duty", "cycle", "hours_per_day", "shock"];
 const RANKS = ["size", "efficiency", "margin"];
@@ -105,7 +106,7 @@ function Proposals({ found, options, through, parts }) {
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
     a = ${one.centre_distance_mm} mm, ${one.wheel_teeth}:${one.starts}, m = ${one.axial_module_mm} mm`}>take</button>`;
   return html`<${Table} region="proposals" wide="whole" kind="middle" rows=${sorted} columns=${[
-    ["open", open],
+    ["open", open], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
     ...COLUMNS.map(([key, said, count]) => [
       html`<button type="button" class="quiet" onClick=${() => sort(key)}>
         ${said}${by === key ? (way === "up" ? " ▲" : " ▼") : ""}</button>`,
@@ -114,7 +115,6 @@ function Proposals({ found, options, through, parts }) {
     ]),
     ...(found.some(({ hob }) => hob) ? [["hob", ({ hob }) => hob]] : []),
     ["least safety", (one) => limit(one.limited_by)], ["locks itself", ({ locks }) => locks],
-    ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
   ]} />`;
 }
 
@@ -187,7 +187,7 @@ function Loads({ loads }) {
   const { set, unset } = useCase();
   const { text } = useValue("spectrum.step");
   const put = (typed) => (typed ? set("spectrum.step", typed) : unset("spectrum.step"));
-  return html`<details open=${Boolean(loads) && innerWidth > 900}><summary>load spectrum: ${
+  return html`<details class="to-press"><summary>load spectrum: ${
       loads || "none, the torque above all of its life"}</summary>
     <label class="asked steps">steps of the whole life, as 250 N m, 1400 rpm, 500 h; 60 N m, 700 rpm, 3000 h
       <${Box} text=${stepsOf(text)} label="steps" onSet=${put} /></label>
@@ -198,8 +198,9 @@ function Loads({ loads }) {
 /** What a gearset must keep beside its safeties, folded away while nothing is asked. */
 function Kept({ rest }) {
   const said = KEPT.map((key) => [key, rest?.[`requirements.${key}`]]).filter(([, text]) => text !== undefined);
-  return html`<details open=${said.length > 0 && innerWidth > 900}><summary>what must be kept${said.length
-    ? `: ${said.map(([key, text]) => `${words(key)} ${text}`).join(", ")}` : ""}</summary>
+  return html`<details class="to-press">
+    <summary>what must be kept${said.length ? ": " : ""}${
+      said.map(([key, text]) => `${words(key)} ${text}`).join(", ")}</summary>
     <div class="grid keeps">${KEPT.map((key) => html`<${Field} key=${key} path=${`requirements.${key}`} />`)}</div>
     </details>`;
 }
@@ -221,7 +222,8 @@ export function view() {
       answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy} now=${sized.now}
       actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
-    ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold by every standard${
+    ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold ${
+      options.output_torque} at ${options.ratio}:1 and ${options.worm_speed} by every standard${
       smallest(answer.proposals)}.</p>` : null}
     <section class="panel" aria-label="what is asked"><div class="row asks-for">
       ${ASKED.map(([key, said]) => html`<label class="asked">${said}
