@@ -23,7 +23,7 @@ from asperity.kernels import compiled
 from asperity.thesis import run
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything
 from asperity.thesis.products import VERDICTS as KINDS
-from asperity.thesis.said import findings, lost, read_by_a_machine, said_of, slips
+from asperity.thesis.said import disputed, findings, lost, read_by_a_machine, said_of, slips
 
 # Where a method is no vibration, and where an input is raised too far, there is no such number.
 GAPS = {"3.1": ("velocity_ratio", "velocity_amplitude"), "3.2": ("eta_z1_2", "fails_above")}
@@ -533,6 +533,15 @@ def test_a_finding_that_several_claims_rest_on_is_told_once_and_linked(result):
             name in entry.plain["rests_on"] for entry in result.claims
         )
         assert finding.title in page
+
+
+def test_a_card_of_which_one_may_judge_otherwise_leads_to_what_was_decided(result):
+    page = result.index.read_text("utf-8")
+    there = {entry.number for entry in result.claims}
+    for one in disputed():
+        assert page.count(f'id="disputed-{one.claim}"') == 1
+        assert page.count(f'href="#disputed-{one.claim}"') == (one.claim in there)
+    assert page.count("One may judge otherwise</a>") == sum(d.claim in there for d in disputed())
 
 
 def test_a_strip_shows_the_verdicts_of_a_chapter_and_leads_to_its_cards(result):

@@ -88,6 +88,7 @@ def render(
         },
         lost=lost(),
         disputed=disputed(),
+        judged_otherwise={one.claim for one in disputed()},
         slips=slips(),
         letters=sorted({slip.line for slip in slips() if not slip.why}),
         read_by_a_machine=read_by_a_machine(),

@@ -32,6 +32,7 @@ def findings(of: Material) -> Iterator[Finding]:
         yield from _signs(of)
         yield from _teeth(of)
         yield from _supplied(of)
+        yield from _carried(of)
     elif of.windows:
         yield from _signs(of)
         yield from _torques(of)
