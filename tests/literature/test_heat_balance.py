@@ -159,7 +159,7 @@ def test_the_sump_formula_and_the_balance_of_gearset_3_contradict_and_it_is_said
 def test_a_duty_without_a_heat_capacity_is_judged_as_warm_as_it_gets():
     found = housed({"heat_transfer": "15 W/(m**2 K)"}, duty="S3 15 %")
     assert found["theta_h_degC"] == pytest.approx(90.016, abs=6e-4)
-    assert any("housing.heat_capacity is missing" in note for note in found.notes)
+    assert any("give [housing] with heat_capacity" in note for note in found.notes)
 
 
 def test_masses_make_the_heat_capacity():
