@@ -20,6 +20,7 @@ _ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be tol
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
 _FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are together
 _CARRIES = 0.6, 1.6  # of what a motor takes for a change of the torque, by [twin]
+_PART, _LEAST_PARTS = 0.5, 8  # s over which torque and current are compared, and how many such
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
 _FITS = 3.0  # times better do speeds fit their supplies the other way round
 _TEETH = 0.05  # of the wheel's speed, by which it may be off what the worm's has it
@@ -274,16 +275,21 @@ def _carried(of: Material) -> Iterator[Finding]:
     twin = of.case.get(Twin)
     if twin is None or not of.has("current_steel"):
         return
-    torque, current = _levels(of, "torque_steel"), _levels(of, "current_steel")
-    changes = [one[:, 2] - one[:, 0] for one in (torque, current)]
-    size = float(changes[0] @ changes[0])
-    if not (size > 0.0 and np.all(np.isfinite(changes))):
+    torque = _levels(of, "torque_steel")
+    changes, error = torque[:, 2] - torque[:, 0], float(np.median(np.hypot(*torque[:, [1, 3]].T)))
+    # Of what the sensors' own noise is alone nothing is told.
+    if not math.sqrt(float(np.mean(changes**2))) > _SURE * error:
+        return
+    x, y = _together(of, "torque_steel", "current_steel")
+    size = float(x @ x)
+    if x.size < _LEAST_PARTS or not size > 0.0:
         return
     part = 1.0 / (of.pair.drives.gear_ratio * twin.gear_efficiency * twin.motor_constant)
+    slope = float(x @ y) / size
+    left = y - slope * x
     # A sign that is wrong is told as such.
-    share = abs(float(changes[0] @ changes[1])) / size / part
-    errors = [float(np.median(np.hypot(one[:, 1], one[:, 3]))) for one in (torque, current)]
-    unsure = _SURE * math.hypot(share * errors[0], errors[1] / part) / math.sqrt(size)
+    share = abs(slope) / part
+    unsure = _SURE * math.sqrt(float(left @ left) / ((x.size - 2) * size)) / part
     if share + unsure >= _CARRIES[0] and share - unsure <= _CARRIES[1]:
         return
     yield Finding(
@@ -292,6 +298,24 @@ def _carried(of: Material) -> Iterator[Finding]:
         "answer, by [twin] and the gear's ratio",
         "look at the calibrations of its clamp and of the torque, and at motor_constant and "
         "gear_efficiency of [twin]",
-        ("current_steel",), Course(changes[0], changes[1], "change of torque_steel (N m)",
-                                   "change of current_steel (A)"),
+        ("current_steel",), Course(x, y, "torque_steel about its mean (N m)",
+                                   "current_steel about its mean (A)"),
     )  # fmt: skip
+
+
+def _together(of: Material, *signals: str) -> tuple[FloatArray, ...]:
+    """Return means of signals over equal parts of all windows, about those of their segment."""
+    count = of.blocks.at_least(_PART)
+    found: list[list[FloatArray]] = [[] for _ in signals]
+    for _, *both in of.windows:
+        if any(of.blocks.lost[signal][one.first : one.last].any()
+               for signal in signals for one in both):  # fmt: skip
+            continue
+        for made, signal in zip(found, signals, strict=True):
+            parts = np.concatenate([
+                of.blocks.means[signal][one.first : one.last][: one.count // count * count]
+                .reshape(-1, count).mean(axis=1)
+                for one in both
+            ])  # fmt: skip
+            made.append(parts - parts.mean() if parts.size else parts)
+    return tuple(np.concatenate(made) if made else np.zeros(0) for made in found)
