@@ -5,6 +5,7 @@ dwells and 1/sqrt(1 + k^2) of it on the flanks, for a share 2 r of the period. O
 on periodic states, from 300 to 2400 steps a cycle against 16,000.
 """
 
+import dataclasses
 import functools
 import math
 
@@ -286,3 +287,25 @@ def test_a_body_that_slides_steadily_owes_nothing_to_its_step():
         solve=Solve(duration=0.5, units="SI"),
     )  # fmt: skip
     assert solve(model, history=False).step_error == pytest.approx(0.0, abs=1e-6)
+
+
+def test_a_square_wave_up_that_is_ahead_keeps_its_corners_and_tells_its_error():
+    """Its rise was put on the steps as if it began at phase 0: up to half a step off, untold."""
+    settings = (
+        "friction.model=coulomb", "slider.mass=24 mg", "slider.drive_stiffness=0.13 MN/m",
+        "normal.law=hertz", "normal.control=displacement", "normal.stiffness=1.7 MN/m",
+        "normal.damping_ratio=0.07", "vibration.waveform=square", "vibration.elevation=90 deg",
+        "vibration.normal_phase=2.02 rad", "vibration.frequency=30 kHz",
+        "vibration.rise_time=14.3 us", "vibration.velocity_ratio=3.3", "solve.method=periodic",
+    )  # fmt: skip
+    model = Model.from_case(read_case("table-4.3", TABLES, settings))
+    steps = round(1.0 / (model.frequency * model.step))
+    assert model.wave(model.step).rise == model.shape.rise
+    finer = dataclasses.replace(model, finer=8)
+    assert finer.wave(finer.step).rise == model.shape.rise
+    in_plane = read_case("table-4.3", TABLES, (*settings, "vibration.elevation=30 deg"))
+    assert (0.5 * Model.from_case(in_plane).wave(model.step).rise * steps) % 1.0 == pytest.approx(
+        0.0, abs=1e-9
+    )
+    found, fine = solve(model), solve(finer)
+    assert abs(found.ratio - fine.ratio) <= 1.2 * found.step_error + 1e-9

@@ -251,12 +251,13 @@ class Model:
     def wave(self, step: float, *, lead: float = 0.0) -> Wave:
         """Return the wave as a march with steps in s meets it: its corners are put on the steps.
 
-        They are next to them anyway, by `steps_to_corners`.
+        They are next to them anyway, by `steps_to_corners`: those of a wave that begins at phase 0.
+        A wave up that is ahead by itself has its corners elsewhere, and is met as it is.
         """
         if self.shape is None:
             return AT_REST
         shape = self.shape
-        if self.meets_corners:
+        if self.meets_corners and 0.0 in self._leads:
             shape = shape.on_corners(round(1.0 / (self.frequency * step)))
         return shape.wave(lead=lead)
 
@@ -264,10 +265,15 @@ class Model:
         """Equal steps of a cycle that end on the corners of its waves, in the plane and up."""
         if self.shape is None:
             raise InputError("nothing vibrates")
-        along, across, up = self.unit_direction
-        leads = [0.0] * (along != 0.0 or across != 0.0) + [self.normal_lead] * (up != 0.0)
         missed = _MISSED_BY_COULOMB if self.friction.model == "coulomb" else _MISSED
-        return self.shape.steps_to_corners(least, missed, leads)
+        return self.shape.steps_to_corners(least, missed, self._leads)
+
+    @property
+    def _leads(self) -> tuple[float, ...]:
+        """By how many cycles the waves that act are ahead, in the plane and up."""
+        along, across, up = self.unit_direction
+        in_plane = (0.0,) if along != 0.0 or across != 0.0 else ()
+        return (*in_plane, *((self.normal_lead,) if up != 0.0 else ()))
 
     @functools.cached_property
     @in_proportion()
