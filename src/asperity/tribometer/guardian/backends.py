@@ -14,9 +14,10 @@ from asperity.casefile import Case
 from asperity.errors import AsperityError
 from asperity.tribometer.guardian import asked
 from asperity.tribometer.guardian.casing import packed
-from asperity.tribometer.guardian.devices import DRIVE, OUTPUTS, owned_by
+from asperity.tribometer.guardian.devices import DRIVE, EAR, OUTPUTS, owned_by
 from asperity.tribometer.guardian.guard import Guard
 from asperity.tribometer.guardian.in_time import ScopeInTime, beaten
+from asperity.tribometer.guardian.owned import LISTENER
 from asperity.tribometer.guardian.rig import Address, RigLine
 from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
@@ -226,6 +227,7 @@ def _simulated(case: Case, inputs: tuple[Input, ...], folder: Path | None) -> Gu
         person=asked.AskedPerson(line),
         clock=clock,
         amplifier=outputs["amplifier"],
+        listener=asked.AskedListener(line, LISTENER, EAR),
         memory=asked.AskedMemory(line, clock),
         simulated=True,
         guard=guard,
