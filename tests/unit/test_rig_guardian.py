@@ -231,6 +231,50 @@ def test_at_a_start_what_is_not_read_back_is_named_at_once_and_tried_on(made, tm
     assert one.leave() == 0
 
 
+def test_what_was_silent_at_a_start_and_then_is_read_to_be_on_loses_its_power_at_once(
+    made, tmp_path
+):
+    dog = Watchdog()
+    one = made(limit=0.3, folder=tmp_path, relay=dog)
+    steel = one.fakes["steel"]
+    steel.fault = "blocked"
+    one._thread.start()
+    until(lambda: one.said)
+    assert not dog.opened
+    steel.fault = "stuck on"
+    steel.stands.set()
+    until(lambda: len(one.said) > 1)
+    # Twenty seconds are what it is tried for.
+    assert time.monotonic() - one.guardian._verdicts.tried < 15.0
+    assert dog.opened
+    assert "NOT READ BACK TO BE OFF: steel: its output's state is on" in one.said[1]
+    lines = until(lambda: (found := written(tmp_path))[1:] and found)
+    assert "state is on" in lines[1]["still_on"][0]
+    # And no more often than it gets worse.
+    time.sleep(0.5)
+    assert len(one.said) == 2
+    one.guardian.signal(2)
+
+
+def test_what_gets_worse_while_it_is_tried_again_is_named_again(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.05)
+    monkeypatch.setattr(verdicts, "_ATTEMPT", 0.2)
+    one = made(limit=0.2)
+    one.begin()
+    one.on()
+    steel = one.fakes["steel"]
+    steel.fault = "garbling"
+    one.guardian.signal(15)
+    one.hears("tripped")
+    assert "answers half" in one.said[-1]
+    steel.fault = "stuck on"
+    until(lambda: "state is on" in one.said[-1])
+    count = len(one.said)
+    time.sleep(0.5)
+    assert len(one.said) == count
+    steel.fault = ""
+
+
 def test_where_all_is_read_back_at_a_start_nothing_is_said_or_written(made, tmp_path):
     one = made(limit=0.4, folder=tmp_path)
     # The oscilloscope is opened more slowly than all is read back.
@@ -264,7 +308,8 @@ def test_a_start_that_tries_on_ends_at_once_when_it_is_to(made, tmp_path, monkey
     # Twenty seconds are what it would have tried.
     assert time.monotonic() - begun < 15.0
     assert all(line["still_on"] for line in written(tmp_path))
-    assert [line["kind"] for line in written(tmp_path)][-1] == "off"
+    # It is written by a thread of its own.
+    assert until(lambda: written(tmp_path))[-1]["kind"] == "off"
 
 
 def test_a_start_waits_for_what_is_late_though_the_ear_is_silent(made, monkeypatch):

@@ -51,7 +51,7 @@ class Approach:
             yield
 
     def off(self) -> None:
-        """See that everything is off, the amplifier's supply too, and that the drive is heard still.
+        """See that everything is off, the amplifier's supply too, and the drive heard still.
 
         Raises
         ------
