@@ -614,6 +614,21 @@ def test_a_full_disk_ends_with_everything_off(begun, rig, tmp_path):
 
 
 @pytest.mark.slow
+def test_a_drive_that_goes_on_where_the_oscilloscope_does_not_stop_is_named(begun, rig, tmp_path):
+    procedure = begun()
+    vibrating(rig)
+    set_fault(rig, "vibration", "welded")
+    set_fault(rig, "scope", "garbling")
+    procedure.kill(signal.SIGTERM)
+    assert procedure.ended() == 4
+    assert rig.on() == ["vibration"]
+    assert f"NOT READ BACK TO BE OFF: {NAMES['vibration']}" in procedure.said
+    assert lines_of(tmp_path / "run", "latched")[-1]["still_on"]
+    rig.sound()
+    procedure.gone()
+
+
+@pytest.mark.slow
 def test_a_guardian_after_which_no_other_begins_names_all_that_may_be_on(begun, rig, tmp_path):
     procedure = begun(begins=lambda number: os._exit(1) if number else None)
     vibrating(rig)

@@ -506,7 +506,9 @@ def test_where_switching_off_always_fails_all_are_named_and_the_power_is_cut(mad
 def test_a_guardian_whose_first_act_fails_switches_off_all_the_same(made, monkeypatch):
     one = made()
     fails(monkeypatch, one, 2)
-    assert set(one.begin()["gave"]["read_back"]) == set(KEYS)
+    found = one.begin()["gave"]
+    # The procedure lives then, and uses the oscilloscope.
+    assert {*found["read_back"], *found["not_yet_heard"]} == set(KEYS)
     assert (
         one.guardian._tripped == "a fault of the guardian: RuntimeError: a fault in switching off"
     )
@@ -574,6 +576,49 @@ def test_a_drive_that_is_heard_to_be_still_at_last_is_off(made, monkeypatch):
     assert "its signal is still" in one.guardian._verdicts.last.line()["read_back"]["vibration"]
 
 
+def test_a_drive_that_says_it_is_off_is_not_called_so_before_it_is_heard(made, tmp_path):
+    one = made(limit=0.3, folder=tmp_path)
+    drive, ear = one.fakes["vibration"], one.fakes[LISTENER]
+    drive.fault = "blocked"
+    answers = threading.Event()
+    ear.moves = lambda: answers.wait(60.0)
+    one._thread.start()
+    until(lambda: one.said)
+    # It says so now, and the ear is still at it.
+    drive.fault = "welded"
+    drive.stands.set()
+    until(lambda: one.told.count(("vibration", "output")))
+    time.sleep(0.3)
+    answers.set()
+    until(lambda: len(one.said) > 1)
+    assert "its signal moves" in one.said[1]
+    assert not any("read back to be off" in line for line in one.said)
+    until(lambda: len(written(tmp_path)) > 1)
+    assert all("vibration" not in line["read_back"] for line in written(tmp_path))
+    assert all(line["still_on"] for line in written(tmp_path))
+    one.guardian.signal(2)
+
+
+def test_what_has_yet_to_be_heard_is_called_so_and_heard_in_the_end(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_ATTEMPTS", 1)
+    monkeypatch.setattr(guardians, "_AGAIN", 0.1)
+    one = made(limit=0.5)
+    one.begin()
+    one.on()
+    found = one.ask("guardian", "off", "asked", False)["gave"]
+    assert set(found["read_back"]) == set(found["off_s"]) == {"amplifier", "steel", "bronze"}
+    assert "not yet heard" in found["not_yet_heard"]["vibration"]
+    assert "still_on" not in found
+    assert "vibration" in one.ask("guardian", "off", "asked", True)["gave"]["read_back"]
+    one.on()
+    one.fakes["vibration"].fault, one.fakes[LISTENER].fault = "welded", "heard"
+    one.ask("guardian", "off", "asked", False)
+    # A procedure that takes its leave before anybody has listened.
+    one.ask("guardian", "goodbye")
+    assert one.leave() == 4
+    assert "its signal moves" in one.said[-1]
+
+
 def test_a_drive_is_proven_still_by_what_is_known_of_it():
     silent = InstrumentError("no answer")
     unpowered = off.Off("amplifier", True, "0 A")
@@ -583,6 +628,10 @@ def test_a_drive_is_proven_still_by_what_is_known_of_it():
         (True, False, unpowered, False), (False, True, unpowered, False), (None, None, None, False),
         (silent, None, unpowered, False), (silent, silent, None, False),
         (None, True, unpowered, False),
+        # What listens and hears nothing leaves a word of the controller's unproven.
+        (False, silent, None, False), (False, silent, unpowered, True),
+        (False, silent, off.Off("amplifier", False, "2 A"), False),
+        (True, silent, unpowered, False), (silent, silent, unpowered, False),
     ):  # fmt: skip
         assert off.drive_off("drive", state, moves, amplifier).proven == proven
         # One that was heard is taken back by listening alone.
@@ -805,14 +854,17 @@ def test_the_power_is_cut_at_once_where_something_stays_on(made):
 
 def test_a_run_that_is_left_with_something_on_latches_and_with_nothing_is_interrupted(tmp_path):
     stuck = off.Off("steel", False, "its output's state is on")
-    ends = ("latched", (stuck,)), ("interrupted", ())
-    for kind, found in ends:
-        folder = tmp_path / kind
+    ends = ("latched", (stuck,), ""), ("interrupted", (), ""), ("latched", (stuck,), "finished")
+    for kind, found, before in ends:
+        folder = tmp_path / f"{kind}{before}"
         folder.mkdir()
         writing = Writing(lambda _: None)
         writing.asked({"to": "journal", "do": "open", "with": [str(folder)]}).result(60.0)
         begun = {"to": "journal", "do": "write", "with": ["started", {}]}
         writing.asked(begun).result(60.0)
+        if before:
+            ended = {"to": "journal", "do": "write", "with": [before, {}]}
+            writing.asked(ended).result(60.0)
         writing.end("the procedure has ended", Verdict("killed", 0.0, 0.1, found))
         writing.all_written().result(60.0)
         last = json.loads((folder / NAME).read_text().splitlines()[-1])

@@ -315,12 +315,14 @@ class Guardian:
     def _end(self, came: float) -> None:
         """Leave, everything off."""
         self._deserted, verdicts = came, self._verdicts
-        if self._orderly and verdicts.last is not None and not self._on:
-            self._left = 4 if verdicts.last.still_on else 0
+        last = verdicts.last
+        if self._orderly and last is not None and not last.unheard and not self._on:
+            self._left = 4 if last.still_on else 0
             return
         if not self._tripped:
             verdicts.began(came)
-        why = self._tripped = self._tripped or "the procedure has ended without a word"
+        ended = "the procedure has ended" + ("" if self._orderly else " without a word")
+        why = self._tripped = self._tripped or ended
         self._switched = False
         found = self._off(why, came, listen=False, unasked=NOBODY, last=LISTENER not in self._of)
         self._switched = True
