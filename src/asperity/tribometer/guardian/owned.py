@@ -142,7 +142,7 @@ class Verdict:
             "read_back": {one.name: one.evidence for one in proven},
             "off_s": {
                 one.name: round(self.answered[one.name], 4)
-                for one in proven if one.name in self.answered
+                for one in self.found if one.proven and one.name in self.answered
             },
         }  # fmt: skip
         if self.unheard:
