@@ -19,8 +19,9 @@ import xarray as xr
 
 from asperity.errors import StorageError
 from asperity.files.store import read_dataset
-from asperity.tribometer.recording import Recorder, Recording, Source, layout
+from asperity.tribometer.recording import Recorder, Recording, Source, blocks, layout
 from asperity.tribometer.recording.blocks import blocks_beside
+from asperity.tribometer.recording.joining import joined
 from asperity.tribometer.signals import SIGNALS
 
 SOURCES = [Source("torque_steel", "V", 1e-3, 0.5), Source("drive_voltage", "mV", 2.0)]
@@ -132,6 +133,33 @@ def test_a_block_whose_bytes_are_not_those_that_were_written_is_told(tmp_path, p
     assert not beside.exists()
 
 
+@pytest.mark.parametrize("row", [0, 1, 3])
+def test_blocks_that_a_disk_has_damaged_are_kept_and_told(tmp_path, row):
+    path = tmp_path / "one.nc"
+    made = recorder(path)
+    for number in range(5):
+        made.append(counts(BLOCK), 0.1 * number)
+    made.leave()
+    beside = blocks_beside(path)
+    held = bytearray(beside.read_bytes())
+    place = len(blocks._MAGIC)
+    for _ in range(row):
+        _, length, *_ = blocks._HEAD.unpack_from(held, place)
+        place += blocks._HEAD.size + blocks._SUM.size + length
+    held[place + 5] ^= 1
+    beside.write_bytes(held)
+    # What was not even begun is no recording; of another all that stands before is one.
+    assert joined(path) == bool(row)
+    assert not beside.exists()
+    (kept,) = tmp_path.glob(".*.damaged")
+    assert kept.read_bytes() == held
+    if row:
+        found = Recording.open(path)
+        assert found.samples == BLOCK * (row - 1)
+        (event,) = [one for one in found.events if one.kind == "damage"]
+        assert f"from byte {place} on" in event.text
+
+
 def test_an_event_whose_bytes_are_damaged_ends_what_is_read(tmp_path):
     path = tmp_path / "run.nc"
     made = recorder(path)
@@ -142,7 +170,7 @@ def test_an_event_whose_bytes_are_damaged_ends_what_is_read(tmp_path):
     beside = blocks_beside(path)
     beside.write_bytes(beside.read_bytes().replace(b"750 Hz", b"150 Hz"))
     found = Recording.open(path)
-    assert (found.samples, found.events) == (BLOCK, ())
+    assert (found.samples, [one.kind for one in found.events]) == (BLOCK, ["damage"])
 
 
 @pytest.mark.parametrize("content", [b"", b"x" * 100, b"\x89HDF\r\n\x1a\n" + b"\0" * 200])

@@ -10,7 +10,7 @@ import json
 import os
 import struct
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -99,24 +99,32 @@ class Blocks:
             os.close(file)
 
 
-def about(file: Path) -> dict[str, Any] | None:
+Damaged = Callable[[int], None]
+"""Takes from which byte on a file is not what was written, though it goes on there."""
+
+
+def about(file: Path, damaged: Damaged = lambda _: None) -> dict[str, Any] | None:
     """Return what the recording is whose blocks these are; None where nothing was begun."""
-    for kind, _, _, body in _rows(file):
+    for kind, _, _, body in _rows(file, damaged):
         return dict(json.loads(body)) if kind == _ABOUT else None
     return None
 
 
-def rows(file: Path) -> Iterator[tuple[int, float, int, Counts] | dict[str, Any]]:
+def rows(
+    file: Path, damaged: Damaged = lambda _: None
+) -> Iterator[tuple[int, float, int, Counts] | dict[str, Any]]:
     """Yield blocks, with first sample, clock and check sum as they were, and events, in order."""
-    for kind, (first, clock, told), _, body in _rows(file):
+    for kind, (first, clock, told), _, body in _rows(file, damaged):
         if kind == _BLOCK:
             yield first, clock, told, np.frombuffer(body, np.int16)
         elif kind == _EVENT:
             yield dict(json.loads(body))
 
 
-def _rows(file: Path) -> Iterator[tuple[bytes, tuple[int, float, int], int, bytes]]:
-    """Yield rows, as far as they are whole."""
+def _rows(
+    file: Path, damaged: Damaged = lambda _: None
+) -> Iterator[tuple[bytes, tuple[int, float, int], int, bytes]]:
+    """Yield rows, as far as they are whole; a last one that a kill has torn is no damage."""
     with file.open("rb") as stream:
         if stream.read(len(_MAGIC)) != _MAGIC:
             if file.stat().st_size > len(_MAGIC):
@@ -124,8 +132,12 @@ def _rows(file: Path) -> Iterator[tuple[bytes, tuple[int, float, int], int, byte
             return
         size = file.stat().st_size
         while True:
+            begun = stream.tell()
             head, check = stream.read(_HEAD.size), stream.read(_SUM.size)
-            if len(check) < _SUM.size or _SUM.unpack(check)[0] != zlib.crc32(head):
+            if len(check) < _SUM.size:
+                return
+            if _SUM.unpack(check)[0] != zlib.crc32(head):
+                damaged(begun)
                 return
             kind, length, first, clock, told = _HEAD.unpack(head)
             if length > min(size, _MOST_BYTES):
@@ -135,5 +147,6 @@ def _rows(file: Path) -> Iterator[tuple[bytes, tuple[int, float, int], int, byte
             if len(body) < length:
                 return
             if zlib.crc32(body) != told and (kind != _BLOCK or stream.tell() >= size):
+                damaged(begun)
                 return
             yield kind, (first, clock, told), length, body

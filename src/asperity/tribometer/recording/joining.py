@@ -96,7 +96,8 @@ def joined(path: Path, *, compress: bool = False) -> bool:
 
 
 def _joined(path: Path, beside: Path, *, compress: bool) -> bool:
-    told = blocks.about(beside)
+    damaged: list[int] = []
+    told = blocks.about(beside, damaged.append)
     if told is not None:
         with Told(path):
             # A last chunk is as large as a whole one.
@@ -105,15 +106,24 @@ def _joined(path: Path, beside: Path, *, compress: bool) -> bool:
             if compress:
                 plainly = temporary_beside(path)
                 try:
-                    _join(beside, told, plainly)
+                    _join(beside, told, plainly, damaged)
                     write_atomically(path, lambda target: compressed(plainly, target))
                 finally:
                     plainly.unlink(missing_ok=True)
             else:
-                write_atomically(path, lambda target: _join(beside, told, target))
-    # What was not even begun holds nothing.
-    beside.unlink(missing_ok=True)
+                write_atomically(path, lambda target: _join(beside, told, target, damaged))
+    if damaged:
+        # No kill does that; what cannot be read here is not to be lost.
+        beside.replace(_aside(beside))
+    else:
+        # What was not even begun holds nothing.
+        beside.unlink(missing_ok=True)
     return told is not None
+
+
+def _aside(beside: Path) -> Path:
+    """Return where blocks are kept that a disk has damaged."""
+    return beside.with_name(f"{beside.name}.damaged")
 
 
 def _require_space(path: Path, size: int) -> None:
@@ -135,15 +145,15 @@ def joined_all(folder: Path) -> list[Path]:
     return [path for path in found if joined(path)]
 
 
-def _join(beside: Path, told: dict[str, Any], target: Path) -> None:
-    """Write blocks as a recording."""
+def _join(beside: Path, told: dict[str, Any], target: Path, damaged: list[int]) -> None:
+    """Write blocks as a recording; ``damaged`` takes from which byte on they are not."""
     sources = [Source(*one) for one in told["sources"]]
     block, columns = int(told["block"]), len(sources)
     table: dict[str, list[Any]] = {name: [] for name in (*layout.BLOCKS, *layout.EVENTS)}
     done = 0
     with _created(target, sources, told["attributes"], block) as made:
         raw = made._h5file[layout.RAW]
-        for row in blocks.rows(beside):
+        for row in blocks.rows(beside, damaged.append):
             if isinstance(row, dict):
                 for name in layout.EVENTS:
                     table[name].append(row[name])
@@ -159,6 +169,13 @@ def _join(beside: Path, told: dict[str, Any], target: Path) -> None:
             else:
                 raw[done : done + len(counts)] = counts
             done += len(counts)
+        if damaged:
+            text = (
+                f"blocks are damaged from byte {damaged[-1]} on, and kept as {_aside(beside).name}"
+            )
+            last = max(table["block_clock"], default=0.0)
+            for name, value in zip(layout.EVENTS, (last, "damage", text), strict=True):
+                table[name].append(value)
         made.resize_dimension(layout.SAMPLE, done)
         for dim, names in ((layout.BLOCK, layout.BLOCKS), (layout.EVENT, layout.EVENTS)):
             made.resize_dimension(dim, len(table[next(iter(names))]))
