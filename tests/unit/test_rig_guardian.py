@@ -223,12 +223,56 @@ def test_at_a_start_what_is_not_read_back_is_named_at_once_and_tried_on(made, tm
     found = one.ask("guardian", "started")["gave"]
     assert "still_on" not in found
     # Without power nothing is to be begun.
-    assert ("has cut the power" in found.get("trouble", "")) == (fault == "stuck on")
+    assert ("was told to cut the power" in found.get("trouble", "")) == (fault == "stuck on")
     until(lambda: "still_on" not in written(tmp_path)[-1])
     assert re.fullmatch(r"read back to be off [\d.]+ s after the start: steel", one.said[1])
     assert len(one.said) == 2
     one.ask("guardian", "goodbye")
     assert one.leave() == 0
+
+
+def test_what_was_silent_at_a_start_and_then_is_read_to_be_on_loses_its_power_at_once(
+    made, tmp_path
+):
+    dog = Watchdog()
+    one = made(limit=0.3, folder=tmp_path, relay=dog)
+    steel = one.fakes["steel"]
+    steel.fault = "blocked"
+    one._thread.start()
+    until(lambda: one.said)
+    assert not dog.opened
+    steel.fault = "stuck on"
+    steel.stands.set()
+    until(lambda: len(one.said) > 1)
+    # Twenty seconds are what it is tried for.
+    assert time.monotonic() - one.guardian._verdicts.tried < 15.0
+    assert dog.opened
+    assert "NOT READ BACK TO BE OFF: steel: its output's state is on" in one.said[1]
+    lines = until(lambda: (found := written(tmp_path))[1:] and found)
+    assert "state is on" in lines[1]["still_on"][0]
+    # And no more often than it gets worse.
+    time.sleep(0.5)
+    assert len(one.said) == 2
+    one.guardian.signal(2)
+
+
+def test_what_gets_worse_while_it_is_tried_again_is_named_again(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.05)
+    monkeypatch.setattr(verdicts, "_ATTEMPT", 0.2)
+    one = made(limit=0.2)
+    one.begin()
+    one.on()
+    steel = one.fakes["steel"]
+    steel.fault = "garbling"
+    one.guardian.signal(15)
+    one.hears("tripped")
+    assert "answers half" in one.said[-1]
+    steel.fault = "stuck on"
+    until(lambda: "state is on" in one.said[-1])
+    count = len(one.said)
+    time.sleep(0.5)
+    assert len(one.said) == count
+    steel.fault = ""
 
 
 def test_where_all_is_read_back_at_a_start_nothing_is_said_or_written(made, tmp_path):
@@ -264,7 +308,8 @@ def test_a_start_that_tries_on_ends_at_once_when_it_is_to(made, tmp_path, monkey
     # Twenty seconds are what it would have tried.
     assert time.monotonic() - begun < 15.0
     assert all(line["still_on"] for line in written(tmp_path))
-    assert [line["kind"] for line in written(tmp_path)][-1] == "off"
+    # It is written by a thread of its own.
+    assert until(lambda: written(tmp_path))[-1]["kind"] == "off"
 
 
 def test_a_start_waits_for_what_is_late_though_the_ear_is_silent(made, monkeypatch):
@@ -461,7 +506,9 @@ def test_where_switching_off_always_fails_all_are_named_and_the_power_is_cut(mad
 def test_a_guardian_whose_first_act_fails_switches_off_all_the_same(made, monkeypatch):
     one = made()
     fails(monkeypatch, one, 2)
-    assert set(one.begin()["gave"]["read_back"]) == set(KEYS)
+    found = one.begin()["gave"]
+    # The procedure lives then, and uses the oscilloscope.
+    assert {*found["read_back"], *found["not_yet_heard"]} == set(KEYS)
     assert (
         one.guardian._tripped == "a fault of the guardian: RuntimeError: a fault in switching off"
     )
@@ -529,6 +576,51 @@ def test_a_drive_that_is_heard_to_be_still_at_last_is_off(made, monkeypatch):
     assert "its signal is still" in one.guardian._verdicts.last.line()["read_back"]["vibration"]
 
 
+def test_a_drive_that_says_it_is_off_is_not_called_so_before_it_is_heard(made, tmp_path):
+    one = made(limit=0.3, folder=tmp_path)
+    drive, ear = one.fakes["vibration"], one.fakes[LISTENER]
+    drive.fault = "blocked"
+    answers = threading.Event()
+    ear.moves = lambda: answers.wait(60.0)
+    one._thread.start()
+    until(lambda: one.said)
+    # It says so now, and the ear is still at it.
+    drive.fault = "welded"
+    drive.stands.set()
+    until(lambda: one.told.count(("vibration", "output")))
+    time.sleep(0.3)
+    answers.set()
+    until(lambda: len(one.said) > 1)
+    assert "its signal moves" in one.said[1]
+    assert not any("read back to be off" in line for line in one.said)
+    until(lambda: len(written(tmp_path)) > 1)
+    assert all("vibration" not in line["read_back"] for line in written(tmp_path))
+    assert all(line["still_on"] for line in written(tmp_path))
+    one.guardian.signal(2)
+
+
+def test_what_has_yet_to_be_heard_is_called_so_and_heard_in_the_end(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_ATTEMPTS", 1)
+    monkeypatch.setattr(guardians, "_AGAIN", 0.1)
+    one = made(limit=0.5)
+    one.begin()
+    one.on()
+    found = one.ask("guardian", "off", "asked", False)["gave"]
+    assert set(found["read_back"]) == {"amplifier", "steel", "bronze"}
+    # As to when, it is by what it says of itself.
+    assert set(found["off_s"]) == set(KEYS)
+    assert "not yet heard" in found["not_yet_heard"]["vibration"]
+    assert "still_on" not in found
+    assert "vibration" in one.ask("guardian", "off", "asked", True)["gave"]["read_back"]
+    one.on()
+    one.fakes["vibration"].fault, one.fakes[LISTENER].fault = "welded", "heard"
+    one.ask("guardian", "off", "asked", False)
+    # A procedure that takes its leave before anybody has listened.
+    one.ask("guardian", "goodbye")
+    assert one.leave() == 4
+    assert "its signal moves" in one.said[-1]
+
+
 def test_a_drive_is_proven_still_by_what_is_known_of_it():
     silent = InstrumentError("no answer")
     unpowered = off.Off("amplifier", True, "0 A")
@@ -538,6 +630,10 @@ def test_a_drive_is_proven_still_by_what_is_known_of_it():
         (True, False, unpowered, False), (False, True, unpowered, False), (None, None, None, False),
         (silent, None, unpowered, False), (silent, silent, None, False),
         (None, True, unpowered, False),
+        # What listens and hears nothing leaves a word of the controller's unproven.
+        (False, silent, None, False), (False, silent, unpowered, True),
+        (False, silent, off.Off("amplifier", False, "2 A"), False),
+        (True, silent, unpowered, False), (silent, silent, unpowered, False),
     ):  # fmt: skip
         assert off.drive_off("drive", state, moves, amplifier).proven == proven
         # One that was heard is taken back by listening alone.
@@ -734,7 +830,9 @@ def test_a_watchdog_is_pulsed_while_an_instrument_blocks_and_no_more_once_someth
     one.begin()
     # It stays closed through the first switching off, whose instruments need power to answer.
     assert len(dog.pulses) > 5
-    one.guardian.signal(15)
+    one.fakes["bronze"].fault = "garbling"
+    assert "answers half" in one.ask("bronze", "reading")["error"]
+    one.fakes["bronze"].fault = ""
     one.hears("tripped")
     count = len(dog.pulses)
     for _ in range(3):
@@ -743,6 +841,71 @@ def test_a_watchdog_is_pulsed_while_an_instrument_blocks_and_no_more_once_someth
     assert not dog.opened
     one.leave()
     assert dog.opened
+
+
+class Feed(Watchdog):
+    """A watchdog that takes the power of what is fed by it once nobody pulses any more."""
+
+    def __init__(self):
+        super().__init__()
+        self.fed = ()
+        self._over = threading.Event()
+        threading.Thread(target=self._watch, daemon=True).start()
+
+    def _watch(self):
+        while not self._over.wait(0.02):
+            if self.pulses and time.monotonic() - self.pulses[-1] > 1.0:
+                for fake in self.fed:
+                    fake.fault = "garbling"
+
+    def close(self):
+        super().close()
+        self._over.set()
+
+
+@pytest.mark.parametrize("way", ["signal", "stop"])
+def test_an_ordinary_stop_has_all_read_back_before_a_watchdog_takes_the_power(made, way):
+    dog = Feed()
+    one = made(limit=0.5, relay=dog)
+    one.begin()
+    one.on()
+    dog.fed = [one.fakes[key] for key in ("steel", "bronze", "amplifier")]
+    one.guardian.signal(2) if way == "signal" else one.guardian.stop()
+    assert one.hears("tripped")["still_on"] == []
+    # The procedure takes note, and lets go of its oscilloscope.
+    time.sleep(1.6)
+    for listen in (False, True):
+        assert "still_on" not in one.ask("guardian", "off", "asked", listen)["gave"]
+    count = len(dog.pulses)
+    one.ask("guardian", "started")
+    time.sleep(0.2)
+    assert len(dog.pulses) == count
+    one.ask("guardian", "goodbye")
+    assert one.leave() == 0
+    assert not any("NOT READ BACK" in line for line in one.said)
+
+
+@pytest.mark.parametrize("way", ["it stays on", "it takes too long", "it is killed"])
+def test_after_a_stop_a_watchdog_is_pulsed_no_longer_than_all_goes_well(made, monkeypatch, way):
+    monkeypatch.setattr(guardians, "_ATTEMPTS", 0)
+    dog = Watchdog()
+    one = made(limit=0.3, relay=dog)
+    one.begin()
+    one.on()
+    if way == "it takes too long":
+        monkeypatch.setattr(guardians, "_LEAVING", 0.5)
+    one.fakes["steel"].fault = "stuck on" if way == "it stays on" else ""
+    one.guardian.signal(15)
+    one.hears("tripped")
+    if way == "it is killed":
+        one.leave()
+    else:
+        time.sleep(0.7)
+    # Opened, a relay is closed by no pulse.
+    assert dog.opened or way == "it takes too long"
+    count = len(dog.pulses)
+    time.sleep(0.3)
+    assert dog.opened or len(dog.pulses) == count
 
 
 def test_the_power_is_cut_at_once_where_something_stays_on(made):
@@ -760,14 +923,17 @@ def test_the_power_is_cut_at_once_where_something_stays_on(made):
 
 def test_a_run_that_is_left_with_something_on_latches_and_with_nothing_is_interrupted(tmp_path):
     stuck = off.Off("steel", False, "its output's state is on")
-    ends = ("latched", (stuck,)), ("interrupted", ())
-    for kind, found in ends:
-        folder = tmp_path / kind
+    ends = ("latched", (stuck,), ""), ("interrupted", (), ""), ("latched", (stuck,), "finished")
+    for kind, found, before in ends:
+        folder = tmp_path / f"{kind}{before}"
         folder.mkdir()
         writing = Writing(lambda _: None)
         writing.asked({"to": "journal", "do": "open", "with": [str(folder)]}).result(60.0)
         begun = {"to": "journal", "do": "write", "with": ["started", {}]}
         writing.asked(begun).result(60.0)
+        if before:
+            ended = {"to": "journal", "do": "write", "with": [before, {}]}
+            writing.asked(ended).result(60.0)
         writing.end("the procedure has ended", Verdict("killed", 0.0, 0.1, found))
         writing.all_written().result(60.0)
         last = json.loads((folder / NAME).read_text().splitlines()[-1])

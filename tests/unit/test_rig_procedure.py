@@ -391,14 +391,18 @@ def test_what_is_not_read_back_to_be_off_keeps_a_person_from_the_rig(disc, tmp_p
     assert rigs.journal(tmp_path)[-1]["still_on"]
 
 
-@pytest.mark.parametrize(("begins_again", "kind"), [(False, ""), (True, "vibration")])
-def test_a_drive_that_only_its_signal_tells_of_is_listened_to(begins_again, kind, tmp_path):
+@pytest.mark.parametrize("ear", [True, False])
+@pytest.mark.parametrize("state", [None, False])
+@pytest.mark.parametrize("begins_again", [False, True])
+def test_a_person_is_sent_where_the_drive_is_heard_to_be_still_whatever_it_says(
+    begins_again, state, ear, tmp_path
+):
     case = rigs.small_case('plan.idle="0 s"', 'plan.frequencies=["750 Hz"]')
     bench, rig = rigs.made_bench(case)
 
     class Mute(type(bench.vibration)):
         def vibrates(self):
-            return None
+            return state
 
         def off(self):
             super().off()
@@ -415,10 +419,32 @@ def test_a_drive_that_only_its_signal_tells_of_is_listened_to(begins_again, kind
 
     person = LoadCase(bench.person, rig)
     parts = {one.name: getattr(bench, one.name) for one in dataclasses.fields(bench)}
-    parts |= {"vibration": Mute(rig), "amplifier": None, "listener": None, "person": person}
+    # Without an ear of its own the procedure's oscilloscope hears it.
+    parts |= {"vibration": Mute(rig), "amplifier": None, "person": person}
+    parts |= {} if ear else {"listener": None}
     answer = rigs.run(case, tmp_path, bench=Heard(**parts))
-    assert getattr(answer.failure, "kind", "") == kind
+    assert bool(answer.failure) == begins_again
+    assert not begins_again or "nobody is sent to the rig, " in str(answer.failure)
+    assert not begins_again or parts["vibration"].name in str(answer.failure)
     assert not any(on - {"amplifier"} for _, on in person.found)
+
+
+def test_a_person_is_not_sent_where_nobody_hears_the_drive(tmp_path):
+    case = rigs.small_case('plan.idle="0 s"', 'plan.frequencies=["750 Hz"]')
+    bench, rig = rigs.made_bench(case)
+
+    class Deaf:
+        def moves(self):
+            raise InstrumentError("the ear is gone", kind="line lost")
+
+    person = LoadCase(bench.person, rig)
+    answer = rigs.run(
+        case, tmp_path, bench=dataclasses.replace(bench, person=person, listener=Deaf())
+    )
+    assert "not heard to be still: the ear is gone" in str(answer.failure)
+    assert rigs.journal(tmp_path)[-1]["kind"] == "latched"
+    assert person.found
+    assert not any("Remove" in text for text, _ in person.found)
 
 
 @pytest.mark.parametrize(

@@ -180,7 +180,7 @@ def _ended(lines: Sequence[Line]) -> dict[str, Any]:
         elif line["kind"] != "torn":
             # It has gone on since, and switched on what was off.
             ended, off = None, None
-    told = "why", "took_s", "read_back", "still_on", "by_hand"
+    told = "why", "took_s", "read_back", "not_yet_heard", "still_on", "by_hand"
     shown = {
         "off": off and {key: off.get(key) for key in told},
         "ended": ended and {key: ended.get(key) for key in ("kind", "reason")},

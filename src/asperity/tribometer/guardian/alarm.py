@@ -19,7 +19,7 @@ class Alarm:
     Attributes
     ----------
     cut : str
-        That it has; empty where it has not.
+        That it was told to; empty where it was not. No relay answers that it has.
     """
 
     def __init__(self, say: Callable[[str], None], relay: Relay | None) -> None:
@@ -37,7 +37,7 @@ class Alarm:
         if not named:
             return
         if self._relay is not None and cut:
-            self.cut = f"{self._relay.name} has cut the power of what was on"
+            self.cut = f"{self._relay.name} was told to cut the power of what was on"
             try:
                 self._relay.open()
             except Exception as error:

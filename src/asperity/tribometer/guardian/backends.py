@@ -14,9 +14,10 @@ from asperity.casefile import Case
 from asperity.errors import AsperityError
 from asperity.tribometer.guardian import asked
 from asperity.tribometer.guardian.casing import packed
-from asperity.tribometer.guardian.devices import DRIVE, OUTPUTS, owned_by
+from asperity.tribometer.guardian.devices import DRIVE, EAR, OUTPUTS, owned_by
 from asperity.tribometer.guardian.guard import Guard
 from asperity.tribometer.guardian.in_time import ScopeInTime, beaten
+from asperity.tribometer.guardian.owned import LISTENER
 from asperity.tribometer.guardian.rig import Address, RigLine
 from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
@@ -89,10 +90,11 @@ class GuardedBench(Bench):
 
     def safe(self) -> tuple[str, ...]:
         """Have everything switched off and read back; returns what was not, and why."""
-        found = self.guard.off("the procedure asks", listen=False)
-        # Then nobody else uses it, and its samples tell whether the drive is still.
-        if self._scope_let_go():
-            found = self.guard.off("the procedure asks, and the drive signal is heard", listen=True)
+        self.guard.off("the procedure asks", listen=False)
+        # Then nobody else uses it, and its samples tell whether the drive is still; where it does
+        # not let go, nothing is heard, and that is told.
+        self._let_go_of_the_scope()
+        found = self.guard.off("the procedure asks, and the drive signal is heard", listen=True)
         return (*found.get("still_on", ()), *self._by_hand())
 
     def cause_of(self, error: BaseException) -> BaseException:
@@ -123,13 +125,11 @@ class GuardedBench(Bench):
                 return beaten(future, self.guard.here, _WORKING)
             return future.result()
 
-    def _scope_let_go(self) -> bool:
-        try:
+    def _let_go_of_the_scope(self) -> None:
+        # Whatever a driver raises; it is no output, and keeps nothing on.
+        with contextlib.suppress(Exception):
             self.scope.safe()
             self.scope.close()
-        except Exception:  # of a driver; it is no output, and keeps nothing on
-            return False
-        return True
 
     def _by_hand(self) -> list[str]:
         failures = []
@@ -226,6 +226,7 @@ def _simulated(case: Case, inputs: tuple[Input, ...], folder: Path | None) -> Gu
         person=asked.AskedPerson(line),
         clock=clock,
         amplifier=outputs["amplifier"],
+        listener=asked.AskedListener(line, LISTENER, EAR),
         memory=asked.AskedMemory(line, clock),
         simulated=True,
         guard=guard,

@@ -22,7 +22,7 @@ OUTPUTS = {
     "bronze": "supply of the bronze disc's motor",
 }
 """What messages call them."""
-_EAR = "ear at the drive signal"
+EAR = "ear at the drive signal"
 
 
 def owned_by(case: Case, backend: str) -> tuple[dict[str, str], tuple[str, ...]]:
@@ -59,7 +59,7 @@ def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
     """Return the devices, each of which begins to be opened."""
     owned, _ = owned_by(case, backend)
     if rig is not None:
-        return [_simulated(key, name, rig) for key, name in {**owned, LISTENER: _EAR}.items()]
+        return [_simulated(key, name, rig) for key, name in {**owned, LISTENER: EAR}.items()]
     found = []
     if "vibration" in owned:
         found.append(Device(DRIVE, {"vibration": DRIVE}, lambda: _controller(case)))
@@ -68,7 +68,7 @@ def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
         found += _supplies(case.require(Supplies), outputs)
     # What is written into a folder comes too late to be listened to.
     if not case.get(Acquisition, Acquisition()).folder:
-        found.append(Device("oscilloscope", {LISTENER: _EAR}, lambda: _ear(case)))
+        found.append(Device("oscilloscope", {LISTENER: EAR}, lambda: _ear(case)))
     return found
 
 

@@ -32,6 +32,7 @@ _TRIES = 3  # at switching off where it fails itself
 _ATTEMPTS = 10  # of these, when the procedure has ended
 _WRITTEN = 60.0  # s that the end waits for the journal and for recordings
 _CLOSED = 0.5  # s that it waits for a device to be let go of
+_LEAVING = 20.0  # s that a procedure which was told to end may take until it has all read back
 _STOPPED = "somebody asks for a stop"
 
 
@@ -84,6 +85,7 @@ class Guardian:
         self._of = {key: device for device in devices for key in device.keys}
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._tripped, self._urgent = "", False
+        self._pulses = True
         self._stop_button = StopButton(self.stop)
         self._writing = Writing(self._stop_button.watch, folder)
         self._switching = Switching(
@@ -103,12 +105,12 @@ class Guardian:
     def signal(self, number: int) -> None:
         """Take a signal, as often as it comes; may be called from its handler."""
         came, self._urgent = self._now(), True
-        self._events.put(lambda: self._trip(f"signal {named(number)}", came))
+        self._events.put(lambda: self._trip(f"signal {named(number)}", came, wrong=False))
 
     def stop(self) -> None:
         """Take that somebody asks for an end; may be called from any thread."""
         came, self._urgent = self._now(), True
-        self._events.put(lambda: self._trip(_STOPPED, came, kind=STOPPED))
+        self._events.put(lambda: self._trip(_STOPPED, came, kind=STOPPED, wrong=False))
 
     def message(self, head: Head) -> None:
         """Take a message of the procedure; may be called from any thread."""
@@ -174,6 +176,7 @@ class Guardian:
         """See that nothing is late."""
         now = self._now()
         if self._tripped:
+            self._pulse()
             if now - self._verdicts.tried > _AGAIN:
                 if self._switched:
                     self._verdicts.again()
@@ -204,8 +207,13 @@ class Guardian:
             self._send({"here": True})
 
     def _pulse(self) -> None:
-        """Show a watchdog that somebody is there, as long as nothing has been found wrong."""
-        if not self._tripped:
+        """Show a watchdog that somebody is there, as long as nothing has been found wrong.
+
+        Who is told to stop reads back first: without power nothing answers.
+        """
+        if self._tripped and self._now() - self._verdicts.event > _LEAVING:
+            self._pulses = False
+        if self._pulses:
             self._alarm.pulse()
 
     def _tick(self) -> None:
@@ -249,6 +257,8 @@ class Guardian:
             # Switched off already it has its line, and who asks again may have waited for that.
             event = self._now() if self._tripped else came
             found = self._off(why, event, listen=listen, last=listen)
+            # Then all is read back that is to be.
+            self._pulses = self._pulses and not (self._tripped and listen)
             self._send({"n": number, "gave": found.line()})
         elif verb == "goodbye":
             self._orderly = True
@@ -282,9 +292,11 @@ class Guardian:
         self._trip(str(error), event)
 
     def _trip(
-        self, why: str, event: float, kind: str = SWITCHED_OFF, unasked: str = NOT_YET
-    ) -> None:
-        """Switch everything off, for good."""
+        self, why: str, event: float, kind: str = SWITCHED_OFF, unasked: str = NOT_YET, *,
+        wrong: bool = True,
+    ) -> None:  # fmt: skip
+        """Switch everything off, for good; ``wrong``: by a fault, with which a watchdog opens."""
+        self._pulses = self._pulses and not wrong
         if self._tripped and self._switched:
             return
         if not self._tripped:
@@ -315,20 +327,24 @@ class Guardian:
     def _end(self, came: float) -> None:
         """Leave, everything off."""
         self._deserted, verdicts = came, self._verdicts
-        if self._orderly and verdicts.last is not None and not self._on:
-            self._left = 4 if verdicts.last.still_on else 0
+        last = verdicts.last
+        if self._orderly and last is not None and not last.unheard and not self._on:
+            self._left = 4 if last.still_on else 0
             return
+        # Who took its leave has told a person what was not off, and was itself told of it.
+        attempts = 0 if self._orderly and not self._on else _ATTEMPTS
         if not self._tripped:
             verdicts.began(came)
-        why = self._tripped = self._tripped or "the procedure has ended without a word"
-        self._switched = False
+        ended = "the procedure has ended" + ("" if self._orderly else " without a word")
+        why = self._tripped = self._tripped or ended
+        self._switched = self._pulses = False
         found = self._off(why, came, listen=False, unasked=NOBODY, last=LISTENER not in self._of)
         self._switched = True
         if LISTENER in self._of:
             heard = f"{why}, and the drive signal is heard"
             found = self._off(heard, self._now(), listen=True, unasked=NOBODY)
         self._writing.end(why, found)
-        for _ in range(_ATTEMPTS if any(self._of) else 0):
+        for _ in range(attempts if any(self._of) else 0):
             if verdicts.last is None or not verdicts.last.still_on:
                 break
             time.sleep(_AGAIN)

@@ -114,7 +114,14 @@ class Verdict:
     @property
     def names(self) -> str:
         """What was read back to be off, or named."""
-        return ", ".join(one.name for one in self.found) or "nothing, for none of it is owned"
+        names = ", ".join(one.name for one in self.found) or "nothing, for none of it is owned"
+        unheard = ", ".join(one.name for one in self.unheard)
+        return f"{names}; not yet heard to be still: {unheard}" if unheard else names
+
+    @property
+    def unheard(self) -> list[Off]:
+        """What is off by what it says of itself, and has yet to be listened to."""
+        return [one for one in self.found if one.proven and one.unheard]
 
     def since(self, event: float, before: "Verdict") -> "Verdict":
         """Return it with times since an earlier event; what was off before was off by then."""
@@ -127,16 +134,19 @@ class Verdict:
 
     def line(self) -> dict[str, Any]:
         """Return it for a journal."""
-        told = {
+        proven = [one for one in self.found if one.proven and not one.unheard]
+        told: dict[str, Any] = {
             "why": self.why,
             "event_s": self.event,
             "took_s": round(self.seconds, 4),
-            "read_back": {one.name: one.evidence for one in self.found if one.proven},
+            "read_back": {one.name: one.evidence for one in proven},
             "off_s": {
                 one.name: round(self.answered[one.name], 4)
                 for one in self.found if one.proven and one.name in self.answered
             },
         }  # fmt: skip
+        if self.unheard:
+            told["not_yet_heard"] = {one.name: one.evidence for one in self.unheard}
         told |= {"by_hand": list(self.asked)} if self.asked else {}
         return told | ({"still_on": self.still_on} if self.still_on else {})
 

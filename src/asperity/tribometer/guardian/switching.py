@@ -112,11 +112,12 @@ class Switching:
             known |= {key: _told(asked[key]) for key in answered}
             if isinstance(known.get(LISTENER), bool):
                 self._moved = known[LISTENER]
-            found = self._found(asked, known)
-            proven = all(one.proven for one in found)
+            listening = LISTENER in asked and LISTENER not in known
+            found = self._found(asked, known, ear="asked" if listening else "")
+            # What is heard of the drive is waited for by itself.
+            proven = all(one.proven or (listening and one.unheard) for one in found)
             if proven and (not listens or LISTENER in known):
                 break
-            listening = LISTENER in asked and LISTENER not in known
             # Who was never heard keeps no other from being waited for.
             if self._now() >= (max(patient, 0.0 if proven else end) if listening else end):
                 break
@@ -126,11 +127,14 @@ class Switching:
             if self._hopeless(found) and (not listens or LISTENER in known):
                 break
             if not proven:
-                self._ask_again(asked, answered, found, came)
+                waits = [one for one in found if not (listening and one.unheard)]
+                self._ask_again(asked, answered, waits, came)
             cf.wait(
                 [one for one in asked.values() if not one.done()],
                 timeout=max(0.0, min(_AGAIN, end - self._now())),
             )
+        ear = "there" if LISTENER in self._of and not listens else ""
+        found = self._found(asked, known, ear=ear)
         return self._verdict(why, event, found, came, unasked=unasked)
 
     def _verdict(
@@ -185,7 +189,8 @@ class Switching:
     def _of_vibration(self) -> str:
         return self._of["vibration"].keys["vibration"] if "vibration" in self._of else ""
 
-    def _found(self, asked: Iterable[str], known: Mapping[str, Any]) -> list[Off]:
+    def _found(self, asked: Iterable[str], known: Mapping[str, Any], *, ear: str) -> list[Off]:
+        """Judge what is known; ``ear`` as of :func:`off.drive_off`."""
         found = {key: known.get(key, _SILENT) for key in asked}
         made: dict[str, Off] = {}
         for key in asked:
@@ -194,10 +199,10 @@ class Switching:
         if "vibration" in asked and "vibration" not in known:
             made["vibration"] = Off(self._of_vibration(), False, str(_SILENT))
         elif "vibration" in asked:
-            moves = found.get(LISTENER)
+            moves = None if ear else found.get(LISTENER)
             made["vibration"] = off.drive_off(
                 self._of_vibration(), found["vibration"], moves, made.get("amplifier"),
-                moved=self._moved,
+                moved=self._moved, ear=ear,
             )  # fmt: skip
         return [made[key] for stage in STAGES for key in stage if key in made]
 

@@ -1,7 +1,7 @@
 """What is found when everything is switched off: written down, told to a person, tried again."""
 
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from asperity.tribometer.guardian.alarm import Alarm
 from asperity.tribometer.guardian.owned import Verdict, unproven
@@ -71,7 +71,7 @@ class Verdicts:
         urgent : callable
             Whether something has come that is not to wait for that.
         """
-        named: set[str] = set()
+        named: dict[str, bool] = {}
 
         def meanwhile(found: Verdict) -> bool:
             if found.seconds < self._switching.limit:
@@ -86,15 +86,21 @@ class Verdicts:
             self._name_first(found, named)
         self._note(found)
 
-    def _name_first(self, found: Verdict, named: set[str]) -> None:
-        """Name what is not read back yet, and say of what was named that it is."""
+    def _name_first(self, found: Verdict, named: dict[str, bool]) -> None:
+        """Name what is not read back yet, and say of what was named that it is.
+
+        ``named`` keeps of each that was named whether it was read to be on: one that was silent
+        before, and now is, is named again.
+        """
         left = {one.name: one for one in found.found if not one.proven}
-        fresh = [one for name, one in left.items() if name not in named]
-        proven = sorted(named - set(left))
+        fresh = _worse(left.values(), named)
+        proven = sorted(set(named) - set(left))
         if not fresh and not proven:
             return
+        # What was read to be on once is not named anew with every answer that it owes.
+        still = {name: one.on or named.get(name, False) for name, one in left.items()}
         named.clear()
-        named.update(left)
+        named.update(still)
         self._writing.verdict(found)
         if proven:
             self._say(
@@ -157,6 +163,8 @@ class Verdicts:
         self.tried = self._now()
         if found.still_on != last.still_on:
             self._note(found)
+            before = {one.name: one.on for one in last.found if not one.proven}
+            self._alarm.name(_worse((one for one in found.found if not one.proven), before))
             if not found.still_on:
                 self._say(f"read back to be off at last: {found.names}")
         return True
@@ -170,3 +178,8 @@ class Verdicts:
         if self.last is None or self.last.still_on or self._proven is None:
             return None
         return self._proven - self.event
+
+
+def _worse(left: Iterable[Off], named: Mapping[str, bool]) -> list[Off]:
+    """Return what was not named, or was while nothing said that it is on, as something now does."""
+    return [one for one in left if one.name not in named or (one.on and not named[one.name])]

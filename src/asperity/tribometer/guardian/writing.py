@@ -97,7 +97,9 @@ class Writing:
         kinds = [] if journal is None else [line["kind"] for line in journal.lines]
         last = next((kind for kind in reversed(kinds) if kind != "off"), "")
         # What has not begun cannot be gone on with; lines "off" say what may be on.
-        if journal is None or last in ENDED or "started" not in kinds:
+        if journal is None or "started" not in kinds or last == "latched":
+            return
+        if last in ENDED and not found.still_on:
             return
         if found.still_on:
             journal.write("latched", interlock="still on", reason=why, still_on=found.still_on)

@@ -26,7 +26,8 @@ class Off:
     evidence : str
         What was read back, or why nothing was.
     unheard : bool
-        Whether nothing speaks against it, and it has yet to be listened to.
+        Whether nothing speaks against it, and it has yet to be listened to: what is proven so far
+        is so by what it says of itself.
     on : bool
         Whether what was read says that it is on.
     """
@@ -97,8 +98,11 @@ def drive_off(
     amplifier: Off | None = None,
     *,
     moved: bool = False,
+    ear: str = "",
 ) -> Off:
     """Judge what was read back of a drive.
+
+    Who listens and hears nothing of it leaves it unproven, unless its amplifier has no power.
 
     Parameters
     ----------
@@ -112,6 +116,9 @@ def drive_off(
         What was found of its amplifier's supply.
     moved : bool
         Whether it moved when it was heard last, which nothing but listening takes back.
+    ear : str
+        With nothing heard yet: ``asked``, of one that has yet to answer; ``there``, of one that is
+        not asked now.
     """
     told = []
     if isinstance(state, Exception):
@@ -127,12 +134,20 @@ def drive_off(
         return Off(name, False, ", ".join(told), on=True)
     if state is True or moves is True:
         return Off(name, False, ", ".join(told), on=True)
-    if state is False or moves is False:
+    if moves is False:
         return Off(name, True, ", ".join(told))
-    if state is None and amplifier is not None and amplifier.proven:
-        return Off(name, True, ", ".join([*told, "its amplifier has no power"]))
-    if not told:
-        return Off(name, False, "its state cannot be asked, and nobody listens", unheard=True)
+    if moves is None and ear and not isinstance(state, Exception):
+        told.append("its signal is not yet heard")
+    if moves is None and ear == "asked":
+        return Off(name, False, ", ".join(told), unheard=not isinstance(state, Exception))
+    if state is False and moves is None:
+        return Off(name, True, ", ".join(told), unheard=bool(ear))
+    if not isinstance(state, Exception) and amplifier is not None and amplifier.proven:
+        told.append("its amplifier has no power")
+        return Off(name, True, ", ".join(told), unheard=moves is None and bool(ear))
+    if state is None and moves is None:
+        told = ["its state cannot be asked", told[0] if ear else "nobody listens"]
+        return Off(name, False, ", ".join(told) if ear else ", and ".join(told), unheard=True)
     return Off(name, False, ", ".join(told))
 
 

@@ -204,6 +204,14 @@ class ReplayVibration(_Played):
         return False
 
 
+class _NoEar(_Played):
+    name = "ear at the drive signal"
+
+    def moves(self) -> bool:
+        """Nothing does: it is over."""
+        return False
+
+
 class ReplaySupply(_Played):
     """A supply as it was recorded."""
 
@@ -286,5 +294,6 @@ def replay_bench(folder: Path, names: Sequence[str]) -> Bench:
         tachometer=_NoTachometer(),
         person=_Nobody(),
         clock=clock,
+        listener=_NoEar(),
         simulated=any(one.simulated for one in recordings),
     )

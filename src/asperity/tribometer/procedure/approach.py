@@ -1,4 +1,4 @@
-"""Before a person is sent to the rig everything is switched off, and read back to be."""
+"""Before a person is sent to the rig everything is switched off, read back, and heard to be."""
 
 import contextlib
 from collections.abc import Callable, Iterator, Mapping
@@ -51,12 +51,12 @@ class Approach:
             yield
 
     def off(self) -> None:
-        """See that everything is off, the amplifier's supply too.
+        """See that everything is off, the amplifier's supply too, and the drive heard still.
 
         Raises
         ------
         InstrumentError
-            Something was not read back to be off, or the drive signal moves.
+            Something was not read back to be off, the drive signal moves, or it is not heard.
         """
         if not self._ran:
             return
@@ -75,12 +75,23 @@ class Approach:
                 )
             bench.clock.sleep(_AGAIN)
             bench.vibration.keep_alive()
-        if found:
-            # Nothing but its signal tells of such a drive.
+        # A controller that says it is off may go on: only its signal tells.
+        try:
             self._listen()
+        except InstrumentError as error:
+            name = bench.vibration.name
+            raise InstrumentError(
+                f"nobody is sent to the rig, {name} is not heard to be still: {error}",
+                kind=error.kind,
+            ) from None
         self._ran = False
 
     def _listen(self) -> None:
+        ear = self._bench.listener
+        if ear is not None:
+            if ear.moves():
+                raise InstrumentError("its signal moves", kind="still on")
+            return
         logger = self._listener(None, None)
         try:
             logger.watch(_LISTENED)

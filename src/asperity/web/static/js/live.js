@@ -51,6 +51,7 @@ function Run({ run, look, lost }) {
   const told = !runs ? `${ended?.kind ?? state}${ended?.reason ? `: ${ended.reason}` : ""}`
     : off?.still_on ? "not all of it was read back to be off"
     : off?.by_hand ? "a person is asked to switch off what only a person can"
+    : off?.not_yet_heard ? "read back to be off; the drive has yet to be heard"
     : off ? "read back to be off; the procedure has yet to end"
     : age > HANGS && asks ? "it waits for a person at the rig"
     : age > HANGS ? `nothing new for ${age.toFixed(0)} s: it may hang; stop works all the same` : "it goes on";
@@ -74,9 +75,11 @@ function Verdict({ off }) {
   if (!off) return null;
   const [still, hand, took] = [off.still_on ?? [], off.by_hand ?? [], Math.ceil(100 * off.took_s) / 100];
   const read = Object.keys(off.read_back ?? {}).length > 0;
+  const unheard = Object.keys(off.not_yet_heard ?? {});
   return still.length ? html`<p class="fault" role="alert">✗ Not read back to be off: ${still.join("; ")}.
       Switch it off by hand.</p>`
     : html`${read ? html`<p class="good">✓ Read back to be off within ${took.toFixed(2)} s: ${off.why}.</p>` : null}
+      ${unheard.length ? html`<p>Not yet heard to be still: ${unheard.join("; ")}.</p>` : null}
       ${hand.length
         ? html`<p class="fault">Nothing reads back, and a person is asked to switch off: ${hand.join("; ")}.</p>`
         : read ? null : html`<p class="fault">✗ Nothing was read back: ${off.why}.</p>`}`;
@@ -87,11 +90,12 @@ function Outputs({ run: { outputs, off } }) {
   if (!outputs.length) return null;
   const still = (output) => off?.still_on?.find((line) => line.startsWith(`${output}: `));
   const read = ({ output }) => {
-    const proven = off?.read_back?.[output];
+    const [proven, unheard] = [off?.read_back?.[output], off?.not_yet_heard?.[output]];
     if (still(output)) return html`<span class="bad">✗ ${still(output).slice(output.length + 2)}</span>`;
-    return proven ? html`<span class="good">✓ ${proven}</span>` : "–";
+    return proven ? html`<span class="good">✓ ${proven}</span>` : unheard ?? "–";
   };
-  const last = ({ output, told }) => (still(output) || off?.read_back?.[output] ? "off" : told);
+  const last = ({ output, told }) =>
+    (still(output) || off?.read_back?.[output] || off?.not_yet_heard?.[output] ? "off" : told);
   const shown = (row) => (last(row).startsWith("on") ? html`<b>${last(row)}</b>` : last(row));
   return html`<${Table} region="outputs" rows=${outputs} columns=${[["output", ({ output }) => output, "row"],
     ["told to be", shown], ["read back", read]]} />`;
