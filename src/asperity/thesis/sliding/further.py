@@ -4,7 +4,7 @@ import numpy as np
 
 from asperity.friction import Friction
 from asperity.thesis.exhibits import claim
-from asperity.thesis.products import Finding
+from asperity.thesis.products import ARITHMETIC, Finding
 from asperity.thesis.sliding.bodies import DIRECTION, PERIODIC, RATIO, Body, Sweep
 
 _PRINTED_LOADS = (50.8, 50.08)
@@ -52,15 +52,16 @@ def _directions() -> Finding:
         },
         "a ratio is met at up to "
         + ", ".join(f"{n} directions at k = {k:g}" for n, k in zip(counts, _SELECTED, strict=True)),
-        "The curve is symmetric about across the drive as about along it, which gives each ratio "
-        "four "
-        f"directions. At k = {_SELECTED[0]:g} vibration does least at {worst:g} deg, not across "
+        "It follows from symmetry, which the equations have: about across the drive as about along "
+        "it, which gives each ratio four directions, and two would be “multiple values” still. "
+        f"At k = {_SELECTED[0]:g} vibration does least at {worst:g} deg, not across "
         f"the "
         f"drive ({ratios[0].max():.3f} for {ratios[0][theta == 90.0][0]:.3f}), so that a ratio "
         "between the two is met at twice as many.",
         {f"directions_at_k_{k:g}": float(n) for n, k in zip(counts, _SELECTED, strict=True)}
         | {"asymmetry_about_90_deg": mirrored, "worst_direction_at_k_2_deg": float(worst)},
         [around],
+        verdict=ARITHMETIC,
     )
 
 
