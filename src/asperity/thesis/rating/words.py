@@ -10,6 +10,7 @@ from asperity.roots import root_between
 from asperity.studies.design import Bounds
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import ARITHMETIC, FITTED, NOT_TESTABLE, Finding
+from asperity.thesis.rating.claims import FROM_MEMORY
 from asperity.thesis.rating.rated import (
     GEARSET_2,
     GEARSET_3,
@@ -94,6 +95,7 @@ def _orders() -> Finding:
     parts: dict[str, bool] = {}
     numbers: dict[str, float] = {}
     shown = []
+    spare: dict[str, float] = {}
     for name, gear in GEARSETS.items():
         keys = ("M_26k_Nm", "M_w_Nm", "M_s_Nm", "output_torque_Nm", "through_travel_torque_Nm")
         long, wear, strength, rated, peak = gear.numbers("bs721", *keys)
@@ -104,19 +106,27 @@ def _orders() -> Finding:
             f"{name}: M_w > T_2": wear > peak,
             f"{name}: M_s > T_R": strength > rated,
         }
-        shown.append(f"{name}: {gearbox:.1%} < {mesh:.1%}; {wear:.0f}, {strength:.0f} > {long:.0f}")
+        shown.append(
+            f"{name}: {gearbox:.1%} < {mesh:.1%}; M_w {wear:.0f} > {peak:.0f}, M_s {strength:.0f} "
+            f"> {rated:.0f}, both > {long:.0f} N m"
+        )
+        spare[name] = strength / rated - 1.0
         numbers |= {
             f"{name}_{key}": value
             for key, value in (("eta_ges", gearbox), ("eta_z", mesh), ("M_26k_Nm", long),
-                               ("M_w_Nm", wear), ("M_s_Nm", strength))
+                               ("M_w_Nm", wear), ("M_s_Nm", strength), ("T_2_Nm", peak),
+                               ("T_R_Nm", rated))
         }  # fmt: skip
+    narrow = min(spare, key=lambda name: spare[name])
     return Finding.judged(
         parts,
-        "; ".join(shown) + " N m",
-        "T_2 is the torque of through travel, a third of T_R as 3.2.1 has it. Of gearsets 2 and 3, "
-        "which are reconstructed; the others are lost.",
+        "; ".join(shown),
+        "T_2 is the torque of through travel, a third of T_R as 3.2.1 has it. The narrowest is M_s "
+        f"above T_R, by {spare[narrow]:.0%} of {narrow}. Of gearsets 2 and 3, which are "
+        "reconstructed; the others are lost.",
         numbers,
         GEARSETS.values(),
+        assumed=FROM_MEMORY,
     )  # fmt: skip
 
 
