@@ -43,8 +43,9 @@ def _pressure() -> Finding:
         ", ".join(f"{pressure:.0f} MPa ({name})" for name, pressure in worst.items())
         + f" at most while the shaft angle errs by {ASKEW:g} deg",
         "“Encourages” names no amount and nothing it is set against. By claim 2.1 the tilted hob "
-        f"alone bears in the middle: at the worst of three shaft angles it has {middle:.0f} MPa for the "
-        f"identical hob's {edge:.0f} at an edge, {1.0 - middle / edge:.0%} less; where the angle "
+        "alone bears in the middle: at the worst of three shaft angles it has "
+        f"{middle:.0f} MPa for the identical hob's {edge:.0f} at an edge, "
+        f"{1.0 - middle / edge:.0%} less; where the angle "
         f"is true {true[0]:.0f} for {true[1]:.0f}, and where it errs the other way {other[0]:.0f} "
         f"for {other[1]:.0f}, since what bears in the middle is shorter and pressed the harder. "
         "Greatest Hertz pressure on the lines of contact at rated torque; lubrication is not in "

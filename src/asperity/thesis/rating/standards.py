@@ -19,6 +19,7 @@ from asperity.thesis.rating.rated import (
 _WORST, _BEST = 3.24, 2.77
 """Power with the worst and the best oil of one grade, kW (2.3.2)."""
 _PERCENT = 14.6
+_LITTLE = 0.1
 _PRINTED = (0.0715, 0.0170, 0.0550)
 """Friction with mineral oil, polyglycol and polyalphaolefin (3.2.1)."""
 
@@ -182,7 +183,7 @@ def _capacity() -> Finding:
     return Finding.judged(
         {
             "“very little improvement”: the lesser of M_w and M_s rises by a tenth at most": all(
-                gain < 0.1 for gain in gains.values()
+                gain < _LITTLE for gain in gains.values()
             ),
             "“without impacting load capacity”, by BS 721": all(
                 gain > -1e-6 for gain in gains.values()
@@ -198,6 +199,7 @@ def _capacity() -> Finding:
         {f"{name}_gain": gain for name, gain in gains.items()}
         | {f"{name}_T_G_all_optimum_Nm": after for name, (_, after) in allowable.items()},
         OPTIMISED,
+        assumed=f"The bounds, and the yardstick of “little”: {_LITTLE:.0%}.",
     )  # fmt: skip
 
 

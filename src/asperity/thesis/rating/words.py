@@ -169,6 +169,8 @@ def _besides_the_optimum() -> Finding:
         }
         | {"gearset_3_sigma_a_change_at_most": max(others)},
         OPTIMISED,
+        assumed="The bounds; the others are the module kept, all three freer, a pressure angle of "
+        "less and a profile shift near zero.",
     )
 
 
@@ -251,8 +253,8 @@ def _self_locking() -> Finding:
         {"“it is recommended that q_1 be as low as possible”": back[6] < back[12]},
         ", ".join(f"q_1 {q}: {angles[q]:.2f} deg, eta_z2_1 {back[q]:+.2f}" for q in gears),
         "tan gamma = z_1/q_1: a low diameter factor makes the lead steep, and the wheel drives the "
-        "worm the more easily. Self-locking wants q_1 as high as may be. Gearset 2, its centre "
-        "distance moved so that the profile shift stays.",
+        "worm the more easily. Self-locking wants q_1 as high as may be, though this gearset locks "
+        "itself at both. Gearset 2, its centre distance moved so that the profile shift stays.",
         {f"lead_angle_q_{q}_deg": angle for q, angle in angles.items()}
         | {f"eta_z2_1_q_{q}": efficiency for q, efficiency in back.items()},
         gears.values(),
@@ -263,16 +265,19 @@ def _self_locking() -> Finding:
 def _contact_pressure() -> Finding:
     gears = [RatedGear("gearset-3", _peak(torque)) for torque in (23, 366)]
     low, high = (gear.number("iso14521", "sigma_line_MPa") for gear in gears)
+    mean = gears[1].number("iso14521", "sigma_Hm_MPa")
     return Finding.judged(
         {
             "194.3 N/mm2 at 23 N m, within 1 %": abs(low / 194.3 - 1.0) < 0.01,
             "778 N/mm2 at 366 N m, within 1 %": abs(high / 778.0 - 1.0) < 0.01,
         },
         f"{low:.0f} and {high:.0f} N/mm2",
-        "As a Hertz line contact, though the thesis does not say that it is one; the pressure goes "
-        "with the root of the torque. Not used to reconstruct gearset 3.",
+        "The pressure goes with the root of the torque, so that the second follows from the first "
+        "and does not count anew. Not used to reconstruct gearset 3.",
         {"sigma_line_23_Nm_MPa": low, "sigma_line_366_Nm_MPa": high},
         gears,
+        assumed="A Hertz line contact, though the thesis does not say that it is one; sigma_Hm of "
+        f"ISO/TR 14521 would be {mean:.0f} N/mm2 for the second.",
     )
 
 

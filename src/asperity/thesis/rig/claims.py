@@ -194,8 +194,9 @@ def _orders() -> Finding:
         f"{', '.join(f'{supply:g}' for supply in m.SUPPLIES)} V; the sine takes "
         f"{100 * chain[TRANSVERSE]:.1f} points more across, {100 * chain[LONGITUDINAL]:.1f} along",
         f"The order of speeds is judged, at {_TUNED:g} Hz: of other frequencies, of which the "
-        "thesis says it too, our chain has placeholders (claim 6.5), and grease it does not have. Which "
-        "wave does more is not judged, since the chain decides it: ours, which passes little but "
+        "thesis says it too, our chain has placeholders (claim 6.5), and grease it does not have. "
+        "Which wave does more is not judged, since the chain decides it: ours, which passes "
+        "little but "
         "the first harmonic, has the sine ahead, while of an ideal triangle of equal stroke rigid "
         f"friction falls more than of a sine above k = {crossing[TRANSVERSE]:.2f} across and "
         f"{crossing[LONGITUDINAL]:.2f} along, {triangle[TRANSVERSE]:.3f} for "
@@ -224,7 +225,8 @@ def _wear() -> Finding:
         "no "
         "doubling: below k = 1 the discs never slide back, so that the path on each other is the "
         "sliding "
-        "distance with vibration as without: Archard's wear on it stays. The speed's root mean "
+        "distance with vibration as without (one within what the velocities are rounded to, claim "
+        "6.11, would not change that): Archard's wear on it stays. The speed's root mean "
         f"square rises by {root_mean_square - 1.0:.0%}, heat and film change: none of it is a "
         "factor of two. Two runs on discs of which it is not told whether they were new leave "
         "other reasons.",

@@ -253,7 +253,9 @@ def _every_direction() -> Finding:
             ),
         },
         f"symmetric to {skew:.0e}; longitudinal lowest at k = {PLOTTED.replace(',', ', ')}",
-        "“Regardless of the value of k_v” is said of the selected ones, and of these it holds. "
+        "Symmetric it could not but be: the march of one side is the mirror of the "
+        "other. “Regardless of the value of k_v” is said of the selected ones, and of these it "
+        "holds. "
         f"Below k = {crossing:.3f}, where none was selected, transverse vibration leaves less: at "
         f"k = 1 {across:.3f} against {along:.3f}, as the thesis itself says of both modes (claims "
         "4.3 and 4.5). The wider sentences of section 4.6 and Appendix A, without the selected "
