@@ -53,6 +53,7 @@ def _reversible() -> Finding:
         {f"{row.key}_back_driving": row.back_driving_efficiency for row in rows}
         | {"bound": bound, "optimum_back_driving": back},
         [GEARSET_2.command("methods"), GEARSET_2.command("optimise")],
+        assumed="Gearset 2 at its own ratio: that it depends on the ratio is not tried.",
     )
 
 

@@ -28,9 +28,10 @@ def _stiffness() -> Finding:
         },
         f"{1e-6 * right:.2f}e6 N/m with {_PRINTED_LOADS[0]} N, {1e-6 * said:.2f}e6 N/m with "
         f"{_PRINTED_LOADS[1]} N",
-        "By (18), a force over a deflection, the s_max of Table 4.4 gives the stiffness at the "
-        "force "
-        "of that table, which Appendix A has as well: the force of the claim is a misprint, twice. "
+        "Appendix A has the stiffness with the force of Table 4.4, as matching those of the "
+        "literature: the force of the claim is a misprint, twice. By (18), a force over a "
+        "deflection, the s_max of that table gives the same, which proves nothing more, since it "
+        "was selected for it. "
         "The unit is N/m, as Appendix A has it.",
         {"k_t_at_50.8_N_N_per_m": right, "k_t_at_50.08_N_N_per_m": said},
         ["mu F_N / s_max, of Table 4.4"],
@@ -95,7 +96,8 @@ def _without_transfer() -> Finding:
         "shaken body then gives all of its lateral motion to the contact, the shaken base a part. "
         "Seen on a figure from 0 to 1 that must show; Figure 7.8 of the thesis is lost. With the "
         "transfer "
-        "kept, as section 7.3 has it, the two agree: claim 7.8. Sliding bodies, periodic; the "
+        "kept, as section 7.3 has it, the two agree: claim 7.8; along the sliding, where eta_y "
+        "does nothing (claim 4.9), they do without it. Sliding bodies, periodic; the "
         "plastic branch of Appendix E is left out.",
         {f"apart_at_k_{one:g}": float(value) for one, value in zip(k, apart, strict=True)},
         [base, body],
