@@ -161,6 +161,35 @@ def test_inches_are_the_same_in_both_languages():
     assert sum("hp" in each for each in english) >= 2
 
 
+@pytest.mark.parametrize(
+    ("command", "given"),
+    [
+        ("rate", ("actuator-shafts",)),
+        ("rate", ("actuator-duty", "tolerances.fit=C")),
+        ("shafts", ("actuator-shafts", "worm_shaft.peak=2.5")),
+        ("shafts", ("actuator-shafts", "wheel_shaft.section=[{length='60 mm', diameter='30 mm'}, "
+                    "{length='100 mm', diameter='25 mm'}]")),
+    ],
+)  # fmt: skip
+def test_every_number_of_the_screen_in_inches_is_the_same_in_both_languages(command, given):
+    _, result = answer_of(*given, command=command)
+    number = re.compile(r"(?<![\w.])-?\d[\d,\N{NARROW NO-BREAK SPACE}]*(?:\.\d+)?(?:e[+-]?\d+)?")
+
+    def numbers():
+        texts = [getattr(result, "brief", str)(), *map(shown_text, result.headline())]
+        for table in map(shown_table, result.tables()):
+            cells = (cell for row in table.rows for cell in row if "=" not in str(cell))
+            texts += [table.title, *table.remarks, *map(str, cells)]
+        blank = "\N{NARROW NO-BREAK SPACE}"
+        return sorted(one.strip("," + blank).replace(blank, ",") for text in texts
+                      for one in number.findall(text))  # fmt: skip
+
+    with shown_in("us"):
+        english = numbers()
+        with spoken(catalogue_of("de")):
+            assert numbers() == english
+
+
 def test_a_table_is_shown_in_the_language_that_is_spoken_and_else_as_it_is(words):
     table = Table.of(("wheel", "and"), [("wear of wheel", "and")], title="wheel", remarks=["and"])
     assert shown_table(table) == table
@@ -211,3 +240,12 @@ def test_a_language_that_there_is_not_is_one_line(tmp_path):
         catalogue_of("tlh")
     with pytest.raises(InputError, match="cannot be read: no such file"):
         catalogue_of(str(tmp_path / "none.toml"))
+
+
+def test_a_line_of_short_words_is_said_as_well_and_each_number_has_its_unit():
+    german = catalogue_of("de")
+    assert german.said("5.76 um of 71 um") == "5.76 um von 71 um"
+    assert german.said("at 2.5 T_2") == "bei 2.5 T_2"
+    # Numbers alone stay, and are not missed.
+    assert german.said("5.76 um") == "5.76 um"
+    assert "5.76 um" not in german.missing

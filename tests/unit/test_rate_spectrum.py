@@ -406,7 +406,8 @@ def test_many_steps_of_many_speeds_are_rated_as_few_are(monkeypatch):
     one_by_one = rate_case(case, ("bs721",))
     assert many.to_json() == one_by_one.to_json()
     said = (*many.notes, *many.bs721.notes, *many.bs721.violations, *many.bs721.gaps)
-    assert any("the worm is not rated: part" in each for each in said)
+    assert sum("the worm is not rated: part" in each for each in said) == 16
+    assert any("the worm is not rated: 8 more parts of the duty cycle" in each for each in said)
 
 
 def test_loads_that_come_and_go_in_cycles_have_the_mean_temperature_unless_told_otherwise():

@@ -288,7 +288,11 @@ def test_a_bearing_that_cannot_sit_where_it_stands_is_told(setting, said):
     assert said in study.answer(study.prepare(case), Run()).notes
     rated = study.beside_rating(case)(rate_case(case), Run())
     assert said in rated.notes
-    assert "cannot sit there" in " ".join(rated.brief().split())
+    said = " ".join(rated.brief().split())
+    assert "cannot sit there" in said
+    # What cannot be mounted lives for no time, and does not hold.
+    assert "0 h of" in said
+    assert "FAILS" in said
 
 
 def test_bearings_that_sit_are_not_told_of():

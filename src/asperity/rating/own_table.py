@@ -155,14 +155,14 @@ def rows_of(given: Inputs) -> tuple[tuple[Row, ...], tuple[str, ...]]:
     for what, there in (("root", found.root), ("flank", found.flank)):
         may = plastic.bears(what, found.celsius, found.cycles)
         if may is not None:
-            by = (f"{there:.3g} of {1e-6 * may:.3g} MPa, {found.celsius:.4g} degC, "
+            by = (f"{there:.3g} MPa of {1e-6 * may:.3g} MPa, {found.celsius:.4g} degC, "
                   f"{found.cycles:.3g} cycles")  # fmt: skip
             rows.append(Row(f"wheel {what}", NAME, 1e-6 * may / there, 1.0, "", by))
     if found.worn is not None and plastic.wear_depth is not None:
         deep = 1e3 * plastic.wear_depth
         rows.append(
             Row("wheel wear", NAME, deep / found.worn, 1.0, "",
-                f"{found.worn:.3g} of {deep:.3g} mm")
+                f"{found.worn:.3g} mm of {deep:.3g} mm")
         )  # fmt: skip
     note = (
         f"no standard covers a wheel of plastic: {plastic.name} is judged by its own table, the "

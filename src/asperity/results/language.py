@@ -87,8 +87,11 @@ class Catalogue:
         if bare != text:
             inner = self._found(bare)
             return None if inner is None else text.replace(bare, inner)
-        if text in self._kept or not _WORD.search(text):
+        if text in self._kept:
             return text
+        if not _WORD.search(text):
+            # Of short words alone, as "of" and "at", only whole lines tell.
+            return self._by_line(text, whole=True) or text
         small = text[0].lower() + text[1:]
         if small in self._texts:
             begun = self._texts[small]

@@ -280,8 +280,10 @@ def _after(text: str, pending: str) -> str:
 
 
 def _runs_in_units(text: str) -> str:
-    # Numbers stand between words of the language that they are shown in.
-    return _run(tuple(map(said, _BETWEEN))).sub(_replaced, text)
+    # Numbers stand between words of the language that they are shown in, or, where it has no line
+    # for a text, of English.
+    between = dict.fromkeys((*map(said, _BETWEEN), *_BETWEEN))
+    return _run(tuple(between)).sub(_replaced, text)
 
 
 def _unit_of(key: str) -> str:

@@ -27,7 +27,7 @@ def rows_of(study: Study) -> tuple[Row, ...]:
         rows.append(
             Row(
                 "worm as a beam", "ISO/TR", study.deflection_limit / study.worm_deflection, 1.0, "",
-                f"{study.worm_deflection:.3g} of {study.deflection_limit:.3g} um",
+                f"{study.worm_deflection:.3g} um of {study.deflection_limit:.3g} um",
             )
         )  # fmt: skip
     return tuple(rows)
@@ -43,9 +43,12 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
             most = max(range(len(worst.damage)), key=worst.damage.__getitem__)
             torque = found.every[0][most].load.torque
             by.append(f"{torque:g} N m {100.0 * worst.damage[most]:.0f} %")
+        life = worst.told
         if any(f"bearing {end} " in note for note in found.model.misseated):
-            by.append("cannot sit there")
-        yield Row(f"{name} bearing {end}", "ISO 281", worst.told, asked, "h", ", ".join(by))
+            by = ["cannot sit there", *by]
+            # What cannot be mounted lives for no time.
+            life = 0.0
+        yield Row(f"{name} bearing {end}", "ISO 281", life, asked, "h", ", ".join(by))
 
 
 def _at_rest(found: Mapping[str, ShaftFound]) -> Iterator[Row]:

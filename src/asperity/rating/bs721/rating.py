@@ -7,7 +7,7 @@ one, both at the speed of the part with the greatest torque (the fastest of such
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from asperity.rating.result import Rating
 from asperity.sources import Source, weakest
 
 _FEW = 16  # speeds that are looked up one by one
+_TOLD = 16  # parts that are told of one by one
 _OF_DUTY = (
     "the duty cycle: hours are referred to n_m, the worm's speed in the part with the greatest "
     "torque, at which the speed factors are looked up too"
@@ -111,7 +112,8 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
     Of one gearset that raises TableRangeError, as it does of a load that is all the same.
     """
     own_speeds = [part.speed for part in given.duty]
-    for speed in _unreached(given, tables, given.speeds if given.together else own_speeds):
+    speeds = given.speeds if given.together else own_speeds
+    for speed in _unreached(given, tables, speeds, "wheel"):
         at = sliding_velocity(given.worm_pitch_diameter, speed, given.lead_angle)
         wheel = speed / given.gear_ratio
         own = {
@@ -122,36 +124,39 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
             v |= {key: np.where(np.isnan(one), one, v[key]) for key, one in own.items()}
 
 
-def _unreached(given: Inputs, tables: Tables, speeds: Sequence[Real]) -> Sequence[Real]:
-    """Return the speeds that a table may not reach, of many looked up at once; of few all."""
+def _unreached(
+    given: Inputs, tables: Tables, speeds: Sequence[Real], member: torque.Member
+) -> Sequence[Real]:
+    """Return the speeds of the worm at which a table of the wheel, or the worm, may not reach.
+
+    Of many, which are looked up at once; few are returned all.
+    """
     if len(speeds) <= _FEW or any(np.ndim(speed) for speed in speeds):
         return speeds
     worm = np.asarray(speeds, dtype=np.float64)
+    turning = worm / given.gear_ratio if member == "wheel" else worm
     with masking(worm.shape) as mask:
         at = sliding_velocity(given.worm_pitch_diameter, worm, given.lead_angle)
-        members: tuple[tuple[Literal["wheel", "worm"], Real], ...] = (
-            ("wheel", worm / given.gear_ratio),
-            ("worm", worm),
-        )
-        for member, turning in members:
-            torque.wear_speed_factor(at, turning, member=member, tables=tables)
-            torque.strength_speed_factor(turning, member=member, tables=tables)
+        torque.wear_speed_factor(at, turning, member=member, tables=tables)
+        torque.strength_speed_factor(turning, member=member, tables=tables)
     return [speed for speed, reason in zip(speeds, mask.reason, strict=True) if reason]
 
 
 def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
-    """Say which parts of a duty cycle run at speeds that no table reaches."""
+    """Say which parts of a duty cycle run at speeds that no table reaches: some, and how many."""
     first = {part.speed: place for place, part in reversed([*enumerate(given.duty, 1)])}
     parts = first.items() if given.together else [(p.speed, n) for n, p in enumerate(given.duty, 1)]
-    unreached = set(_unreached(given, tables, [speed for speed, _ in parts]))
-    for worm_speed, place in parts:
-        if worm_speed not in unreached:
-            continue
-        members: tuple[tuple[Literal["wheel", "worm"], Real], ...] = (
-            ("wheel", worm_speed / given.gear_ratio),
-            ("worm", worm_speed),
-        )
-        for member, speed in members:
+    members: tuple[torque.Member, ...] = ("wheel", "worm")
+    for member in members:
+        unreached = set(_unreached(given, tables, [speed for speed, _ in parts], member))
+        told = more = 0
+        for worm_speed, place in parts:
+            if worm_speed not in unreached:
+                continue
+            if told == _TOLD and len(unreached) < len(parts):
+                more += 1
+                continue
+            speed = worm_speed / given.gear_ratio if member == "wheel" else worm_speed
             try:
                 torque.strength_speed_factor(speed, member=member, tables=tables)
                 torque.wear_speed_factor(
@@ -159,7 +164,16 @@ def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
                     speed, member=member, tables=tables,
                 )  # fmt: skip
             except TableRangeError as error:
+                if told == _TOLD:
+                    more += 1
+                    continue
+                told += 1
                 yield f"the {member} is not rated: part {place} of the duty cycle: {error}"
+        if more:
+            yield (
+                f"the {member} is not rated: {more} more parts of the duty cycle, at speeds that "
+                "its tables do not reach"
+            )
 
 
 def by_normal_section(given: Inputs) -> bool:
