@@ -502,6 +502,15 @@ def _noisy(run):
         run.volts["torque_steel"][here] += 1.0 * run.rng.standard_normal(np.count_nonzero(here))
 
 
+def _coarse(name, volts):
+    """A channel on too wide a range: its noise does not reach across a step."""
+
+    def fault(run):
+        run.volts[name] = volts * np.round(run.volts[name] / volts)
+
+    return fault
+
+
 HEARS = {"acceleration": 150.0}
 FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "zero off by 30 mN m": (_zero_off, {}),
@@ -524,6 +533,7 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "torque saturates below its range": (_saturates("torque_steel", 0.8), {}),
     "torque saturates within its noise": (_torque_clipped, {}),
     "current saturates below its range": (_saturates("current_steel", 0.9), {}),
+    "torque in steps of 0.25 V": (_coarse("torque_steel", 0.25), {}),
     "drive decays to 13 %": (_drive_decays, {}),
     "vibration 3 s after its command": (None, {"drive_late": 3.0, "events": True}),
     "vibration acts 3 s after its drive": (None, {"effect_late": 3.0}),

@@ -12,6 +12,7 @@ from apparatus.grid import slow
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.directions import answer as ways
+from asperity.drive.driven import inputs
 from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.plots import plot_directions
 from asperity.drive.protocols.march import March
@@ -19,7 +20,6 @@ from asperity.drive.protocols.setup import begin, switched_off, system
 from asperity.drive.reduced.law import NormalLaw, force_and_energy
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
-from asperity.drive.result import inputs
 from asperity.drive.solve import answer, prepare
 from asperity.errors import InputError
 from asperity.runs import Interrupted, Run

@@ -46,6 +46,7 @@ TOLD = {
     "encoder of the bronze disc dead": "speed_bronze does not move",
     "torque saturates below its range": "torque_steel saturates",
     "torque saturates within its noise": "torque_steel saturates",
+    "torque in steps of 0.25 V": "torque_steel goes in coarse steps",
     "drive decays to 13 %": "drive signal is not steady",
     "vibration 3 s after its command": "vibration comes late",
     "vibration acts 3 s after its drive": "torque steps within its window",

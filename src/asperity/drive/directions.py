@@ -9,12 +9,13 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
+from asperity.drive.driven import inputs
 from asperity.drive.lacking import require_all
 from asperity.drive.problem import PLACES, DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
 from asperity.drive.reduced.reduction import reduction
-from asperity.drive.result import DriveResult, inputs
+from asperity.drive.result import DriveResult
 from asperity.drive.solve import prepare as prepare_drive
 from asperity.errors import AsperityError
 from asperity.results import Result, quantity

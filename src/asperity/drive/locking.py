@@ -18,6 +18,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
+from asperity.drive.driven import inputs
 from asperity.drive.lacking import require_all
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
@@ -25,7 +26,7 @@ from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked, least_creep
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
-from asperity.drive.result import DriveResult, inputs
+from asperity.drive.result import DriveResult
 from asperity.drive.solve import prepare as prepare_drive
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.friction import Friction

@@ -1,17 +1,14 @@
 """What a shaken drive is: torques, their balance, contact lost, powers, what it costs."""
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from asperity.arrays import FloatArray
+from asperity.drive.driven import OfDrive
 from asperity.drive.headline import state_of
-from asperity.drive.problem import DriveProblem
-from asperity.gearset import Geometry
-from asperity.gearset.drawn import Drawn
 from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.ledger import Ledger
 from asperity.results.words import Number, Sentence
-from asperity.slider.result import table_inputs
 
 EQUAL = 5e-3  # of a power, as of what makes a state settled
 _OVER_TIME, _CYCLES = ("time",), ("cycle",)
@@ -79,7 +76,7 @@ class Course(Quantities):
     )
 
 
-class DriveResult(Drawn):
+class DriveResult(OfDrive):
     """The answer for a gearset under vibration.
 
     A torque ratio means nothing without ``torque_balance`` and ``settled``: while the wheel coasts
@@ -103,7 +100,6 @@ class DriveResult(Drawn):
         "drive_powers": "Mean powers over the window: what is put in, and where it goes.",
     }
 
-    problem: DriveProblem
     k_w: float = quantity("k_w", "", "peak velocity of the vibration over the sliding", key="k_w")
     torque_static: float = quantity("T_Bs", "N m", "torque without vibration")
     torque: float | None = quantity("T_Bv", "N m", "mean torque under vibration")
@@ -192,25 +188,10 @@ class DriveResult(Drawn):
     )  # fmt: skip
 
     @property
-    def geometry(self) -> Geometry:
-        """What follows from the gearset's numbers."""
-        return self.problem.geometry
-
-    @property
-    def hand(self) -> str:
-        """Of the worm."""
-        return self.problem.gearset.hand
-
-    @property
     @labelled("", "", "of the powers, what is missing over what is put in", swept=True)
     def closure(self) -> float:
         """Residual of the power ledger."""
         return self.ledger.residual
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        """What was asked: values in SI and texts by ``table.key``."""
-        return inputs(self.problem)
 
     def headline(self) -> tuple[str, ...]:
         """Return what vibration does to torque, energy and contact."""
@@ -293,17 +274,3 @@ class HeldWheel(DriveResult):
     torque_ratio: float | None = quantity(
         "T_R/T_m", "", "load over the mean torque on the held wheel, the motor's torque the same"
     )
-
-
-def inputs(problem: DriveProblem) -> dict[str, Any]:
-    """Return the values of a problem's tables as numbers in SI and texts, by ``table.key``."""
-    tables = (
-        problem.gearset, problem.operation, problem.friction, problem.drive, problem.shaft,
-        problem.vibration, problem.actuator, problem.mount, problem.hob, problem.modification,
-        problem.disc, problem.solve,
-    )  # fmt: skip
-    return {
-        # netCDF has no truths and no lists.
-        key: value if isinstance(value, str | float) else str(value)
-        for key, value in table_inputs(*tables).items()
-    }

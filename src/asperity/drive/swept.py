@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from asperity.casefile import Case, Table
+from asperity.drive.driven import inputs
 from asperity.drive.lacking import require_all
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
@@ -14,7 +15,7 @@ from asperity.drive.protocols.march import March
 from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.reduction import reduction
-from asperity.drive.result import DriveResult, inputs
+from asperity.drive.result import DriveResult
 from asperity.drive.solve import prepare
 from asperity.drive.tables import TABLES
 from asperity.errors import AsperityError

@@ -1,10 +1,7 @@
 """A data file of rolling bearings, begun for whoever has a maker's table at hand."""
 
-from collections.abc import Iterator
-
-from asperity.casefile.schema import Key, keys_of
 from asperity.shafts.bearing import RollingBearing
-from asperity.start.write import comment
+from asperity.start.data_file import data_text
 
 KIND = "bearing"
 """The name that ``asperity new`` takes."""
@@ -30,24 +27,10 @@ _REMARKS = (
 
 def bearing_text() -> str:
     """Return a commented data file with one bearing."""
-    lines = [line for remark in _REMARKS for line in (*comment(remark), "")]
-    lines += [
-        "[source.maker]",
-        'name = "catalogue of the maker, edition"',
-        'confidence = "one source"',
-        "",
-        f'[bearing."{NAME}"]',
-    ]
-    for key in keys_of(RollingBearing):
-        lines += _of(key)
-    lines.append('from = { "*" = "maker" }')
-    return "\n".join(lines) + "\n"
-
-
-def _of(key: Key) -> Iterator[str]:
-    if key.name == "name":
-        return
-    yield from comment(key.meaning)
-    given = _GIVEN.get(key.name)
-    yield f"{key.name} = {given}" if given else f"#{key.name} ="
-    yield ""
+    return data_text(
+        _REMARKS,
+        ("maker", "catalogue of the maker, edition"),
+        ("bearing", NAME),
+        RollingBearing,
+        _GIVEN,
+    )

@@ -1,10 +1,7 @@
 """A data file of plastics for wheels, begun for whoever has a strength table of his own."""
 
-from collections.abc import Iterator
-
-from asperity.casefile.schema import Key, keys_of
 from asperity.gearset.plastics import Plastic
-from asperity.start.write import comment
+from asperity.start.data_file import data_text
 
 KIND = "plastic"
 """The name that ``asperity new`` takes."""
@@ -42,24 +39,4 @@ _REMARKS = (
 
 def plastic_text() -> str:
     """Return a commented data file with one plastic."""
-    lines = [line for remark in _REMARKS for line in (*comment(remark), "")]
-    lines += [
-        "[source.tests]",
-        'name = "our tests, date"',
-        'confidence = "one source"',
-        "",
-        f'[plastic."{NAME}"]',
-    ]
-    for key in keys_of(Plastic):
-        lines += _of(key)
-    lines.append('from = { "*" = "tests" }')
-    return "\n".join(lines) + "\n"
-
-
-def _of(key: Key) -> Iterator[str]:
-    if key.name == "name":
-        return
-    yield from comment(key.meaning)
-    given = _GIVEN.get(key.name)
-    yield f"{key.name} = {given}" if given else f"#{key.name} ="
-    yield ""
+    return data_text(_REMARKS, ("tests", "our tests, date"), ("plastic", NAME), Plastic, _GIVEN)

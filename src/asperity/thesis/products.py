@@ -30,7 +30,10 @@ VERDICTS: Mapping[str, tuple[str, str]] = {
     DIFFERS: ("≠", "a sentence of the thesis does not hold here; which one is quoted"),
     FITTED: ("≈", "an input of ours was made from it, so that it tests nothing"),
     ARITHMETIC: ("=", "it follows from printed numbers or equations alone"),
-    NOT_TESTABLE: ("?", "what it is about is lost; what we get stands beside it"),
+    NOT_TESTABLE: (
+        "?",
+        "what it is about is lost, or too little of it is told; what we get stands beside",
+    ),
 }
 """Each kind of verdict: its mark, and what it means."""
 

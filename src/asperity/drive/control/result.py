@@ -9,8 +9,8 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.drive.control.parameters import Control
+from asperity.drive.driven import inputs
 from asperity.drive.problem import DriveProblem
-from asperity.drive.result import inputs
 from asperity.results import Result, quantity
 from asperity.results.table import Table, table_of
 from asperity.results.words import Number, Sentence

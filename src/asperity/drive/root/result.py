@@ -1,18 +1,16 @@
 """What the roots of a loaded wheel's teeth bear."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, NamedTuple, Self
+from typing import ClassVar, NamedTuple, Self
 
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
+from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.result import inputs
 from asperity.drive.root.loads import Load
 from asperity.drive.root.model import RootModel, Roots
 from asperity.drive.static.notes import few_phases
-from asperity.gearset import Geometry
-from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.results.words import Number
@@ -53,7 +51,7 @@ class Largest(NamedTuple):
         )
 
 
-class RootStress(Drawn):
+class RootStress(OfDrive):
     """Stresses at the fillets of a wheel's teeth over a pitch."""
 
     title: ClassVar[str] = "Roots of a loaded worm wheel"
@@ -67,8 +65,6 @@ class RootStress(Drawn):
         "roots_fillet": "The largest tension of a pitch over the loaded side's fillet.",
     }
     reported: ClassVar[bool] = True
-
-    problem: DriveProblem
 
     output_torque: float = quantity("T_R", "N m", "torque of the wheel", key="output_torque_Nm")
     tension: float = quantity(
@@ -174,21 +170,6 @@ class RootStress(Drawn):
             teeth=model.teeth,
             notes=(*_notes(model.teeth, load.foot, mesh_change), *few_phases(problem)),
         )
-
-    @property
-    def geometry(self) -> Geometry:
-        """What follows from the gearset's numbers."""
-        return self.problem.geometry
-
-    @property
-    def hand(self) -> str:
-        """Of the worm."""
-        return self.problem.gearset.hand
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        """The values of the problem's tables in SI, by ``table.key``."""
-        return inputs(self.problem)
 
     def heading(self) -> str:
         """Return what was solved."""

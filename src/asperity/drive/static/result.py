@@ -8,11 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.drive.problem import DriveProblem
-from asperity.drive.result import inputs
+from asperity.drive.driven import OfDrive
 from asperity.drive.teeth.sector import Sector
-from asperity.gearset import Geometry
-from asperity.gearset.drawn import Drawn
 from asperity.results import labelled, quantity
 from asperity.results.table import Table
 
@@ -24,7 +21,7 @@ PATTERNS = (1.0 / 9.0, 1.0 / 3.0, 1.0)
 """Torques that patterns are drawn at, over the load."""
 
 
-class StaticResult(Drawn):
+class StaticResult(OfDrive):
     """Worm and wheel under load over a pitch, turning slowly.
 
     Attributes
@@ -53,7 +50,6 @@ class StaticResult(Drawn):
         "drive_stiffness": "What gives way between motor and wheel.",
     }
 
-    problem: DriveProblem
     sector: Sector
     nodal_force: FloatArray
 
@@ -68,16 +64,6 @@ class StaticResult(Drawn):
     input_torque_reversed: float = quantity(
         "T_C", "N m", "torque of the worm, friction turned round", key="input_torque_reversed_Nm"
     )
-
-    @property
-    def geometry(self) -> Geometry:
-        """What follows from the gearset's numbers."""
-        return self.problem.geometry
-
-    @property
-    def hand(self) -> str:
-        """Of the worm."""
-        return self.problem.gearset.hand
 
     @property
     @labelled("eta", "", "efficiency of the mesh")
@@ -253,11 +239,6 @@ class StaticResult(Drawn):
         "z", "m", "place of the points along the wheel's axis", dims=("node",)
     )
     faces: IntArray = quantity("", "", "points of the faces", dims=("face", "corner"), only="file")
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        """The values of the problem's tables in SI, by ``table.key``."""
-        return inputs(self.problem)
 
     def to_json(self) -> dict[str, Any]:
         """Return the scalars, and the stiffness by what gives way."""

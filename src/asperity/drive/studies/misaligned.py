@@ -7,12 +7,10 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
+from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.result import inputs
 from asperity.drive.static.loaded import Loaded
 from asperity.drive.studies.points import told_points
-from asperity.gearset import Geometry
-from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.results.words import Number, text_of
@@ -30,7 +28,7 @@ _SHORT = {
 _BEARS = 1.0  # N, from which on an edge counts
 
 
-class Misaligned(Drawn):
+class Misaligned(OfDrive):
     """A loaded gearset at points of its mounting; the first is the case as it is.
 
     What a point has no answer for is NaN.
@@ -54,7 +52,6 @@ class Misaligned(Drawn):
         "misalign_patterns": "Where a flank bears as the case is, at the ends, and at the worst.",
     }
 
-    problem: DriveProblem
     axes: tuple[Axis, ...]
 
     name: npt.NDArray[np.str_] = quantity(
@@ -163,21 +160,6 @@ class Misaligned(Drawn):
                 )
             },
         )  # fmt: skip
-
-    @property
-    def geometry(self) -> Geometry:
-        """What follows from the gearset's numbers."""
-        return self.problem.geometry
-
-    @property
-    def hand(self) -> str:
-        """Of the worm."""
-        return self.problem.gearset.hand
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        """The values of the problem's tables in SI, by ``table.key``."""
-        return inputs(self.problem)
 
     @property
     def edge_force(self) -> FloatArray:

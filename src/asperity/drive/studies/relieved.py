@@ -8,12 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.result import inputs
 from asperity.drive.static.notes import few_phases
 from asperity.drive.studies.points import told_points
-from asperity.gearset import Geometry
-from asperity.gearset.drawn import Drawn
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.results.words import Number, text_of
@@ -43,7 +41,7 @@ class Design:
     merit: tuple[float, float] = (np.inf, np.inf)  #: The less, the better
 
 
-class Relieved(Drawn):
+class Relieved(OfDrive):
     """Designs that were tried, the case as it is first, each at the worst it stands."""
 
     title: ClassVar[str] = "Relief of a loaded worm gearset"
@@ -55,7 +53,6 @@ class Relieved(Drawn):
         "relief": "Forces on the edges, pressure and error of the designs that were tried."
     }
 
-    problem: DriveProblem
     axes: tuple[Axis, ...]
     stands: tuple[str, ...]
     failed: tuple[str, ...]
@@ -137,21 +134,6 @@ class Relieved(Drawn):
     def best_number(self) -> int:
         """Number of the best design, the case as it is being 0."""
         return int(np.argmax(self.is_best))
-
-    @property
-    def geometry(self) -> Geometry:
-        """What follows from the gearset's numbers."""
-        return self.problem.geometry
-
-    @property
-    def hand(self) -> str:
-        """Of the worm."""
-        return self.problem.gearset.hand
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        """The values of the problem's tables in SI, by ``table.key``."""
-        return inputs(self.problem)
 
     def heading(self) -> str:
         """Return what was solved."""

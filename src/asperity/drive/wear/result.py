@@ -1,15 +1,12 @@
 """What becomes of a loaded wheel as it wears."""
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.drive.problem import DriveProblem
-from asperity.drive.result import inputs
-from asperity.gearset import Geometry
-from asperity.gearset.drawn import Drawn
+from asperity.drive.driven import OfDrive
 from asperity.results import labelled, quantity
 from asperity.results.table import Table
 
@@ -19,7 +16,7 @@ _MEGA, _MICRO = 1e6, 1e6
 _ROWS = 8  # of a table
 
 
-class WheelWorn(Drawn):
+class WheelWorn(OfDrive):
     """A wheel's flank worn step by step under its load; the worm does not wear."""
 
     title: ClassVar[str] = "Bedding-in and wear of a loaded worm wheel"
@@ -32,8 +29,6 @@ class WheelWorn(Drawn):
         "wear": "Pressure, error, efficiency and depth over the turns of the wheel.",
         "wear_flank": "What is worn off, and where the flank bears, new and worn.",
     }
-
-    problem: DriveProblem
 
     coefficient: float = quantity(
         "k", "m2/N", "volume worn by normal force and way slid", key="coefficient_m2_N"
@@ -82,21 +77,6 @@ class WheelWorn(Drawn):
         "z", "m", "place of the points along the wheel's axis", dims=_NODE
     )
     faces: IntArray = quantity("", "", "points of the faces", dims=("face", "corner"), only="file")
-
-    @property
-    def geometry(self) -> Geometry:
-        """What follows from the gearset's numbers."""
-        return self.problem.geometry
-
-    @property
-    def hand(self) -> str:
-        """Of the worm."""
-        return self.problem.gearset.hand
-
-    @property
-    def inputs(self) -> Mapping[str, Any]:
-        """The values of the problem's tables in SI, by ``table.key``."""
-        return inputs(self.problem)
 
     @property
     @labelled("", "", "mean pressure, worn over new")

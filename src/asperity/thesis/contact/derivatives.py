@@ -171,7 +171,8 @@ def _derivatives() -> Finding:
         f"{len(off) - len(wrong)} of {len(off)} are; ({'), ('.join(charged)}) is not; "
         f"({'), ('.join(read)}) are as Appendix E has them",
         "(114) lacks the factor that takes the share eta* off s' sin alpha: a term that is gone, "
-        "which an error of reading hardly explains. (128) and (129) lack brackets in the text that "
+        "which an error of reading hardly explains; in Appendix E, where eta* is zero, it does "
+        "nothing. (128) and (129) lack brackets in the text that "
         "we have, where the box of y was read as one, and (82) has lost a prime; Appendix E has "
         "all three right, so they are charged to the reading. Differentiated by complex steps at "
         "random steps of the scheme, each printed equation given the true values of what it is "

@@ -114,7 +114,7 @@ def _savings() -> Finding:
             >= saved,
         },
         f"its own numbers: -{saved:.1%} and {gain:.2f}; in balance at most -{most:.0%} and "
-        f"{high / low:.2f}",
+        f"{high / low:.2f} with one flank bearing",
         "Its own two torques give it, rounded; claims 7.3 and 7.4 say why a wheel in balance does "
         "not. The bound is that of friction reversed all the time with one flank bearing; "
         "hammering on both flanks passes it.",
@@ -125,6 +125,8 @@ def _savings() -> Finding:
             "gain_at_most": high / low,
         },
         [f"{_TORQUE}(366.0, friction) of gearset-3b"],
+        assumed=f"The contact at one radius of the worm, {1e3 * RADIUS:g} mm; friction of "
+        f"{FRICTION:g}.",
     )
 
 

@@ -69,7 +69,7 @@ def _force() -> Finding:
         {"force_at_k_w_1_N": first[2], "force_at_k_w_20_N": last[2], "frequency_Hz": last[0]},
         ["worm mass times u_a (2 pi f)^2"],
         verdict=ARITHMETIC,
-        assumed=f"A worm of {_MASS:g} kg.",
+        assumed=f"A worm of {_MASS:g} kg, lighter than the one that claim 7.21 has at most.",
     )
 
 

@@ -19,6 +19,8 @@ The rest, 0.848, is along the normal.
 """
 
 INCREMENTS = 1000
+OTHERS = (200, 5000)
+"""Increments a cycle, and others beside."""
 HOW = "asperity.thesis.drive.appendix_e.hammered(law, k_w, (0.424, 0.317), 0.16e-3, 1000)"
 _AGREE = 0.01
 
@@ -32,7 +34,7 @@ def at_ratios(increments: int = INCREMENTS) -> list[Hammered]:
 def _coulomb() -> Finding:
     found = at_ratios()
     above = [one for one, k in zip(found, RATIOS, strict=True) if k > 1.0]
-    subroutine, dahl, coulomb = (np.array(values) for values in zip(*above, strict=True))
+    _, dahl, coulomb = (np.array(values) for values in zip(*above, strict=True))
     apart = float(np.abs(dahl - coulomb).max())
     at_5 = found[RATIOS.index(5.0)]
     runs = [of_set(3), of_set(3, COULOMB)]
@@ -43,32 +45,32 @@ def _coulomb() -> Finding:
         )
         if k > 1.0 and elastic.settled and rigid.settled
     ]
-    higher = [more for _, more in marched]
+    counts = sorted((INCREMENTS, *OTHERS))
+    increments = f"{', '.join(map(str, counts[:-1]))} and {counts[-1]}"
+    least = min(
+        one.coulomb - one.subroutine
+        for count in counts
+        for one, k in zip(at_ratios(count), RATIOS, strict=True)
+        if k > 1.0
+    )
     return Finding.judged(
         {
-            "Coulomb friction is higher than that of the subroutine of Appendix E": bool(
-                np.all(coulomb > subroutine + _AGREE)
-            ),
-            "“Coulomb friction overestimates the normalised worm input torque”, by a sound "
-            "asperity "
-            "law": bool(np.all(coulomb > dahl + _AGREE)),
-            "“Coulomb friction overestimates the normalised worm input torque”, by that law "
-            "marched, wherever both are settled": min(higher) > _AGREE,
+            "“Coulomb friction overestimates the normalised worm input torque”, beside the "
+            "subroutine of Appendix E, at each k_w above one": least > _AGREE,
         },
         f"friction at k_w = 5: Coulomb {at_5.coulomb:.3f}, a sound asperity {at_5.dahl:.3f}, "
         f"Appendix E {at_5.subroutine:.3f} of mu N",
-        "What differs from Coulomb's law is the subroutine of Appendix E, not the asperity: a "
-        "sound "
-        f"one, whose limit follows the normal force, is within {apart:.3f} of Coulomb, since its "
-        f"{1e9 * LAW.max_deflection:g} nm are nothing beside {1e3 * AMPLITUDE:g} mm. What the "
-        f"subroutine gives depends on the increment as well, {INCREMENTS} a cycle here. Mean "
-        "friction along the sliding over mu times the mean normal force, the worm moved as in set "
-        "3 against a wheel that coasts. Marched in balance (figure 7.14), Coulomb's ratio less "
-        "that of the sound "
-        "asperity is "
+        "The thesis compares Coulomb's law with its subroutine, and beside that it is the higher "
+        f"one by {least:.2f} of mu N at least, with {increments} increments a cycle, though what "
+        "the subroutine gives depends on them. That asperities do it is not so: a sound law of "
+        f"theirs, whose limit follows the normal force, is within {apart:.3f} of Coulomb's, since "
+        f"its {1e9 * LAW.max_deflection:g} nm are nothing beside {1e3 * AMPLITUDE:g} mm; it is "
+        "the subroutine that is low, by a branch that (79) to (97) as printed do not have. Marched "
+        "in balance (figure 7.14), Coulomb's ratio less that of the sound asperity is "
         + ", ".join(f"{more:+.3f} at {k:g}" for k, more in marched)
         + " where both are settled.",
         {
+            "above_the_subroutine_at_least": least,
             "apart_from_coulomb": apart,
             "subroutine_at_k_w_5": at_5.subroutine,
             "dahl_at_k_w_5": at_5.dahl,
@@ -77,5 +79,8 @@ def _coulomb() -> Finding:
             "coulomb_at_k_w_20": found[-1].coulomb,
         },
         [HOW, *(run for group in runs for run in group)],
-        assumed=f"The exponent of the law, {LAW.exponent:g}, which is not stated. {assumed()}",
+        assumed="Mean friction along the sliding over mu times the mean normal force in the place "
+        "of the torque, the worm moved as in set 3 against a wheel that coasts. The increments a "
+        f"cycle, {INCREMENTS} for the numbers shown, and the exponent of the law, "
+        f"{LAW.exponent:g}: neither is stated. {assumed()}",
     )

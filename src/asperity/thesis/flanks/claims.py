@@ -55,10 +55,12 @@ def _tilt() -> Finding:
             "without tilt it bears at an edge": straight.reach > _EDGE,
             "with 2 deg in the middle": abs(tilted.centre) < _MIDDLE and tilted.reach < _EDGE,
         },
-        f"middle of the mark at {straight.centre:.2f} of half the face width without, "
-        f"{tilted.centre:.2f} with tilt",
-        f"{_HERE} The gearset photographed is not named. The mark goes from {straight.low:.2f} to "
-        f"{straight.high:.2f} and from {tilted.low:.2f} to {tilted.high:.2f}.",
+        f"the mark ends at {straight.reach:.2f} of half the face width without tilt; with it its "
+        f"middle is at {tilted.centre:.2f} and its end at {tilted.reach:.2f}",
+        f"The mark goes from {straight.low:.2f} to {straight.high:.2f}, its middle at "
+        f"{straight.centre:.2f}, and with tilt from {tilted.low:.2f} to {tilted.high:.2f}. The "
+        "gearset photographed is not named, and oversize and tilt hang on the teeth, as the thesis "
+        "says: that another gearset does it with the same two is more than it claims.",
         {
             "centre_without_tilt": straight.centre,
             "centre_with_tilt": tilted.centre,
@@ -66,8 +68,9 @@ def _tilt() -> Finding:
             "end_with_tilt": tilted.reach,
         },
         gears,
-        assumed=f"The yardsticks: an edge beyond {_EDGE:g} of half the face width, the middle "
-        f"within {_MIDDLE:.2f} of it, by the middle of the mark.",
+        assumed=f"{_HERE} The yardsticks, of half the face width: at an edge where the mark ends "
+        f"beyond {_EDGE:g}; in the middle where the mark's middle is within {_MIDDLE:.2f} and its "
+        f"end short of {_EDGE:g}.",
     )
 
 
@@ -91,8 +94,9 @@ def _misalignment() -> Finding:
         "the mark moves by "
         + ", ".join(f"{move:.2f} ({name})" for name, move in moves.items())
         + " of half the face width",
-        f"While the shaft angle goes from -{ASKEW:g} to {ASKEW:g} deg. What the thesis adds of "
-        "the pressure is claim 2.7.",
+        f"While the shaft angle goes from -{ASKEW:g} to {ASKEW:g} deg. That contact becomes "
+        "centralised takes a tilt as well here: claim 2.1. What the thesis adds of the pressure is "
+        "claim 2.7.",
         {f"move_{name}": move for name, move in moves.items()},
         [gear for both in gears.values() for gear in both],
         assumed=_HERE,
@@ -117,4 +121,5 @@ def _lead_angles() -> Finding:
         "wheel keeps its teeth.",
         {f"end_at_{mark.lead_angle:.1f}_deg": mark.reach for mark in marks},
         gears,
+        assumed=f"The yardstick of an edge: an end beyond {_EDGE:g} of half the face width.",
     )

@@ -10,6 +10,7 @@ from asperity.roots import root_between
 from asperity.studies.design import Bounds
 from asperity.thesis.exhibits import claim
 from asperity.thesis.products import ARITHMETIC, FITTED, NOT_TESTABLE, Finding
+from asperity.thesis.rating.claims import FROM_MEMORY
 from asperity.thesis.rating.rated import (
     GEARSET_2,
     GEARSET_3,
@@ -94,6 +95,7 @@ def _orders() -> Finding:
     parts: dict[str, bool] = {}
     numbers: dict[str, float] = {}
     shown = []
+    spare: dict[str, float] = {}
     for name, gear in GEARSETS.items():
         keys = ("M_26k_Nm", "M_w_Nm", "M_s_Nm", "output_torque_Nm", "through_travel_torque_Nm")
         long, wear, strength, rated, peak = gear.numbers("bs721", *keys)
@@ -104,19 +106,27 @@ def _orders() -> Finding:
             f"{name}: M_w > T_2": wear > peak,
             f"{name}: M_s > T_R": strength > rated,
         }
-        shown.append(f"{name}: {gearbox:.1%} < {mesh:.1%}; {wear:.0f}, {strength:.0f} > {long:.0f}")
+        shown.append(
+            f"{name}: {gearbox:.1%} < {mesh:.1%}; M_w {wear:.0f} > {peak:.0f}, M_s {strength:.0f} "
+            f"> {rated:.0f}, both > {long:.0f} N m"
+        )
+        spare[name] = strength / rated - 1.0
         numbers |= {
             f"{name}_{key}": value
             for key, value in (("eta_ges", gearbox), ("eta_z", mesh), ("M_26k_Nm", long),
-                               ("M_w_Nm", wear), ("M_s_Nm", strength))
+                               ("M_w_Nm", wear), ("M_s_Nm", strength), ("T_2_Nm", peak),
+                               ("T_R_Nm", rated))
         }  # fmt: skip
+    narrow = min(spare, key=lambda name: spare[name])
     return Finding.judged(
         parts,
-        "; ".join(shown) + " N m",
-        "T_2 is the torque of through travel, a third of T_R as 3.2.1 has it. Of gearsets 2 and 3, "
-        "which are reconstructed; the others are lost.",
+        "; ".join(shown),
+        "T_2 is the torque of through travel, a third of T_R as 3.2.1 has it. The narrowest is M_s "
+        f"above T_R, by {spare[narrow]:.0%} of {narrow}. Of gearsets 2 and 3, which are "
+        "reconstructed; the others are lost.",
         numbers,
         GEARSETS.values(),
+        assumed=FROM_MEMORY,
     )  # fmt: skip
 
 
@@ -159,6 +169,8 @@ def _besides_the_optimum() -> Finding:
         }
         | {"gearset_3_sigma_a_change_at_most": max(others)},
         OPTIMISED,
+        assumed="The bounds; the others are the module kept, all three freer, a pressure angle of "
+        "less and a profile shift near zero.",
     )
 
 
@@ -241,8 +253,8 @@ def _self_locking() -> Finding:
         {"“it is recommended that q_1 be as low as possible”": back[6] < back[12]},
         ", ".join(f"q_1 {q}: {angles[q]:.2f} deg, eta_z2_1 {back[q]:+.2f}" for q in gears),
         "tan gamma = z_1/q_1: a low diameter factor makes the lead steep, and the wheel drives the "
-        "worm the more easily. Self-locking wants q_1 as high as may be. Gearset 2, its centre "
-        "distance moved so that the profile shift stays.",
+        "worm the more easily. Self-locking wants q_1 as high as may be, though this gearset locks "
+        "itself at both. Gearset 2, its centre distance moved so that the profile shift stays.",
         {f"lead_angle_q_{q}_deg": angle for q, angle in angles.items()}
         | {f"eta_z2_1_q_{q}": efficiency for q, efficiency in back.items()},
         gears.values(),
@@ -253,16 +265,19 @@ def _self_locking() -> Finding:
 def _contact_pressure() -> Finding:
     gears = [RatedGear("gearset-3", _peak(torque)) for torque in (23, 366)]
     low, high = (gear.number("iso14521", "sigma_line_MPa") for gear in gears)
+    mean = gears[1].number("iso14521", "sigma_Hm_MPa")
     return Finding.judged(
         {
             "194.3 N/mm2 at 23 N m, within 1 %": abs(low / 194.3 - 1.0) < 0.01,
             "778 N/mm2 at 366 N m, within 1 %": abs(high / 778.0 - 1.0) < 0.01,
         },
         f"{low:.0f} and {high:.0f} N/mm2",
-        "As a Hertz line contact, though the thesis does not say that it is one; the pressure goes "
-        "with the root of the torque. Not used to reconstruct gearset 3.",
+        "The pressure goes with the root of the torque, so that the second follows from the first "
+        "and does not count anew. Not used to reconstruct gearset 3.",
         {"sigma_line_23_Nm_MPa": low, "sigma_line_366_Nm_MPa": high},
         gears,
+        assumed="A Hertz line contact, though the thesis does not say that it is one; sigma_Hm of "
+        f"ISO/TR 14521 would be {mean:.0f} N/mm2 for the second.",
     )
 
 

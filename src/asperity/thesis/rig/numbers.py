@@ -108,8 +108,8 @@ def _faster() -> Finding:
         "With the slide-roll ratios of the same sentence the bronze rim moves at "
         f"{1e3 * bronze:.2f} mm/s, and from that follow the sliding velocities. At the lowest "
         f"supply, where the greatest reduction was found, they are not above the "
-        f"{1e3 * _TESTED_BEFORE:g} mm/s of the tests before, which were of planar contacts; the "
-        "sentence is of a sliding-rolling, lubricated one.",
+        f"{1e3 * _TESTED_BEFORE:g} mm/s of the tests before, which were of planar contacts; of "
+        "sliding-rolling, lubricated ones, of which the sentence is, it names no velocity.",
         {f"sliding_at_{volts:g}_V_m_s": one
          for one, volts in zip(sliding, m.SUPPLIES, strict=True)}
         | {"bronze_rim_m_s": bronze},

@@ -143,7 +143,8 @@ def _lugre() -> Finding:
         f"{dahl.values(1).size} directions at k = 2 and 20; steps of (44) to (47) by {steps:.0e}",
         "Without damping and Stribeck terms LuGre's equation is Dahl's, and so are the updates "
         "compared here: an identity, which could not have come out otherwise. Zeros put into (43) "
-        "as the text has it make it 0/0, and its exponent has no bound for a negative slip "
+        "as the text has it make it 0/0 where the body stands, and its exponent has no bound for "
+        "a negative slip "
         "velocity; the square that is used here is more likely lost in the reading than in the "
         "thesis, for the boxes of (44) and (45) beside it were read as roots. Nothing is claimed "
         "of "

@@ -4,7 +4,7 @@ import numpy as np
 
 from asperity.friction import Friction
 from asperity.thesis.exhibits import claim
-from asperity.thesis.products import Finding
+from asperity.thesis.products import ARITHMETIC, Finding
 from asperity.thesis.sliding.bodies import DIRECTION, PERIODIC, RATIO, Body, Sweep
 
 _PRINTED_LOADS = (50.8, 50.08)
@@ -28,9 +28,10 @@ def _stiffness() -> Finding:
         },
         f"{1e-6 * right:.2f}e6 N/m with {_PRINTED_LOADS[0]} N, {1e-6 * said:.2f}e6 N/m with "
         f"{_PRINTED_LOADS[1]} N",
-        "By (18), a force over a deflection, the s_max of Table 4.4 gives the stiffness at the "
-        "force "
-        "of that table, which Appendix A has as well: the force of the claim is a misprint, twice. "
+        "Appendix A has the stiffness with the force of Table 4.4, as matching those of the "
+        "literature: the force of the claim is a misprint, twice. By (18), a force over a "
+        "deflection, the s_max of that table gives the same, which proves nothing more, since it "
+        "was selected for it. "
         "The unit is N/m, as Appendix A has it.",
         {"k_t_at_50.8_N_N_per_m": right, "k_t_at_50.08_N_N_per_m": said},
         ["mu F_N / s_max, of Table 4.4"],
@@ -52,15 +53,16 @@ def _directions() -> Finding:
         },
         "a ratio is met at up to "
         + ", ".join(f"{n} directions at k = {k:g}" for n, k in zip(counts, _SELECTED, strict=True)),
-        "The curve is symmetric about across the drive as about along it, which gives each ratio "
-        "four "
-        f"directions. At k = {_SELECTED[0]:g} vibration does least at {worst:g} deg, not across "
+        "It follows from symmetry, which the equations have: about across the drive as about along "
+        "it, which gives each ratio four directions, and two would be “multiple values” still. "
+        f"At k = {_SELECTED[0]:g} vibration does least at {worst:g} deg, not across "
         f"the "
         f"drive ({ratios[0].max():.3f} for {ratios[0][theta == 90.0][0]:.3f}), so that a ratio "
         "between the two is met at twice as many.",
         {f"directions_at_k_{k:g}": float(n) for n, k in zip(counts, _SELECTED, strict=True)}
         | {"asymmetry_about_90_deg": mirrored, "worst_direction_at_k_2_deg": float(worst)},
         [around],
+        verdict=ARITHMETIC,
     )
 
 
@@ -94,7 +96,8 @@ def _without_transfer() -> Finding:
         "shaken body then gives all of its lateral motion to the contact, the shaken base a part. "
         "Seen on a figure from 0 to 1 that must show; Figure 7.8 of the thesis is lost. With the "
         "transfer "
-        "kept, as section 7.3 has it, the two agree: claim 7.8. Sliding bodies, periodic; the "
+        "kept, as section 7.3 has it, the two agree: claim 7.8; along the sliding, where eta_y "
+        "does nothing (claim 4.9), they do without it. Sliding bodies, periodic; the "
         "plastic branch of Appendix E is left out.",
         {f"apart_at_k_{one:g}": float(value) for one, value in zip(k, apart, strict=True)},
         [base, body],

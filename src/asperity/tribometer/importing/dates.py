@@ -59,9 +59,8 @@ def days_in(text: str) -> list[datetime.date]:
     year_told = year_told if len(year_told) == 4 else f"20{year_told}"
     made = _day(year_told, other, one)
     if sign != "." and one != other:
-        half = (clock := _CLOCK.search(text)) and clock[5]
-        # Who writes half days has the month first.
-        made = [*([] if half else made), *_day(year_told, one, other)]
+        # Half days are no sign of a month that comes first: Australia and India write them as well.
+        made = [*made, *_day(year_told, one, other)]
     return made
 
 

@@ -1,5 +1,6 @@
 """Channels that do not move, stand still for a while, end early, jump, or are another's copy."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -18,6 +19,8 @@ _SENSORS = (
 )  # fmt: skip
 _DISCS = {"torque_bronze": "steel"}  # which motor moves a signal, where that is not its own
 _SURE = 5.0  # standard errors
+_COARSE = 0.01  # of a level, that steps of a channel may move it by
+_WIDTH = 5.3  # range of a block's noise over its deviation, of normal noise
 _CHANGES = 0.1  # of a level, by which a signal changes at least as its motor is switched
 _STILL, _ELSEWHERE = 0.3, 0.1  # shares of blocks without any noise, here and somewhere else
 _AT_END, _OTHER_END = 0.6, 0.3  # shares of blocks that reach one and the same count
@@ -55,6 +58,7 @@ def findings(of: Material, rest: Rest) -> Iterator[Finding]:
             yield from _held(of, signal, rest)
             if signal.startswith(("torque", "current")):
                 yield from _jumping(of, signal)
+                yield from _coarse(of, signal)
             if signal in _NOISE_TOLD:
                 yield from _noisy(of, signal)
     yield from _copies(of)
@@ -161,6 +165,38 @@ def _ended(of: Material, signal: str, low: Counts, high: Counts, window: Stretch
         f"{100.0 * max(tops, bottoms):.0f} % of {window.count * of.blocks.length:.2g} s end at "
         f"{value:.4g} {SIGNALS[signal].unit_in_text}"
     )
+
+
+def _coarse(of: Material, signal: str) -> Iterator[Finding]:
+    r"""Yield segments in which a signal goes in steps that its noise does not reach across.
+
+    The mean of samples is then off, of which no spread tells: of normal noise :math:`\sigma` on
+    steps :math:`q` by up to :math:`q/\pi\; e^{-2 \pi^2 \sigma^2/q^2}`.
+    """
+    low, high = (each[signal].astype(float) for each in (of.blocks.lowest, of.blocks.highest))
+    steps = np.diff(np.unique(np.concatenate((high, low))))
+    place_of = of.recording.place(signal)
+    if not steps.size or place_of is None:
+        return
+    count = float(steps.min())
+    step = count * abs(of.blocks.lines[signal].gain * of.recording.sources[place_of].scale)
+    for place, *both in of.windows:
+        level = abs(of.level(signal, both[0]).value)
+        across = min(
+            float(np.median(high[one.first : one.last] - low[one.first : one.last])) / count
+            for one in both
+        )
+        off = step / math.pi * math.exp(-2.0 * (math.pi * across / _WIDTH) ** 2)
+        if off <= _COARSE * max(level, least_of(signal)):
+            continue
+        unit = SIGNALS[signal].unit_in_text
+        yield Finding(
+            f"{signal} goes in coarse steps",
+            f"steps of {step:.2g} {unit}, of which its noise crosses {across:.2g}: its mean may be "
+            f"off by {off:.2g} {unit} of {level:.2g} {unit}",
+            "take a smaller range of its channel, or more bits", (signal,),
+            of.course(signal, both, part=of.around(place)), place,
+        )  # fmt: skip
 
 
 def _noisy(of: Material, signal: str) -> Iterator[Finding]:
