@@ -170,12 +170,12 @@ def _join(beside: Path, told: dict[str, Any], target: Path, damaged: list[int]) 
                 raw[done : done + len(counts)] = counts
             done += len(counts)
         if damaged:
-            text = (
+            said = (
                 f"blocks are damaged from byte {damaged[-1]} on, and kept as {_aside(beside).name}"
             )
             last = max(table["block_clock"], default=0.0)
-            for name, value in zip(layout.EVENTS, (last, "damage", text), strict=True):
-                table[name].append(value)
+            for name, told_so in zip(layout.EVENTS, (last, "damage", said), strict=True):
+                table[name].append(told_so)
         made.resize_dimension(layout.SAMPLE, done)
         for dim, names in ((layout.BLOCK, layout.BLOCKS), (layout.EVENT, layout.EVENTS)):
             made.resize_dimension(dim, len(table[next(iter(names))]))
