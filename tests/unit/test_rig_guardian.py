@@ -12,6 +12,7 @@ import time
 import pytest
 
 from asperity.errors import InputError, StorageError
+from asperity.tribometer.guardian import guard as guards
 from asperity.tribometer.guardian import guardian as guardians
 from asperity.tribometer.guardian import stop, switching, verdicts
 from asperity.tribometer.guardian.guardian import Guardian
@@ -939,6 +940,26 @@ def test_a_run_that_is_left_with_something_on_latches_and_with_nothing_is_interr
         last = json.loads((folder / NAME).read_text().splitlines()[-1])
         assert last["kind"] == kind
         assert last.get("still_on", []) == [str(one) for one in found]
+
+
+def test_a_guardian_that_stands_still_beside_a_person_is_not_told_for_ever(monkeypatch):
+    monkeypatch.setattr(guards, "BEAT", 0.001)
+    monkeypatch.setattr(guards, "_UNANSWERED", 0.2)
+    hears, tells = os.pipe()
+    os.set_blocking(hears, False)
+    guard = guards.Guard.__new__(guards.Guard)
+    guard._answered, guard._wire = 0.0, Wire(None, os.fdopen(tells, "wb", 0))
+    with guard.beating():
+        time.sleep(0.6)
+        assert os.read(hears, 1 << 16)
+        time.sleep(0.2)
+        with pytest.raises(BlockingIOError):
+            os.read(hears, 1 << 16)
+        # It answers, and is told again.
+        guard._answered = time.monotonic()
+        until(lambda: select.select([hears], [], [], 0.1)[0])
+    guard._wire._write.close()
+    os.close(hears)
 
 
 def test_a_watchdog_that_is_lost_keeps_nothing_on(made, monkeypatch):

@@ -27,6 +27,7 @@ from asperity.tribometer.journal_lines import ENDED, NAME, Line
 
 LOST = "guardian lost"  #: Kind of the error where the guardian is there no more.
 _STARTING = 60.0  # s that it may take to begin
+_UNANSWERED = 5.0  # s without an answer, after which nothing more is told
 _SLACK = 1.0  # s that a busy computer may need
 _ENDING = 15.0  # s that it may take to end
 
@@ -73,6 +74,7 @@ class Guard:
         self._found: Mapping[str, Any] | None = None
         self._number = 0
         self._waiting: float | None = None
+        self._answered = time.monotonic()
         self._answers: queue.SimpleQueue[Head | None] = queue.SimpleQueue()
         passed: dict[str, Any] = {"pass_fds": (self._heard,)} if self._heard >= 0 else {}
         try:
@@ -103,7 +105,7 @@ class Guard:
         while (message := wire.receive()) is not None:
             head = message[0]
             # Whatever it says, it is there.
-            self._waiting = None
+            self._waiting, self._answered = None, time.monotonic()
             if "tripped" in head:
                 self._kind, self._tripped = head["kind"], head["tripped"]
             elif "n" in head:
@@ -157,14 +159,16 @@ class Guard:
     @contextlib.contextmanager
     def beating(self) -> Iterator[None]:
         """Tell that the procedure goes on while it waits for a person, everything off."""
-        left = threading.Event()
+        left, begun = threading.Event(), time.monotonic()
         wire = self._wire
 
         def beat() -> None:
             # Whether the guardian is there is for whoever asks it next to find.
             with contextlib.suppress(OSError, ValueError):
                 while not left.wait(BEAT):
-                    wire.send(_HERE)
+                    # One that stands still would leave its end of the line to fill up.
+                    if time.monotonic() - max(begun, self._answered) < _UNANSWERED:
+                        wire.send(_HERE)
 
         threading.Thread(target=beat, name="beat", daemon=True).start()
         try:
