@@ -91,7 +91,8 @@ def test_a_slide_writes_dataset_picture_and_scalars(asperity, tmp_path):
     assert (folder / "slide.png").read_bytes().startswith(b"\x89PNG")
     dataset = read_dataset(folder / "slide.nc")
     assert dataset["drive_force"].attrs["units"] == "N"
-    assert sorted(path.name for path in folder.iterdir()) == ["slide.json", "slide.nc", "slide.png"]
+    names = sorted(path.name for path in folder.iterdir())
+    assert names == ["report.html", "slide.json", "slide.nc", "slide.png"]
 
 
 @pytest.mark.parametrize(

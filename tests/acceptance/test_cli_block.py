@@ -23,7 +23,7 @@ SHORT = (*SMALL, "--set", "solve.duration=1.5 ms")
 LONG = (*SMALL, "--set", "solve.duration=0.06 s")
 KEPT = "block.interrupted.npz"
 TIMES = {"seconds", "ms_per_increment", "condense_seconds", "condensed_from_cache"}
-FILES = {"block.nc", "block.png", "block_pressure.png", "block.json", "block.pvd"}
+FILES = {"block.nc", "block.png", "block_pressure.png", "block.json", "block.pvd", "report.html"}
 
 
 @pytest.fixture(scope="module")

@@ -128,6 +128,7 @@ def test_no_file_is_lost_to_a_standard_output_that_takes_nothing(shell, tmp_path
     settings = "--set solve.duration='20 ms' --set vibration.start='2 ms' --set solve.step='1 us'"
     shell(f"asperity slide table-4.3 {settings} --out out {where}")
     assert {path.name for path in (tmp_path / "out").iterdir()} == {
+        "report.html",
         "slide.json",
         "slide.nc",
         "slide.png",

@@ -30,7 +30,7 @@ def sweep(page, least, most, settings=PERIODIC, count=9):
 def test_a_job_is_the_answer_of_the_command_line_with_its_data(page, asperity):
     job = page.ended(sweep(page, 0, 40).json["id"])
     assert (job["state"], job["done"], job["total"]) == ("done", 9, 9), job
-    assert {"sweep.nc", "sweep.json", "sweep.png"} == {*job["files"]}
+    assert {"sweep.nc", "sweep.json", "sweep.png", "report.html"} == {*job["files"]}
     answer = page.get(f"/api/jobs/{job['id']}/answer").json
     _, *words = shlex.split(job["line"])
     _, printed, _ = asperity(*words)

@@ -61,6 +61,7 @@ def _write_unfinished(march: BlockMarch, run: Run, why: str) -> None:
     # What a run before this one left would be taken for part of it.
     for pattern in (
         "block.json",
+        "report.html",
         *(f"block*.{kind}" for kind in PICTURES),
         "block.pvd",
         "block_[0-9]*.vtu",

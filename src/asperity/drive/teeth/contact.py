@@ -45,6 +45,7 @@ _STEPS = 60
 _ROUNDING = 16.0 * np.finfo(float).eps
 _ELASTIC_SLIP = 1e-9
 _TOUCH = 1e-10
+_BESIDE = 1e-6  # of a pitch, that half a pitch is made out by
 
 
 class FullError(ConvergenceError):
@@ -170,9 +171,14 @@ class TeethContact:
         """Return the numbers of the teeth that may be in mesh while the worm stands at an angle.
 
         They go by the worm, which stands still while the wheel is sought: half a pitch from a
-        tooth the next set would begin in the middle of the search.
+        tooth the next set would begin in the middle of the search. Just there it is the set on the
+        side to which the play lets the wheel go, so that both flanks have theirs half a turn about
+        the tooth from each other.
         """
-        return tooth_numbers(beta / self.stand.ratio, self.sector.pitch, self.slots)
+        pitch = self.sector.pitch
+        return tooth_numbers(
+            beta / self.stand.ratio - self.side * _BESIDE * pitch, pitch, self.slots
+        )
 
     def placed(
         self, beta: float, phi: float, shift: FloatArray
