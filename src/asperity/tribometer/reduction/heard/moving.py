@@ -19,7 +19,8 @@ _SENSORS = (
 )  # fmt: skip
 _DISCS = {"torque_bronze": "steel"}  # which motor moves a signal, where that is not its own
 _SURE = 5.0  # standard errors
-_COARSE = 0.01  # of a level, that steps of a channel may move it by
+_COARSE, _COARSE_CURRENT = 0.01, 0.05  # of a level, that steps of a channel may move it by
+_LEVELS = 4  # steps between values of a file, at least
 _WIDTH = 5.3  # range of a block's noise over its deviation, of normal noise
 _CHANGES = 0.1  # of a level, by which a signal changes at least as its motor is switched
 _STILL, _ELSEWHERE = 0.3, 0.1  # shares of blocks without any noise, here and somewhere else
@@ -176,7 +177,8 @@ def _coarse(of: Material, signal: str) -> Iterator[Finding]:
     low, high = (each[signal].astype(float) for each in (of.blocks.lowest, of.blocks.highest))
     steps = np.diff(np.unique(np.concatenate((high, low))))
     place_of = of.recording.place(signal)
-    if not steps.size or place_of is None:
+    # What is switched between a few values without noise tells nothing of a step.
+    if steps.size < _LEVELS or place_of is None:
         return
     count = float(steps.min())
     step = count * abs(of.blocks.lines[signal].gain * of.recording.sources[place_of].scale)
@@ -187,7 +189,8 @@ def _coarse(of: Material, signal: str) -> Iterator[Finding]:
             for one in both
         )
         off = step / math.pi * math.exp(-2.0 * (math.pi * across / _WIDTH) ** 2)
-        if off <= _COARSE * max(level, least_of(signal)):
+        most = _COARSE if signal.startswith("torque") else _COARSE_CURRENT
+        if off <= most * max(level, least_of(signal)):
             continue
         unit = SIGNALS[signal].unit_in_text
         yield Finding(
