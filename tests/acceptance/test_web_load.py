@@ -5,7 +5,7 @@ import socket
 import time
 
 import pytest
-from apparatus.page import Served, memory, processor_time
+from apparatus.page import Served, memory
 
 PERIODIC = {"solve.method": "periodic"}
 CHANGES = 1000
@@ -46,22 +46,6 @@ def test_a_page_is_seen_while_its_kernels_are_compiled_and_lives_by_itself(tmp_p
         assert page.get("/api/about").json["ready"]
     finally:
         assert page.close() == ("", "")
-
-
-def test_who_has_gone_is_passed_over(page):
-    curve = b'{"case": "table-4.3", "options": {"points": 400}}'
-    head = ("POST /api/do/curve HTTP/1.1", *page.own, "Content-Type: application/json",
-            f"Content-Length: {len(curve)}", "", "")  # fmt: skip
-    worker = page.child("worker")
-    page.do("curve", "table-4.3", points=5)
-    began = processor_time(worker)
-    assert page.do("curve", "table-4.3", points=400).status == 200
-    one, began = processor_time(worker) - began, processor_time(worker)
-    for _ in range(10):
-        page.raw("\r\n".join(head).encode() + curve, breaks_off=True)
-    assert page.do("check", "table-4.3").status == 200
-    # At most the one that was begun was solved.
-    assert processor_time(worker) - began < 3.0 * one + 0.5
 
 
 @pytest.mark.slow

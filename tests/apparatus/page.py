@@ -166,12 +166,6 @@ def lives(pid):
         return False
 
 
-def processor_time(pid):
-    """Return the processor time a process has taken, s."""
-    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
-
-
 def memory(pid):
     """Return what a process holds in memory, MB."""
     found = re.search(r"VmRSS:\s+(\d+) kB", Path(f"/proc/{pid}/status").read_text())

@@ -144,14 +144,7 @@ def answer(model: Model, run: Run) -> StaticResult:
     began = time.perf_counter()
     body = HeldBody(model)
     run.forecast(time_of_cycles(model, _PULLS * body.cycles), f"{_PULLS} pulls")
-    ratio, notes = _limit(body, run)
-    least = STANDING
-    if ratio > 0.0 and body.creep(0.0).velocity == 0.0 and body.creeps_below(ratio):
-        notes += (
-            f"asperities of this law yield before they slip: shaken so, they creep under any pull; "
-            f"at {ratio:.3g} of mu W by a millionth of their deflection limit a cycle",
-        )
-        ratio, least = 0.0, ROUNDING
+    ratio, least, notes = _limit(body, run)
     standing = _standing(body)
     creep = body.creep(ratio + _ABOVE, settled=True, standing=least)
     closed, which = closed_form(body)
@@ -170,8 +163,18 @@ def answer(model: Model, run: Run) -> StaticResult:
     )
 
 
-def _limit(body: HeldBody, run: Run) -> tuple[float, tuple[str, ...]]:
-    r"""Largest pull over :math:`\mu W` without a creep forward, and what to know of it."""
+def _limit(body: HeldBody, run: Run) -> tuple[float, float, tuple[str, ...]]:
+    r"""Find the largest pull without a creep forward.
+
+    Returns
+    -------
+    ratio : float
+        It, over :math:`\mu W`.
+    least : float
+        Creep that counts, as `HeldBody.creep` takes it.
+    notes : tuple of str
+        What to know of it.
+    """
     at_rest = body.creep(0.0).velocity
     low, high = (0.0, 1.0) if at_rest <= 0.0 else (-1.0, 0.0)
     while at_rest > 0.0 and body.creep(low).velocity > 0.0:
@@ -190,11 +193,18 @@ def _limit(body: HeldBody, run: Run) -> tuple[float, tuple[str, ...]]:
             low = middle
         run.checkpoint(done + 1, halvings, what="pulls")
     if at_rest != 0.0 and body.creep(low - _ABOVE).velocity < 0.0:
-        return low, (
+        both_ways = (
             "the vibration carries the body along: it goes backward under 1 % of mu W less, "
-            "forward under more",
+            "forward under more"
         )
-    return low, ()
+        return low, STANDING, (both_ways,)
+    if at_rest == 0.0 and low > 0.0 and body.creeps_below(low):
+        creeps = (
+            "asperities of this law yield before they slip: shaken so, they creep under any pull; "
+            f"at {low:.3g} of mu W by a millionth of their deflection limit a cycle"
+        )
+        return 0.0, ROUNDING, (creeps,)
+    return low, STANDING, ()
 
 
 def _standing(body: HeldBody) -> Standing:

@@ -34,7 +34,7 @@ COARSER = COUNTS._replace(thickness=4, rim=3)
 """Of another mesh, by which that of `COUNTS` is judged."""
 
 GRADING = 2.0
-"""How much thinner hexahedra are towards the fillets: there a tenth of the tooth and of the rim.
+"""How much thinner hexahedra are towards the fillets: a twentieth of the tooth and of the rim.
 
 A fillet's radius is a few tenths of a module; evenly thick hexahedra tell half of its stress.
 """
@@ -69,6 +69,7 @@ class Roots:
     #: (q, f, 6) each: Its xx, yy, zz, xy, yz, zx at the loaded fillet and the other, Pa
     stress: tuple[FloatArray, FloatArray]
     jump: tuple[FloatArray, FloatArray]  #: (q, f): What elements differ by at a node, Pa
+    residual: float = 0.0  #: Largest of the loads, over their forces
 
     def principal(self, side: int) -> FloatArray:
         """Return the principal stresses at a fillet, 0 loaded, 1 other, (q, f, 3), rising, Pa."""
@@ -190,7 +191,8 @@ class RootModel:
         """Return the stresses at both fillets under nodal forces, (3N, q), N."""
         moved = self.body.response(loads)
         found = [self.stress(fillet, moved) for fillet in self.fillets]
-        return Roots((found[0][0], found[1][0]), (found[0][1], found[1][1]))
+        residual = self.body.residual(loads, moved)
+        return Roots((found[0][0], found[1][0]), (found[0][1], found[1][1]), residual)
 
     def stress(self, fillet: Fillet, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the stress at the nodes of a fillet, (q, f, 6), and what elements differ by."""

@@ -33,7 +33,7 @@ class Largest(NamedTuple):
     jump: float  #: What elements differ by where the tension is largest, Pa
 
     @classmethod
-    def of(cls, model: RootModel, found: Roots) -> Self:
+    def of(cls, found: Roots) -> Self:
         """Return those of stresses."""
         loaded, other = found.principal(0), found.principal(1)
         load, node = np.unravel_index(np.argmax(loaded[..., 2]), loaded.shape[:2])
@@ -94,6 +94,7 @@ class RootStress(OfDrive):
     nominal_safety: float | None = quantity(
         "S_F", "", "root safety by ISO/TR 14521, of that stress", default=None
     )
+    residual: float = quantity("", "", "largest residual of the bodies", shown=False)
     nodes: int = quantity("", "", "nodes of the mesh", shown=False)
     teeth: int = quantity("", "", "teeth of the mesh", shown=False)
 
@@ -158,6 +159,7 @@ class RootStress(OfDrive):
             shear=_MEGA * worst.shear,
             nominal_shear=None if nominal_shear is None else _MEGA * nominal_shear,
             nominal_safety=nominal_safety,
+            residual=found.residual,
             nodes=len(model.mesh.points),
             worm_angle=worm_angle,
             tension_course=np.array([tension[row].max() for row in rows_max]),

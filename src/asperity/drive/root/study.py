@@ -51,21 +51,18 @@ def answer(problem: DriveProblem, run: Run) -> RootStress:
         run.checkpoint(1, 3, what="meshes")
         wheel = right_handed(static.sector.wheel)
         teeth = min(TEETH, static.sector.teeth)
-        models = []
         found: list[Roots] = []
         for done, counts in enumerate((COARSER, COUNTS)):
             model = RootModel(wheel, problem.gearset.wheel_material, counts, teeth)
             surface = static.sector.surface
             nodal = np.column_stack([model.nodal(surface, load.forces) for load in loads])
             found.append(model.solve(nodal))
-            models.append(model)
             run.checkpoint(2 + done, 3, what="meshes")
     coarse, fine = found
-    worst = Largest.of(models[1], fine)
-    before = Largest.of(models[0], coarse)
+    worst, before = Largest.of(fine), Largest.of(coarse)
     shear, safety = _nominal(problem)
     return RootStress.of(
-        problem, models[1], fine, loads, worst, before.tension / worst.tension - 1.0,
+        problem, model, fine, loads, worst, before.tension / worst.tension - 1.0,
         static.phases, shear, safety,
     )  # fmt: skip
 

@@ -161,7 +161,7 @@ def tooth(
     memory: float = MEMORY,
     grading: float = 0.0,
 ) -> HexMesh:
-    """Return a mesh of structured hexahedra of wheel teeth with fillets and rim, in mm.
+    r"""Return a mesh of structured hexahedra of wheel teeth with fillets and rim, in mm.
 
     The nodes of the flanks, the fillets and the root lie on the exact surfaces, those of the tip on
     the blank. The first tooth is the one that stands in the worm's thread space at phase 0; each
@@ -180,6 +180,9 @@ def tooth(
         8 or 27 nodes a hexahedron.
     memory : float
         Bound on the memory, bytes.
+    grading : float
+        Above 0 hexahedra are thinner towards flanks, fillets and root, the outermost about
+        :math:`2 g / \sinh 2 g` of the mean.
 
     Returns
     -------
