@@ -228,7 +228,9 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
 
     def add(rated: Rated, _: Run) -> Rated:
         shafts = studied(problem, rated.iso14521)
-        wrong = (note for one in shafts.found.values() for note in one.model.misseated)
+        models = [one.model for one in shafts.found.values()]
+        wrong = [seat.why for model in models for seat in model.misseated]
+        wrong += [model.threads for model in models if model.threads]
         return dataclasses.replace(
             rated,
             rows=(*rated.rows, *shafts.rows),
