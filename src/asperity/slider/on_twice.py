@@ -7,14 +7,7 @@ from asperity.kernels.dense import copy
 from asperity.kernels.elimination import eliminate
 from asperity.slider.other_drives import in_longer_steps, pressed_in_longer_steps
 from asperity.slider.search_room import room_for
-from asperity.slider.shooting import (
-    CLOSE,
-    close,
-    defect_of,
-    differentiated,
-    mean_drive,
-    run_cycle,
-)
+from asperity.slider.shooting import CLOSE, close, defect_of, mean_drive, run_cycle
 from asperity.slider.unknowns import unknown_scales
 
 
@@ -64,24 +57,6 @@ def close_on_twice(start, springs, p, q, increments, rises, sums, jacobian, most
     )
     left, _ = close(states, held, longer, pressing, pairs, rise_pairs, records[0], jacobian, most)
     return left, records[0].drive_force / records[0].steps
-
-
-@kernel
-def close_on_both(start, springs, p, q, increments, rises, sums, jacobian, most):
-    """Go to the state next to ``start``, and from there to that on steps twice as long.
-
-    One kernel in place of three, whose cycle is compiled once while somebody waits for a march. The
-    Jacobian is written, as by `differentiated`. Returns the defect that is left and the mean drive
-    force over mu F_N of each.
-    """
-    if jacobian.shape[1]:
-        differentiated(start, springs, p, q, increments, rises, sums[0], jacobian)
-    left, _ = close(start, springs, p, q, increments, rises, sums[0], jacobian, most)
-    mean = sums[0].drive_force / sums[0].steps
-    left_on_twice, on_twice = close_on_twice(
-        start, springs, p, q, increments, rises, sums, jacobian, most
-    )
-    return left, mean, left_on_twice, on_twice
 
 
 @kernel

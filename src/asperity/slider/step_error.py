@@ -22,12 +22,7 @@ from asperity.errors import AsperityError
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
-from asperity.slider.on_twice import (
-    close_on_both,
-    close_on_twice,
-    friction_on_twice,
-    predicted_on_half,
-)
+from asperity.slider.on_twice import close_on_twice, friction_on_twice, predicted_on_half
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import close, differentiated, run_cycle
@@ -149,7 +144,16 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     put(end, step, state, springs)
     unknowns = _unknowns(end)
     if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
-        one, other = _closed_on_both(end.copied(), np.zeros((unknowns + 1, unknowns)))
+        found = np.zeros((unknowns + 1, unknowns))
+        if unknowns:
+            differentiated(
+                end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
+                end.body.no_sums()[0], found,
+            )  # fmt: skip
+        jacobian, slopes = found[:unknowns], found[unknowns]
+        there = end.copied()
+        one = _closed(there, jacobian)
+        other = _closed_beside(there, jacobian, slopes)
         if one is not None and other is not None and abs(one - ratio) <= _AGREE:
             return abs(other - one) * _part_of_difference(model)
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
@@ -289,32 +293,8 @@ def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
         body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
         body.sums, np.ascontiguousarray(jacobian), _CLOSING,
     )  # fmt: skip
-    return _if_found(left, _ratio(cycle))
-
-
-def _if_found(left: float, ratio: float) -> float | None:
+    ratio = _ratio(cycle)
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
-
-
-def _closed_on_both(end: Cycle, found: FloatArray) -> tuple[float | None, float | None]:
-    """Return the ratio of the state next to a march's end, and that of it on other steps.
-
-    ``found`` is room for the Jacobian and the slopes; the body is at the first of both after it.
-    """
-    body, unknowns = end.body, found.shape[1]
-    if not body.model.meets_corners:
-        left, one, left_beside, other = close_on_both(
-            body.kept["state"], end.springs, body.p, end.q, end.increments, end.rises,
-            body.kept["sums"], found, _CLOSING,
-        )  # fmt: skip
-        return _if_found(left, one), _if_found(left_beside, other)
-    if unknowns:
-        differentiated(
-            body.kept["state"], end.springs, body.p, end.q, end.increments, end.rises,
-            body.no_sums()[0], found,
-        )  # fmt: skip
-    jacobian, slopes = found[:unknowns], found[unknowns]
-    return _closed(end, jacobian), _closed_beside(end, jacobian, slopes)
 
 
 def _closed_beside(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
@@ -331,7 +311,7 @@ def _closed_beside(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> fl
         kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
         kept["sums"], np.ascontiguousarray(jacobian), _CLOSING,
     )  # fmt: skip
-    return _if_found(left, ratio)
+    return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
 def _foreseen(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
