@@ -11,9 +11,9 @@ from _common import best, finish
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.solve import prepare

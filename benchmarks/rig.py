@@ -34,7 +34,7 @@ from asperity.commands import case_tables
 from asperity.runs import Run
 from asperity.tribometer.guardian.backends import open_bench
 from asperity.tribometer.instruments.protocols import Poll
-from asperity.tribometer.live import Preview, units_of
+from asperity.tribometer.preview import Preview, units_of
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.procedure.logger import Logger
 from asperity.tribometer.procedure.study import answer, prepare

@@ -18,7 +18,7 @@ from asperity.files.folders import cache_folder
 from asperity.files.leftovers import temporary_beside
 from asperity.kernels.compiled import kernel
 from asperity.runs.cache import Cache
-from asperity.runs.rows import Rows
+from asperity.runs.row_cache import Rows
 from asperity.web.token import token_of
 
 KEY = "0f" * 16

@@ -10,8 +10,8 @@ from asperity.casefile import read_case
 from asperity.cli.new import new
 from asperity.commands import case_tables
 from asperity.gearset import Gearset
+from asperity.gearset.hob_shelf import PAIRS
 from asperity.gearset.masses import masses
-from asperity.gearset.shelf import PAIRS
 from asperity.rating import rate_case
 
 TEXT = "250 N m, 1400 rpm, 500 h; 150 N m, 1400 rpm, 1500 h; 60 N m, 700 rpm, 3000 h"

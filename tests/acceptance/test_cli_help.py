@@ -7,8 +7,8 @@ import pytest
 import typer
 
 from asperity.cli.application import app
+from asperity.cli.command_line import made
 from asperity.cli.helped import as_written
-from asperity.cli.made import made
 from asperity.commands import COMMANDS
 
 BRACKETED = re.compile(r"\[[^\[\]\s]+\]")

@@ -9,7 +9,7 @@ import pytest
 import typer
 
 from asperity.cli.application import app
-from asperity.cli.made import made
+from asperity.cli.command_line import made
 from asperity.commands import COMMANDS
 
 HEAVY = {

@@ -17,7 +17,7 @@ from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure import packer
 from asperity.tribometer.procedure.interlock import Interlock
 from asperity.tribometer.procedure.logger import Logger
-from asperity.tribometer.recording import joining
+from asperity.tribometer.recording import hdf5
 from asperity.tribometer.recording.blocks import Blocks
 
 pytestmark = [
@@ -551,8 +551,8 @@ def test_what_takes_its_time_between_two_files_is_no_hang_and_a_hang_is(dials, t
         for verb in ("start", "stop"):
             setattr(AskedScope, verb, slowly(getattr(AskedScope, verb)))
         Blocks.sync, Blocks.close = slowly(Blocks.sync), slowly(Blocks.close)
-        joining._join, joining.compressed = slowly(joining._join), slowly(joining.compressed)
-        packer.compressed = joining.compressed
+        hdf5._join, hdf5.compressed = slowly(hdf5._join), slowly(hdf5.compressed)
+        packer.compressed = hdf5.compressed
         if hangs:
             Logger.keep = slowly(Logger.keep, 4 * PATIENCE)
 

@@ -13,8 +13,8 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.rating import rate_case
-from asperity.results.system import US, converted, shown_in, shown_table, shown_text
 from asperity.results.table import Column, Table
+from asperity.results.unit_systems import US, converted, shown_in, shown_table, shown_text
 from asperity.results.words import Number, Sentence
 
 PINT = {

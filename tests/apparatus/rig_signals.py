@@ -18,7 +18,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.casefile import read_case
 from asperity.tribometer.recording import Recorder, Source
-from asperity.tribometer.recording.joining import Counts
+from asperity.tribometer.recording.hdf5 import Counts
 from asperity.tribometer.recording.layout import BEYOND, LARGEST
 from asperity.tribometer.tables import TABLES
 

@@ -16,8 +16,8 @@ from apparatus.drives import ASPERITIES, all_solved, case, deflection, problem
 from asperity.drive.locking import answer as locking
 from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.point import MeshPoint
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.runs import Run

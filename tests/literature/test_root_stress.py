@@ -13,9 +13,9 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.drive.root.loads import loads_of
-from asperity.drive.root.model import COUNTS, RootModel
-from asperity.drive.root.study import prepare
+from asperity.drive.root_stress.loads import loads_of
+from asperity.drive.root_stress.model import COUNTS, RootModel
+from asperity.drive.root_stress.study import prepare
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.sector import right_handed
 from asperity.flanks.mesh.tooth import Counts

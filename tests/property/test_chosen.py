@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asperity.errors import InputError
-from asperity.rating.rows import Row
+from asperity.rating.verdict_rows import Row
 from asperity.studies.chosen import Borne, Judges, choose, undominated
 
 FEW = st.integers(0, 4)

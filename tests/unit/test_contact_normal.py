@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from asperity.contact.elastic import ElasticMaterial, condense
-from asperity.contact.increment import IncrementProblem, IncrementSolver, newton
+from asperity.contact.increment import IncrementProblem, IncrementSolver, full_newton
 from asperity.contact.increment.equations import Increment
 from asperity.contact.increment.multipliers import classical, multiplier_tangent
 from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
@@ -232,7 +232,7 @@ def test_a_newton_step_takes_account_of_the_multipliers_that_end():
         """Integrated about the corners, for multipliers at them."""
         given = state.committed(problem.from_corners @ corner)
         increment = Increment(problem, np.zeros(3 * problem.nodes), motion.numbers(), given)
-        trial, _ = newton.solve(increment, state.traction)
+        trial, _ = full_newton.solve(increment, state.traction)
         over = -trial.points.distance.reshape(problem.surface.weights.shape)
         return problem.from_corners.T @ problem.surface.to_forces(over), trial
 

@@ -15,8 +15,8 @@ from asperity.drive.directions import answer as ways
 from asperity.drive.driven import inputs
 from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.plots import plot_directions
+from asperity.drive.protocols.equations_of_motion import begin, switched_off, system
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, switched_off, system
 from asperity.drive.reduced.law import NormalLaw, force_and_energy
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction

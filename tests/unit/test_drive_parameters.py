@@ -8,7 +8,7 @@ from asperity.drive.parameters import Drive, Shaft
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.reduction import kept_under
 from asperity.errors import InputError
-from asperity.slider.methods import prepare
+from asperity.slider.slide import prepare
 from asperity.vibration import Vibration
 
 TEXT = {"text_only": True}

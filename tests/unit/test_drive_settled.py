@@ -12,8 +12,8 @@ from apparatus.drives import case, problem, solved
 from asperity.drive import directions, locking
 from asperity.drive.motion.system import SUMS
 from asperity.drive.problem import PLACES
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.march import March, longest_march
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.studies.on_demand import OnDemand, in_a_stroke

@@ -5,8 +5,8 @@ import pytest
 from apparatus.drives import problem
 
 from asperity.drive.motion.kernels import move
+from asperity.drive.protocols.equations_of_motion import begin, corners_of, shakes, system
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, corners_of, shakes, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.runs import Run

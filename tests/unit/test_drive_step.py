@@ -11,10 +11,10 @@ from apparatus.random_drives import drawn, settings
 
 from asperity.drive.motion.system import SUMS
 from asperity.drive.protocols.accuracy import StepError, beside
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March
 from asperity.drive.protocols.notes import _of_step
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
 from asperity.runs import Run

@@ -16,7 +16,7 @@ from asperity.drive.swept import DRIVE, steps_of
 from asperity.errors import InputError
 from asperity.results import read
 from asperity.runs import Interrupted, Run
-from asperity.runs.rows import Rows
+from asperity.runs.row_cache import Rows
 from asperity.sweep import read_grid, run
 
 

@@ -24,8 +24,8 @@ from asperity.drive.elastic.mesh import advance
 from asperity.drive.elastic.model import TeethModel
 from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction

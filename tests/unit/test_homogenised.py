@@ -9,7 +9,7 @@ from apparatus.grid import grid, slow
 from asperity.casefile import read_case
 from asperity.errors import ConvergenceError, InputError
 from asperity.slider import TABLES, Model, homogenise, homogenised, pieces, solve
-from asperity.slider import homogenised_law as hl
+from asperity.slider import cycle_mean_law as hl
 from asperity.slider.closed_forms import transverse_ratio
 from asperity.slider.homogenised import interpolate
 from asperity.slider.march import March

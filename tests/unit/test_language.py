@@ -11,9 +11,9 @@ from asperity.errors import InputError
 from asperity.python import size
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
-from asperity.results.system import shown_in, shown_table, shown_text
 from asperity.results.table import Table
 from asperity.results.terminal import rendered
+from asperity.results.unit_systems import shown_in, shown_table, shown_text
 from asperity.results.words import Number, Sentence
 from asperity.runs import Run
 

@@ -12,7 +12,7 @@ from scipy.io import loadmat
 
 from asperity.errors import InputError
 from asperity.slider import FrictionMap, HomogenisedLaw, pieces
-from asperity.slider import homogenised_law as hl
+from asperity.slider import cycle_mean_law as hl
 from asperity.slider.law_files import WRITERS
 
 COMPILER = shutil.which("cc") or shutil.which("gcc")

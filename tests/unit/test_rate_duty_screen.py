@@ -8,7 +8,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.rating import rate_case
-from asperity.rating.rows import Row
+from asperity.rating.verdict_rows import Row
 
 
 def actuator(*settings):

@@ -18,7 +18,7 @@ from asperity.results import Result, quantity
 from asperity.results.settled import by_what, told, whether_settled
 from asperity.slider import TABLES, Model, curves, periodic, solve
 from asperity.start.compare import compare
-from asperity.studies.shaken import shake
+from asperity.studies.vibrated_friction import shake
 from asperity.sweep.axes import parse_axes
 from asperity.sweep.branches import Branches
 from asperity.tribometer.reduction import prediction

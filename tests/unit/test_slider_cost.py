@@ -10,7 +10,7 @@ from asperity.casefile import read_case
 from asperity.errors import AsperityError
 from asperity.friction import Friction
 from asperity.runs import Run
-from asperity.slider import TABLES, Model, Slider, Solve, methods
+from asperity.slider import TABLES, Model, Slider, Solve, slide
 from asperity.slider.cost import estimate
 from asperity.vibration import Vibration
 
@@ -50,10 +50,10 @@ def test_a_long_work_is_announced_before_it_begins(monkeypatch):
     def begun(*_, **__):
         raise RuntimeError("begun")
 
-    monkeypatch.setattr(methods, "march", begun)
+    monkeypatch.setattr(slide, "march", begun)
     for span in (1, 9000):
         with pytest.raises(RuntimeError, match="begun"):
-            methods.answer(body(f"solve.duration={span} s"), Run(notify=told.append))
+            slide.answer(body(f"solve.duration={span} s"), Run(notify=told.append))
     assert told == ["9e+09 steps take about 14 minutes"]
 
 

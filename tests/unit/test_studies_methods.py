@@ -18,7 +18,7 @@ from asperity.slider.tables import TABLES as SLIDER
 from asperity.studies.methods import compare, compare_case
 from asperity.studies.plots import plot_comparison
 from asperity.studies.reported import more_methods, reported_methods
-from asperity.studies.shaken import shake
+from asperity.studies.vibrated_friction import shake
 from asperity.vibration import Vibration
 
 OWN = """

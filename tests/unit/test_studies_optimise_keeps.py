@@ -13,7 +13,7 @@ from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.rating.rate import rate_case
 from asperity.runs import Run
-from asperity.studies.designs import falls
+from asperity.studies.design_compared import falls
 from asperity.studies.optimise import answer, prepare
 
 

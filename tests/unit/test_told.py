@@ -14,7 +14,7 @@ from asperity.cli import new
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.results.svg import Drawing
-from asperity.results.system import shown_in, shown_text
+from asperity.results.unit_systems import shown_in, shown_text
 from asperity.results.xlsx import in_shown_units
 from asperity.slider import Model
 from asperity.slider import solve as slide

@@ -33,8 +33,8 @@ from apparatus.laboratory_files import (
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asperity.cli.looking import looking
 from asperity.cli.main import main
+from asperity.cli.rig_look import looking
 from asperity.errors import InputError
 from asperity.results import read
 from asperity.tribometer.importing.cells import is_number, marks_of

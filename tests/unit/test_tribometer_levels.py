@@ -11,8 +11,8 @@ from apparatus.rig_signals import RATIOS, Imperfections, run_of, stream
 from asperity.casefile import read_case
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
+from asperity.tribometer.reduction.combined_uncertainty import estimate_jointly
 from asperity.tribometer.reduction.following import Following
-from asperity.tribometer.reduction.joint import estimate_jointly
 from asperity.tribometer.reduction.levels import estimate_levels
 from asperity.tribometer.tables import TABLES
 from asperity.tribometer.uncertainty import Cause

@@ -21,7 +21,7 @@ from asperity.errors import StorageError
 from asperity.files.store import read_dataset
 from asperity.tribometer.recording import Recorder, Recording, Source, blocks, layout
 from asperity.tribometer.recording.blocks import blocks_beside
-from asperity.tribometer.recording.joining import joined
+from asperity.tribometer.recording.hdf5 import joined
 from asperity.tribometer.signals import SIGNALS
 
 SOURCES = [Source("torque_steel", "V", 1e-3, 0.5), Source("drive_voltage", "mV", 2.0)]

@@ -11,11 +11,10 @@ from typing import Annotated, Any
 import typer
 
 from asperity.cli import begin, outcome
+from asperity.cli.command_line import made
 from asperity.cli.helped import as_written
-from asperity.cli.looking import looking
-from asperity.cli.made import made
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
-from asperity.cli.registered import (
+from asperity.cli.registry_commands import (
     CaseArgument,
     JsonOption,
     LanguageOption,
@@ -24,6 +23,7 @@ from asperity.cli.registered import (
     UnitsOption,
     folder_of,
 )
+from asperity.cli.rig_look import looking
 
 app = typer.Typer(
     add_completion=False,
@@ -297,7 +297,7 @@ def hobs(as_json: JsonOption = False) -> None:
     A file has tables such as [hob."4 x 40"] with axial_module and worm_pitch_diameter.
     """
     from asperity.cli.lists import print_library
-    from asperity.gearset.shelf import ShelfHob
+    from asperity.gearset.hob_shelf import ShelfHob
 
     print_library((ShelfHob,), as_json=as_json)
 

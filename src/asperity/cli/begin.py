@@ -6,7 +6,13 @@ from typing import Annotated
 import typer
 
 from asperity.cli.outcome import reported
-from asperity.cli.registered import JsonOption, LanguageOption, OutOption, SetOption, UnitsOption
+from asperity.cli.registry_commands import (
+    JsonOption,
+    LanguageOption,
+    OutOption,
+    SetOption,
+    UnitsOption,
+)
 
 _TORQUE = typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
 _SPEED = typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")

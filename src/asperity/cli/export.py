@@ -91,7 +91,7 @@ def _law(name: str, program: str, settings: Sequence[str], over: str) -> Files:
     from asperity.runs import Run
     from asperity.slider.friction_map import tabulate
     from asperity.slider.law_files import WRITERS
-    from asperity.slider.methods import prepare
+    from asperity.slider.slide import prepare
     from asperity.sweep.axes import read_grid
     from asperity.sweep.axis import Axis
     from asperity.units import unit_of

@@ -32,8 +32,8 @@ def said(text: str) -> str:
 
 def wrapped(sentence: str) -> str:
     """Return a sentence in lines of the terminal's least width."""
-    from asperity.results.system import shown_text
     from asperity.results.terminal import lines_of_text
+    from asperity.results.unit_systems import shown_text
 
     return "\n".join(lines_of_text(shown_text(sentence), _WIDTH, hanging="  "))
 

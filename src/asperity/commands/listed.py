@@ -13,7 +13,7 @@ COMMANDS = (
         "slide",
         "Pull a body over a vibrating base: drive force, friction, power.",
         "With --out also report.html, slide.nc, slide.png and slide.json.",
-        module="asperity.slider.methods",
+        module="asperity.slider.slide",
         needs=("slider", "friction"),
         counts="steps",
     ),
@@ -83,7 +83,7 @@ COMMANDS = (
         "Rate a worm gearset: friction, efficiency, losses, load capacity, self-locking.",
         "With --out also report.html, rate.json, rate.nc, rate.csv and rate.xlsx, a workbook of "
         "live formulas.",
-        module="asperity.rating.answered",
+        module="asperity.rating.rate_command",
         additions=(
             Addition("asperity.shafts.study:beside_rating", tables=("worm_shaft", "wheel_shaft")),
             Addition("asperity.flanks.study.pattern:beside_rating", option="pattern"),
@@ -217,7 +217,7 @@ COMMANDS = (
         "Find the stresses at the roots of a loaded worm wheel's teeth over a pitch.",
         "Three teeth are meshed finely about their fillets; a minute. With --out also report.html, "
         "roots.json, roots.nc and pictures.",
-        module="asperity.drive.root.study",
+        module="asperity.drive.root_stress.study",
         needs=("gearset", "operation", "drive"),
         counts="meshes",
     ),

@@ -8,7 +8,7 @@ from typing import get_args
 from asperity.casefile.project import Project
 from asperity.errors import InputError, choices
 from asperity.results.language import Catalogue, catalogue_of, spoken
-from asperity.results.system import System, shown_in
+from asperity.results.unit_systems import System, shown_in
 
 
 def check_shown(units: str, language: str) -> None:

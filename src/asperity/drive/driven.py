@@ -5,7 +5,7 @@ from typing import Any
 
 from asperity.drive.problem import DriveProblem
 from asperity.gearset import Geometry
-from asperity.gearset.drawn import Drawn
+from asperity.gearset.answer import Drawn
 from asperity.slider.result import table_inputs
 
 

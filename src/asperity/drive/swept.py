@@ -10,9 +10,9 @@ from asperity.drive.driven import inputs
 from asperity.drive.lacking import require_all
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.many import steps_of
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.result import DriveResult

@@ -3,7 +3,7 @@
 from asperity.casefile import Case, naming_source
 from asperity.drive.parameters import STEEL_MODULUS, Shaft
 from asperity.gearset.parameters import Gearset
-from asperity.shafts.give import plain_shaft
+from asperity.shafts.compliance import plain_shaft
 from asperity.shafts.parameters import WormShaft
 
 
@@ -11,7 +11,7 @@ def shaft_of(case: Case) -> Shaft:
     """Return the shaft of a drive: ``[shaft]``, what it lacks from ``[worm_shaft]``.
 
     The sections stand for a plain shaft that gives as much at the mesh; see
-    `asperity.shafts.give`.
+    `asperity.shafts.compliance`.
     """
     shaft = case.get(Shaft, Shaft())
     if WormShaft.table not in case or Gearset.table not in case:

@@ -16,7 +16,7 @@ from asperity.rating.inputs import Inputs, Part
 from asperity.rating.iso14521 import contact, strength
 from asperity.rating.iso14521.efficiency import worm_driving_efficiency
 from asperity.rating.iso14521.forces import wheel_tangential_force
-from asperity.rating.rows import Row
+from asperity.rating.verdict_rows import Row
 from asperity.units.standards import FROM_SI
 
 NAME = "own table"

@@ -13,6 +13,7 @@ from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating import own_table
+from asperity.rating.backlash import play_of
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import given_of, told_of
 from asperity.rating.duty import DutyPart, duty_mean, duty_parts, duty_table
@@ -25,18 +26,17 @@ from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521.housed import uncounted
 from asperity.rating.levers import Alternative, Lever
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.play import play_of
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row, Shafts, beside
 from asperity.rating.self_locking import SelfLocking, self_locking
 from asperity.rating.standards import PROMISED, STANDARDS, known_standards, rate_by, tables_of
 from asperity.rating.starting import Starting, starting, starting_table
 from asperity.rating.tables import operation_of
 from asperity.rating.verdict import Verdict, screen
+from asperity.rating.verdict_rows import Row, Shafts, beside
 from asperity.results import Result
 from asperity.results.quantity import Entry, Label
-from asperity.results.system import shown_frame
 from asperity.results.table import Table
+from asperity.results.unit_systems import shown_frame
 
 if TYPE_CHECKING:
     from asperity.results.report import Heading, Section

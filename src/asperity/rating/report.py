@@ -4,17 +4,17 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any
 
-from asperity.gearset.drawn import Views, drawn, views_of
+from asperity.gearset.answer import Views, drawn, views_of
 from asperity.rating.duty import duty_table
 from asperity.rating.endurance import endurance_table
 from asperity.rating.forces import MEANINGS
 from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
-from asperity.rating.rows import beside
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
 from asperity.rating.verdict import bar, locking_line, power_lines
+from asperity.rating.verdict_rows import beside
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
 from asperity.results.words import Number, Sentence, text_of

@@ -12,8 +12,8 @@ from typing import Any, Literal, NamedTuple
 from asperity.rating.demands import DEMANDS
 from asperity.rating.result import Rating
 from asperity.results.language import Spoken, said
-from asperity.results.system import shown_text
 from asperity.results.terminal import lines_of_text
+from asperity.results.unit_systems import shown_text
 
 NAMES = {"iso14521": "ISO/TR 14521", "bs721": "BS 721", "agma6034": "AGMA 6034"}
 """What people call the standards."""

@@ -9,11 +9,11 @@ from asperity.rating.demands import DEMANDS, Demand
 from asperity.rating.levers import Alternative, Lever
 from asperity.rating.regime import Film
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
+from asperity.rating.verdict_rows import Row
 from asperity.results.language import said
-from asperity.results.system import shown_text
+from asperity.results.unit_systems import shown_text
 from asperity.results.words import Number, Sentence
 
 _LONGEST = 3.0

@@ -25,9 +25,9 @@ from asperity.rating.entries import Fact, facts
 from asperity.rating.inputs import Inputs, Part, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.result import Rating
-from asperity.rating.rows import Shafts
 from asperity.rating.variation import derived
-from asperity.results.live import Cells, Page, write_live
+from asperity.rating.verdict_rows import Shafts
+from asperity.results.formula_sheets import Cells, Page, write_live
 from asperity.units import unit_of
 
 _GEOMETRY = "geometry"

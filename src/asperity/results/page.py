@@ -5,9 +5,9 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asperity.results.system import shown_table
 from asperity.results.table import Bar, Number
 from asperity.results.typeset import typeset
+from asperity.results.unit_systems import shown_table
 from asperity.results.words import Sentence
 
 if TYPE_CHECKING:

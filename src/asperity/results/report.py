@@ -12,8 +12,8 @@ from asperity.casefile.case import Case
 from asperity.casefile.project import Project
 from asperity.results.language import language, said
 from asperity.results.page import environment
-from asperity.results.system import shown_table, shown_text
 from asperity.results.table import Table
+from asperity.results.unit_systems import shown_table, shown_text
 
 if TYPE_CHECKING:
     from markupsafe import Markup

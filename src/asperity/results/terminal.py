@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from asperity.results.system import US, shown_table
+from asperity.results.unit_systems import US, shown_table
 
 if TYPE_CHECKING:
     from asperity.results.table import Column, Table

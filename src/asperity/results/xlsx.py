@@ -9,7 +9,7 @@ from xml.sax.saxutils import escape
 
 from asperity.errors import plain
 from asperity.files.store import write_atomically
-from asperity.results.system import US, system
+from asperity.results.unit_systems import US, system
 
 
 class Formula(NamedTuple):

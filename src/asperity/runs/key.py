@@ -20,7 +20,7 @@ def code_key(*modules: str) -> str:
     *modules : str
         Full names of modules; all they import belongs to them, also inside functions.
     """
-    from asperity.kernels.processor import machine
+    from asperity.kernels.fingerprint import machine
 
     return hashlib.sha256("\0".join((source_key(*modules), *machine())).encode()).hexdigest()
 

@@ -4,7 +4,7 @@
 :Data: `[worm_shaft]`, `[wheel_shaft]`, `[bearings]` (`parameters`, `options`); bearings and steels
     of data files.
 :Where: `statics` (reactions), `beam` (deflection), `strength` (DIN 743, Goodman, Gerber), `rolling`
-    (ISO 281, ISO 76), `loads` (cases and spectra), `give` (what the mesh gives way).
+    (ISO 281, ISO 76), `loads` (cases and spectra), `compliance` (what the mesh gives way).
 :Tests: `unit/test_shafts*`, `literature/test_shafts*`, `acceptance/test_cli_shafts`.
 """
 

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from asperity.gearset.drawn import Drawn
+from asperity.gearset.answer import Drawn
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.shafts.loads import Load
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
     import xarray as xr
 
+    from asperity.gearset.answer import Views
     from asperity.gearset.blanks import Blanks
-    from asperity.gearset.drawn import Views
     from asperity.gearset.geometry import Geometry
     from asperity.rating.inputs import Inputs, Values
-    from asperity.rating.rows import Row
-    from asperity.results.live import Cells
+    from asperity.rating.verdict_rows import Row
+    from asperity.results.formula_sheets import Cells
 
 
 class ShaftStudy(Drawn):
@@ -163,7 +163,7 @@ class ShaftStudy(Drawn):
     @property
     def rows(self) -> "tuple[Row, ...]":
         """What each part comes to of what is asked."""
-        from asperity.shafts.rows import rows_of
+        from asperity.shafts.verdict_rows import rows_of
 
         return rows_of(self)
 
@@ -254,7 +254,7 @@ class ShaftStudy(Drawn):
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""
-        from asperity.shafts.told import shaft_json
+        from asperity.shafts.output import shaft_json
 
         return {
             "name": self.name,
@@ -277,7 +277,7 @@ class ShaftStudy(Drawn):
 
     def tables(self) -> tuple[Table, ...]:
         """Return what a person reads."""
-        from asperity.shafts.told import tables
+        from asperity.shafts.output import tables
 
         return tables(self)
 
@@ -293,7 +293,7 @@ class ShaftStudy(Drawn):
 
     def to_dataset(self) -> "xr.Dataset":
         """Return the scalars, and the course of what is in each shaft in its worst case."""
-        from asperity.shafts.told import courses
+        from asperity.shafts.output import courses
 
         return super().to_dataset().assign(courses(self.found))
 

@@ -15,9 +15,9 @@ from asperity.rating.inputs import Inputs, inputs, scaled
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row
 from asperity.rating.standards import rate_by, tables_of
 from asperity.rating.tables import operation_of
+from asperity.rating.verdict_rows import Row
 from asperity.runs import Run
 from asperity.shafts.loads import (
     Condition,

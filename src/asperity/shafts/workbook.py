@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from asperity.formulas import masking
 from asperity.formulas.traced import Traced
 from asperity.rating.inputs import Inputs, Values
-from asperity.results.live import Cells, Page, write_live
+from asperity.results.formula_sheets import Cells, Page, write_live
 from asperity.shafts.bearings import Carried, life_of
 from asperity.shafts.loads import Condition, Load, forces, on_wheel_shaft, on_worm_shaft
 from asperity.shafts.options import BearingOptions

@@ -1,7 +1,7 @@
 """A body pulled over a vibrating base: march, periodic state, homogenised law, closed forms.
 
 :Entry: `solve` (one case), `solve_many` (side by side), `homogenise` (a law in place of the
-    vibration); `asperity slide`.
+    vibration); `slide`, the command `asperity slide`.
 :Data: `[slider]` and `[solve]` (`parameters`), `[friction]`, `[vibration]`, `[normal]`, `[wear]`;
     `model` puts them together.
 :Where: `march` and `kernels` (over time), `periodic` and `shooting` (a state that repeats),
@@ -26,10 +26,10 @@ from asperity.slider.batch import solve_many
 from asperity.slider.friction_map import FrictionMap
 from asperity.slider.history import History
 from asperity.slider.homogenised import HomogenisedLaw, homogenise
-from asperity.slider.methods import solve
 from asperity.slider.model import Model
 from asperity.slider.parameters import Slider, Solve
 from asperity.slider.result import SlideResult
+from asperity.slider.slide import solve
 from asperity.slider.tables import TABLES
 
 __all__ = [

@@ -22,7 +22,6 @@ from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.integrators import integrator
 from asperity.slider.longer import advice, needed
 from asperity.slider.march import marched
-from asperity.slider.methods import solve
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import as_it_rings, ringing_notes
@@ -34,6 +33,7 @@ from asperity.slider.scaled import (
     NormalLoading,
     Parameters,
 )
+from asperity.slider.slide import solve
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import energies, pressed_energies, summarise
 from asperity.slider.timetable import Timetable, march_notes, march_standing

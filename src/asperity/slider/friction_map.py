@@ -10,7 +10,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.runs import Run
 from asperity.slider.cost import estimate
-from asperity.slider.homogenised_law import HomogenisedLaw, homogenise
+from asperity.slider.cycle_mean_law import HomogenisedLaw, homogenise
 from asperity.slider.model import Model
 
 

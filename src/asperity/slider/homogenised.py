@@ -17,11 +17,11 @@ from asperity.errors import ConvergenceError
 from asperity.kernels.compiled import kernel
 from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.results.settled import Standing
-from asperity.slider import homogenised_law as hl
+from asperity.slider import cycle_mean_law as hl
 from asperity.slider.carried import carried
+from asperity.slider.cycle_mean_law import HomogenisedLaw, homogenise
+from asperity.slider.cycle_mean_normal import gain_notes, mean_motion
 from asperity.slider.history import History
-from asperity.slider.homogenised_law import HomogenisedLaw, homogenise
-from asperity.slider.homogenised_normal import gain_notes, mean_motion
 from asperity.slider.longer import advice, needed
 from asperity.slider.march import March
 from asperity.slider.model import Model

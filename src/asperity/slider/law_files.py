@@ -1,6 +1,6 @@
 """The mean friction of a body as files that other programs take: CSV, MATLAB, C.
 
-The law is that of `asperity.slider.homogenised_law`; all of it that another program needs is
+The law is that of `asperity.slider.cycle_mean_law`; all of it that another program needs is
 written: the table, the cubics between its places, and what holds beyond its ends.
 """
 
@@ -14,9 +14,9 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import plain
-from asperity.slider import homogenised_law as hl
+from asperity.slider import cycle_mean_law as hl
+from asperity.slider.cycle_mean_law import HomogenisedLaw
 from asperity.slider.friction_map import FrictionMap
-from asperity.slider.homogenised_law import HomogenisedLaw
 
 _COLUMNS = (
     ("friction", "N", hl.FORCE),

@@ -24,7 +24,7 @@ from asperity.slider.parameters import (
     unit_vector,
 )
 from asperity.slider.scaled import MODELS, NormalLoading, Parameters
-from asperity.slider.steps import parts_of
+from asperity.slider.substeps import parts_of
 from asperity.slider.wear import Wear
 from asperity.vibration import Vibration
 from asperity.vibration.waveform import AT_REST, SAMPLED, SINE, Shape, Wave
@@ -278,7 +278,7 @@ class Model:
     @functools.cached_property
     @in_proportion()
     def substeps(self) -> int:
-        """Parts each step is divided into, see `asperity.slider.steps`."""
+        """Parts each step is divided into, see `asperity.slider.substeps`."""
         return self.finer * parts_of(self)
 
     def length(self, step: float) -> float:

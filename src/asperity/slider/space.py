@@ -8,7 +8,7 @@ from asperity.errors import ConvergenceError
 from asperity.normal import elastic_slope, indentation
 from asperity.results import Quantities, quantity
 from asperity.slider.model import Model
-from asperity.slider.steps import LANDING_BOUND, RING_BOUND
+from asperity.slider.substeps import LANDING_BOUND, RING_BOUND
 
 _MOST_GAIN = 1e-9  # of the friction power: rounding
 

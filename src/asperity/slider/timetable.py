@@ -9,7 +9,7 @@ from asperity.results.settled import Standing
 from asperity.slider.fading import still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.parameters import in_proportion
-from asperity.slider.steps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
+from asperity.slider.substeps import CHANGE_BOUND, COULOMB_BOUND, RING_BOUND, SLIP_BOUND
 
 BLOCK = 1024
 """Steps that a march takes at a time."""

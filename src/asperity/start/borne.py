@@ -10,9 +10,9 @@ from asperity.gearset.library import every
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.shafts.bearing import RollingBearing
+from asperity.shafts.bearing_shelf import Place, from_shelf
 from asperity.shafts.options import BearingOptions
 from asperity.shafts.parameters import WheelShaft, WormShaft
-from asperity.shafts.shelf import Place, from_shelf
 from asperity.shafts.study import prepared, studied
 from asperity.start.kinds import Values
 from asperity.studies.chosen import Borne

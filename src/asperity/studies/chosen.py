@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
-from asperity.rating.rows import Row
+from asperity.rating.verdict_rows import Row
 
 Keys = Mapping[str, Any]
 """What a ``[gearset]`` table has of a design."""

@@ -10,7 +10,7 @@ from asperity.results.dataset import along, described
 from asperity.results.table import Cell, Table, table_of_rows
 from asperity.sources import Source
 from asperity.studies.layout import points
-from asperity.studies.shaken import Shaken
+from asperity.studies.vibrated_friction import Shaken
 
 if TYPE_CHECKING:
     import xarray as xr

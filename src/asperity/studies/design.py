@@ -16,8 +16,8 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.formulas import masking
+from asperity.gearset.hob_shelf import hob_of, shelf
 from asperity.gearset.parameters import Gearset
-from asperity.gearset.shelf import hob_of, shelf
 from asperity.gearset.threads import CLOSED_FORMS, thread_room
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate

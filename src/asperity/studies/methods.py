@@ -27,11 +27,11 @@ from asperity.rating.variants import variants
 from asperity.runs import Run
 from asperity.slider.parameters import Slider
 from asperity.sources import Source
-from asperity.studies import shaken
+from asperity.studies import vibrated_friction
 from asperity.studies.comparison import Compared, Comparison
 from asperity.studies.gears import Gears
 from asperity.studies.reported import OWN, Method, more_methods, reported_methods
-from asperity.studies.shaken import Shaken
+from asperity.studies.vibrated_friction import Shaken
 from asperity.vibration import Vibration
 
 AS_IS = "as_is"
@@ -96,7 +96,9 @@ def compare(
         )
     rating = rate(gearset, operation, options, (_STANDARD,)).found[_STANDARD]
     contact = _Contact(gearset, operation, rating)
-    imposed = contact.imposed(vibration or shaken.DEFAULT, friction, normal_force, folder)
+    imposed = contact.imposed(
+        vibration or vibrated_friction.DEFAULT, friction, normal_force, folder
+    )
     methods = reported_methods() if methods is None else methods
     entries = [contact.as_is(options), *contact.reported(methods, options, imposed[0]), *imposed]
     rows = contact.compared(entries, options)
@@ -190,7 +192,11 @@ class _Contact:
     def reported(
         self, methods: Sequence[Method], options: RatingOptions, imposed: _Entry
     ) -> list[_Entry]:
-        frequency = shaken.FREQUENCY if imposed.vibration is None else imposed.vibration.frequency
+        frequency = (
+            vibrated_friction.FREQUENCY
+            if imposed.vibration is None
+            else imposed.vibration.frequency
+        )
         own = self.operation.lubricant.base_oil if options.base_friction is None else None
         return [
             _Entry(
@@ -222,7 +228,7 @@ class _Contact:
     def _quoted(self, method: Method, frequency: float) -> Shaken | None:
         if method.velocity_ratio is None:
             return None
-        return shaken.quoted(
+        return vibrated_friction.quoted(
             method.velocity_ratio,
             method.direction or 0.0,
             self.velocity,
@@ -243,7 +249,7 @@ class _Contact:
         force = normal_force or self.normal_force(self.friction)
         entries = []
         for key, direction in directions.items():
-            moved = shaken.shake(
+            moved = vibrated_friction.shake(
                 given, direction, self.velocity, friction=friction, normal_force=force,
                 folder=folder,
             )  # fmt: skip
@@ -301,7 +307,8 @@ def _assumed(vibration: Vibration | None, friction: Friction | None) -> dict[str
     assumed = {}
     if vibration is None:
         assumed["vibration"] = (
-            f"sine, {1e-3 * shaken.FREQUENCY:g} kHz, {1e6 * shaken.AMPLITUDE:g} um, what an "
+            f"sine, {1e-3 * vibrated_friction.FREQUENCY:g} kHz, "
+            f"{1e6 * vibrated_friction.AMPLITUDE:g} um, what an "
             "ultrasonic transducer reaches without load"
         )
     if friction is None:

@@ -18,14 +18,15 @@ from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated, rate
-from asperity.rating.rows import Row
+from asperity.rating.verdict_rows import Row
 from asperity.results import Result, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
 from asperity.shafts.study import rows_by
 from asperity.studies.climb import climb, spread
+from asperity.studies.constraints import TORQUES, Limit, limits_of, number_of
 from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
-from asperity.studies.designs import (
+from asperity.studies.design_compared import (
     design_numbers,
     falls,
     locking_of,
@@ -34,13 +35,12 @@ from asperity.studies.designs import (
 )
 from asperity.studies.gears import Gears
 from asperity.studies.layout import points
-from asperity.studies.limits import TORQUES, Limit, limits_of, number_of
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.requirements import Requirements
 from asperity.studies.rounding import rounded
 from asperity.studies.search import bounds_of, known_safeties, least_safeties
-from asperity.studies.shafted import with_shafts
 from asperity.studies.tradeoff import TradeOff, trade_off
+from asperity.studies.with_shafts import with_shafts
 
 if TYPE_CHECKING:
     import xarray as xr

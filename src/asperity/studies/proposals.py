@@ -14,8 +14,8 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, suggestion
 from asperity.formulas import masking
+from asperity.gearset.hob_shelf import hob_of, shelf
 from asperity.gearset.parameters import Gearset
-from asperity.gearset.shelf import hob_of, shelf
 from asperity.gearset.threads import thread_room
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS

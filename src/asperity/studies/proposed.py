@@ -5,8 +5,8 @@ from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple
 
 from asperity.rating.demands import DEMANDS
-from asperity.rating.rows import Row
 from asperity.rating.standing import NAMES
+from asperity.rating.verdict_rows import Row
 from asperity.results import Result, quantity
 from asperity.results.language import said
 from asperity.results.table import Table

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 import numpy as np
 
 from asperity.errors import InputError
-from asperity.gearset.shelf import Blank
+from asperity.gearset.hob_shelf import Blank
 from asperity.gearset.sizing import possible_starts
 from asperity.studies.requirements import RATIO_OFF
 

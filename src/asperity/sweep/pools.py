@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from asperity.errors import AsperityError, InputError, MissingExtraError, StorageError
-from asperity.runs.rows import Row
+from asperity.runs.row_cache import Row
 from asperity.runs.workers import cores
 from asperity.sweep.tasks import solve_remote, solve_task, versions
 

@@ -12,7 +12,7 @@ import numpy as np
 from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.runs import Interrupted, Run
-from asperity.runs.rows import Row, Rows
+from asperity.runs.row_cache import Row, Rows
 from asperity.runs.workers import cores
 from asperity.sweep.axes import parse_axes
 from asperity.sweep.axis import Axis

@@ -7,9 +7,9 @@ import numpy as np
 
 from asperity.errors import AsperityError, ConvergenceError, InputError
 from asperity.kernels.closure import source_key
-from asperity.kernels.processor import machine
+from asperity.kernels.fingerprint import machine
 from asperity.results import Result
-from asperity.runs.rows import Row
+from asperity.runs.row_cache import Row
 from asperity.sweep.subject import Subject, named
 
 FAILED = "failed"

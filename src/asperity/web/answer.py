@@ -43,7 +43,7 @@ def answer_of(request: CommandRequest, case: Case, result: Result) -> dict[str, 
 def curve(folder: Folder, body: Body) -> dict[str, Any]:
     """Return the ratio of a body over the direction or the strength of its vibration."""
     from asperity.slider.curves import curve
-    from asperity.slider.methods import prepare
+    from asperity.slider.slide import prepare
 
     case = case_of(request_of({**body, "command": "slide", "options": {}}, folder), folder)
     options = mapping(body, "options")

@@ -20,7 +20,7 @@ from asperity.errors import AsperityError
 from asperity.files.leftovers import temporary_beside
 from asperity.files.store import read_text, reason, write_atomically, write_text
 from asperity.start.listed import listed
-from asperity.tribometer.live import runs, stop
+from asperity.tribometer.preview import runs, stop
 from asperity.web.folder import CASE, MOST_FILE, Folder
 from asperity.web.guard import Refused, body_of, parts_of, refusal
 from asperity.web.jobs import Jobs

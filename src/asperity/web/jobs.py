@@ -14,7 +14,7 @@ from typing import Any
 from asperity.errors import AsperityError, StorageError
 from asperity.files.store import read_bytes, read_text, reason, write_text
 from asperity.processes.sessions import begun, end, heard
-from asperity.tribometer.live import stop
+from asperity.tribometer.preview import stop
 from asperity.web.folder import ANSWER, REQUEST, STATE, Folder
 from asperity.web.guard import Refused
 from asperity.web.record import ENDED, Job

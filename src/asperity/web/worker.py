@@ -93,7 +93,7 @@ def _load() -> Callable[[], object]:
     """
     from asperity.casefile import read_case
     from asperity.commands import COMMANDS, case_tables
-    from asperity.slider.methods import prepare, solve
+    from asperity.slider.slide import prepare, solve
 
     for command in COMMANDS:
         if command.name in LIVE:

@@ -23,7 +23,7 @@ import scipy.linalg
 
 from asperity.arrays import FloatArray
 from asperity.contact.increment.equations import Trial
-from asperity.contact.increment.newton import tangent_matrix
+from asperity.contact.increment.full_newton import tangent_matrix
 from asperity.contact.increment.problem import IncrementProblem
 from asperity.contact.interface.active_set import ActiveSet
 

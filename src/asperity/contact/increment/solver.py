@@ -10,8 +10,8 @@ force, bristle and tangential give of the body are solved together.
 
 While the contact keeps its extent, a kept tangent and one matrix product an iteration do
 (`asperity.contact.increment.modified_newton`); where it changes, or converges slowly, consistent
-Newton steps (`asperity.contact.increment.newton`). Both end at the same residual; which was used
-shows in the number of iterations alone.
+Newton steps (`asperity.contact.increment.full_newton`). Both end at the same residual; which was
+used shows in the number of iterations alone.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.contact.increment import modified_newton, newton
+from asperity.contact.increment import full_newton, modified_newton
 from asperity.contact.increment.equations import Increment, Trial
 from asperity.contact.increment.multipliers import (
     MultiplierTangent,
@@ -171,7 +171,7 @@ class IncrementSolver:
         )  # fmt: skip
         if found is not None:
             return found, residual, took
-        trial, count = newton.solve(increment, guess.traction)
+        trial, count = full_newton.solve(increment, guess.traction)
         self.tangents.ended_with(trial.touching.tobytes())
         return trial, trial.residual, took + count
 

@@ -15,8 +15,8 @@ from asperity.drive.control.parameters import Control
 from asperity.drive.control.sensor import Filter
 from asperity.drive.control.switching import Switch
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.equations_of_motion import SHAKES, begin, switched_off, system
 from asperity.drive.protocols.march import March, Records, refined
-from asperity.drive.protocols.setup import SHAKES, begin, switched_off, system
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.runs import Run
 

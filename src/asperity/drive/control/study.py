@@ -13,7 +13,7 @@ from asperity.drive.control.sensor import alias, late_by, passed
 from asperity.drive.control.stroke import Stroke, march_stroke
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
-from asperity.drive.protocols.setup import system
+from asperity.drive.protocols.equations_of_motion import system
 from asperity.drive.protocols.solve import asked
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.reduction import reduction

@@ -16,9 +16,9 @@ from asperity.arrays import FloatArray
 from asperity.drive.lugre import of_speed, static_ratio
 from asperity.drive.motion.system import System
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.judgement import PERIODIC
 from asperity.drive.protocols.march import March, Records, mean
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.runs import Run
 

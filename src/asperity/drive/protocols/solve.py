@@ -14,11 +14,11 @@ from asperity.drive.motion.system import System
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import StepError, beside, sensitive, step_error, told_of
+from asperity.drive.protocols.equations_of_motion import switched_off, system
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March, Records, bands_of, mean, refined
 from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
 from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
-from asperity.drive.protocols.setup import switched_off, system
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel

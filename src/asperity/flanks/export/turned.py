@@ -13,8 +13,8 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.flanks.worm.setting import Pair
+from asperity.gearset.answer import Views
 from asperity.gearset.blanks import Blanks, chamfer_of, rounded, sizes_given, wheel_sizes
-from asperity.gearset.drawn import Views
 from asperity.gearset.geometry import Geometry
 from asperity.gearset.keys import key_of
 from asperity.shafts.drawing import views_of

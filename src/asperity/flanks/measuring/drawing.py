@@ -14,7 +14,7 @@ from asperity.flanks.worm.setting import Pair
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.grades import Allowed
 from asperity.results.quantity import plain
-from asperity.results.system import converted
+from asperity.results.unit_systems import converted
 from asperity.results.words import text_of
 
 _MICROMETRES = 1e3

@@ -28,8 +28,8 @@ from asperity.gearset.proportions import SOURCES as PROPORTIONS
 from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating import Operation, RatingOptions, rate_case
+from asperity.rating.backlash import worn
 from asperity.rating.driven import driven
-from asperity.rating.play import worn
 from asperity.rating.regime import Film
 from asperity.runs import Run
 from asperity.sources import Source

@@ -19,8 +19,8 @@ from asperity.flanks.study.toleranced import Toleranced
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.gearset import Geometry
+from asperity.gearset.answer import Drawn
 from asperity.gearset.blanks import wheel_sizes
-from asperity.gearset.drawn import Drawn
 from asperity.results import Quantities, labelled, part, quantity
 from asperity.results.dataset import to_dataset
 from asperity.results.quantity import Entry
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from asperity.flanks.export.cad.solids import Solids
-    from asperity.gearset.drawn import Views
+    from asperity.gearset.answer import Views
     from asperity.results.report import Picture
 
 _DRAWING = "drawing.csv"

@@ -12,8 +12,8 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.results.dataset import described
 from asperity.runs.workers import Task
+from asperity.thesis.cached import once
 from asperity.thesis.cases import Shipped
-from asperity.thesis.kept import once
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -9,8 +9,8 @@ from asperity.arrays import FloatArray
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
+from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.march import March
-from asperity.drive.protocols.setup import begin, system
 from asperity.drive.protocols.solve import solve_shaken
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction

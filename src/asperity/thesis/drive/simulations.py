@@ -8,10 +8,10 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from asperity.runs.workers import Task
+from asperity.thesis.cached import once
 from asperity.thesis.cases import Shipped
 from asperity.thesis.drive.sets import Condition, conditions
 from asperity.thesis.exhibits import Part
-from asperity.thesis.kept import once
 
 if TYPE_CHECKING:
     from asperity.thesis.drive.marches import Loaded, Shaken, Stroke

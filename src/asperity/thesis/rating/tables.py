@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from asperity.rating import Rated
 from asperity.rating.result import Entry
-from asperity.studies.limits import Limit
+from asperity.studies.constraints import Limit
 from asperity.thesis.exhibits import table
 from asperity.thesis.products import Grid
 from asperity.thesis.rating.rated import GEARSET_2, GEARSETS, OPTIMISED, quoted_methods

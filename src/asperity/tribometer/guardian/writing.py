@@ -110,6 +110,6 @@ class Writing:
         """Make files of what the procedure had recorded."""
         if self._journal is None:
             return
-        from asperity.tribometer.recording.joining import joined_all
+        from asperity.tribometer.recording.hdf5 import joined_all
 
         joined_all(self._journal.path.parent)

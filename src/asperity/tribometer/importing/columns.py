@@ -13,7 +13,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError, choices, shown
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.recording import Source
-from asperity.tribometer.recording.joining import Counts
+from asperity.tribometer.recording.hdf5 import Counts
 from asperity.tribometer.recording.layout import BEYOND, LARGEST, MISSING
 from asperity.tribometer.reduction.blocks import unit_scale
 from asperity.tribometer.signals import NEEDED, SIGNALS

@@ -13,7 +13,7 @@ from asperity.casefile import Case
 from asperity.errors import InputError
 from asperity.tribometer.importing.columns import Sampled
 from asperity.tribometer.recording import Event, Recording
-from asperity.tribometer.recording.joining import Counts
+from asperity.tribometer.recording.hdf5 import Counts
 from asperity.tribometer.reduction.study import Reducible, heard_in
 
 

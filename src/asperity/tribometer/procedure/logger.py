@@ -17,9 +17,9 @@ from asperity.casefile import Case
 from asperity.tribometer.instruments.bench import Bench
 from asperity.tribometer.instruments.protocols import Counts, Instrument
 from asperity.tribometer.instruments.stream import Stream
-from asperity.tribometer.live import Preview
 from asperity.tribometer.options import Plan
 from asperity.tribometer.plan.matrix import PlannedFile
+from asperity.tribometer.preview import Preview
 from asperity.tribometer.procedure.columns import over_time
 from asperity.tribometer.procedure.interlock import Expected, Interlock
 from asperity.tribometer.recording import Recorder, Source

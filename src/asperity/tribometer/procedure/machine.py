@@ -26,11 +26,11 @@ from asperity.tribometer.instruments.protocols import (
     StillOnError,
     WallClock,
 )
-from asperity.tribometer.live import Preview, units_of
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile
+from asperity.tribometer.preview import Preview, units_of
 from asperity.tribometer.procedure import checks
 from asperity.tribometer.procedure.approach import Approach
 from asperity.tribometer.procedure.driving import Driving

@@ -9,7 +9,7 @@ from typing import Self
 
 from asperity.errors import StorageError
 from asperity.files.store import write_atomically
-from asperity.tribometer.recording.joining import compressed, joined
+from asperity.tribometer.recording.hdf5 import compressed, joined
 
 
 class Packer:

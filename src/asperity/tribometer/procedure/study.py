@@ -28,11 +28,11 @@ from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.study import warnings
-from asperity.tribometer.procedure.kept import check_kept
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
+from asperity.tribometer.procedure.resuming import check_kept
 from asperity.tribometer.procedure.steps import Action, sequence
-from asperity.tribometer.recording.joining import joined_all
+from asperity.tribometer.recording.hdf5 import joined_all
 from asperity.tribometer.signals import SIMULATED
 from asperity.tribometer.twin.plants import plant_of
 from asperity.tribometer.twin.provenance import standing

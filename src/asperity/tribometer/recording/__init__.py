@@ -5,7 +5,7 @@ oscilloscope saw, in ``units``, of ``signal``. Counts say by themselves where th
 `MISSING`, a gap, and `BEYOND` on either side, past the range of the channel.
 """
 
-from asperity.tribometer.recording.joining import Source
+from asperity.tribometer.recording.hdf5 import Source
 from asperity.tribometer.recording.recorder import Recorder
 from asperity.tribometer.recording.recording import Event, Gap, Recording
 

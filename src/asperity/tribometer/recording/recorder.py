@@ -18,7 +18,7 @@ import numpy as np
 from asperity.errors import StorageError, plain
 from asperity.tribometer.recording import layout
 from asperity.tribometer.recording.blocks import Blocks
-from asperity.tribometer.recording.joining import Counts, Source, Told, joined
+from asperity.tribometer.recording.hdf5 import Counts, Source, Told, joined
 
 _BLOCK_SECONDS = 0.1
 

@@ -19,7 +19,7 @@ from asperity.errors import InputError, StorageError, plain, shown
 from asperity.files import store
 from asperity.tribometer.recording import layout
 from asperity.tribometer.recording.blocks import blocks_beside
-from asperity.tribometer.recording.joining import Counts, Source, joined
+from asperity.tribometer.recording.hdf5 import Counts, Source, joined
 from asperity.tribometer.signals import SIGNALS
 
 _MOST_SAMPLES_A_BYTE = 1100  # what zeros are compressed to

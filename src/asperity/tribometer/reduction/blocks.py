@@ -12,7 +12,7 @@ from asperity.errors import InputError
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.recording import Recording
-from asperity.tribometer.recording.joining import Counts
+from asperity.tribometer.recording.hdf5 import Counts
 from asperity.tribometer.recording.layout import BEYOND
 from asperity.tribometer.signals import NEEDED, SIGNALS
 from asperity.units import to_si

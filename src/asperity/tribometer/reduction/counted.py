@@ -31,7 +31,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray, IntArray
-from asperity.tribometer.reduction.give import Give
 from asperity.tribometer.reduction.levels import (
     EXPECTED_GIVE,
     Levels,
@@ -42,6 +41,7 @@ from asperity.tribometer.reduction.levels import (
 )
 from asperity.tribometer.reduction.likelihoods import white_counts
 from asperity.tribometer.reduction.noise import share_of_state
+from asperity.tribometer.reduction.torque_sensitivity import Give
 
 _FEWEST = 3  # blocks of a window, of which a level and parts of a pulse are told
 _FLOOR = 1e-4  # of the variance of a block's noise, over that which steps leave there

@@ -18,12 +18,12 @@ from asperity.tribometer.parameters import Lubricant, Sonotrode
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import quantities, wear
 from asperity.tribometer.reduction.blocks import Blocks, angle, turns
+from asperity.tribometer.reduction.combined_uncertainty import TORQUE, Joint, estimate_jointly
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL, Following
 from asperity.tribometer.reduction.geared import geared_numbers
 from asperity.tribometer.reduction.heard.acceleration import Heard as Tones
 from asperity.tribometer.reduction.heard.listen import Listened
-from asperity.tribometer.reduction.joint import TORQUE, Joint, estimate_jointly
 from asperity.tribometer.reduction.levels import Levels
 from asperity.tribometer.reduction.prediction import model_ratios
 from asperity.tribometer.reduction.result import (

@@ -12,7 +12,7 @@ from asperity.tribometer import discs
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction import quantities
-from asperity.tribometer.reduction.joint import TORQUE, Joint, Pairs
+from asperity.tribometer.reduction.combined_uncertainty import TORQUE, Joint, Pairs
 from asperity.tribometer.uncertainty import Budgeted, Cause, Contribution, Kind
 
 STEEL, BRONZE, CURRENT = "speed_steel", "speed_bronze", "current_steel"

@@ -25,9 +25,9 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import InputError
-from asperity.tribometer.reduction.give import Give
 from asperity.tribometer.reduction.likelihoods import estimated
 from asperity.tribometer.reduction.noise import share_of_state, weighed, whitened
+from asperity.tribometer.reduction.torque_sensitivity import Give
 
 _RUNOUT = 0.05  # what run-out and drift are expected to be at most, as a share: loosely held
 EXPECTED_GIVE = 1.0  # what a signal gives to the whole torque, as a share: loosely held

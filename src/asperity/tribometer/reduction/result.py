@@ -13,7 +13,7 @@ from asperity.results.interval import numbers_of, value_of
 from asperity.results.quantity import CI95, plain
 from asperity.results.table import Table
 from asperity.tribometer.parameters import TRANSVERSE
-from asperity.tribometer.reduction import budgets
+from asperity.tribometer.reduction import budget_tables
 from asperity.tribometer.uncertainty import Budget, Budgeted
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ class SegmentResult(Quantities):
     @property
     def budgets(self) -> dict[str, Budget]:
         """What each number is uncertain by; nothing of a segment that was refused."""
-        found = {name: getattr(self, name) for name in budgets.NUMBERS}
+        found = {name: getattr(self, name) for name in budget_tables.NUMBERS}
         return {name: one.budget for name, one in found.items() if one is not None}
 
     @property
@@ -194,7 +194,7 @@ class Reduced(Result):
     not_counted: tuple[str, ...] = ()
 
     @property
-    def uncertainties(self) -> tuple[budgets.Row, ...]:
+    def uncertainties(self) -> tuple[budget_tables.Row, ...]:
         """Of each segment that was reduced its file, its start and its budgets."""
         return tuple((one.file, one.start, one.budgets) for one in self.segments if one.budgets)
 
@@ -221,7 +221,7 @@ class Reduced(Result):
             beside["wear_together"] = list(self.weighed)
         if self.told:
             beside["budgets"] = [
-                {"file": file, "start_s": start, "numbers": budgets.of_segment(of)}
+                {"file": file, "start_s": start, "numbers": budget_tables.of_segment(of)}
                 for file, start, of in self.uncertainties
             ]
             beside["not_counted"] = list(self.not_counted)
@@ -237,7 +237,7 @@ class Reduced(Result):
             files["recording"] = files.pop("file")
         dataset = dataset.merge(described(**along("segment", self.segments), **files))
         each = [(one.file, one.start, one.budgets) for one in self.segments]
-        return dataset.merge(budgets.variables(each))
+        return dataset.merge(budget_tables.variables(each))
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row a segment, what has intervals, and a row a recording."""
@@ -287,7 +287,7 @@ class Reduced(Result):
         return (
             Table.of(headings, rows, left=4, remarks=flags),
             *self._intervals(),
-            *(budgets.tables(self.uncertainties, self.not_counted) if self.told else ()),
+            *(budget_tables.tables(self.uncertainties, self.not_counted) if self.told else ()),
             Table.of(heads, files, remarks=(*remarks, *self.notes)),
         )
 
@@ -321,7 +321,7 @@ class Reduced(Result):
         """Write JSON, netCDF, CSV, what a fit takes, budgets, and the picture."""
         texts = {
             "reduce.csv": self.to_csv(), "measurements.csv": self.to_measurements(),
-            "budget.csv": budgets.to_csv(self.uncertainties),
+            "budget.csv": budget_tables.to_csv(self.uncertainties),
         }  # fmt: skip
         for name, text in texts.items():
             write_text(folder / name, text)

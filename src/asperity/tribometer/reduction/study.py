@@ -19,7 +19,7 @@ from asperity.tribometer.parameters import Rig, Sonotrode
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import wear
 from asperity.tribometer.reduction.blocks import Blocks, blocks_of
-from asperity.tribometer.reduction.budgets import not_counted
+from asperity.tribometer.reduction.budget_tables import not_counted
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.file import reduce_file
 from asperity.tribometer.reduction.heard.listen import Listened, listen

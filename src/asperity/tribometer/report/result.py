@@ -9,7 +9,7 @@ from asperity.results import Result, quantity
 from asperity.results.report import Picture, Section
 from asperity.results.table import Table
 from asperity.tribometer.plots import changes, over_velocity
-from asperity.tribometer.reduction import budgets
+from asperity.tribometer.reduction import budget_tables
 from asperity.tribometer.reduction.result import Reduced
 from asperity.tribometer.report.standards import MISSING, Asked
 from asperity.tribometer.sheets import Sheet
@@ -92,7 +92,7 @@ class Report(Result):
         named = Table(cells.columns, cells.rows, "Cells", cells.remarks)
         recorded = Table(files.columns, files.rows, "Recordings", files.remarks)
         return (
-            conditions, named, *intervals, budgets.summary(self.reduced.uncertainties,
+            conditions, named, *intervals, budget_tables.summary(self.reduced.uncertainties,
             self.reduced.not_counted, _BUDGETED), *self._calibrations(), recorded,
             *((refused,) if self.refused else ()),
         )  # fmt: skip

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from asperity.casefile import Case
+from asperity.flanks.export.rexs.components import OWN
 from asperity.flanks.export.rexs.document import Component, Document, written_as
-from asperity.flanks.export.rexs.parts import OWN
 
 TABLES = (
     "housing", "spectrum", "requirements", "worm_shaft", "wheel_shaft", "bearings", "tolerances",

@@ -9,9 +9,9 @@ from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.files.store import write_text
 from asperity.flanks.export.rexs.carried import carried_of, left_out, with_carried
+from asperity.flanks.export.rexs.components import Given
 from asperity.flanks.export.rexs.document import VERSION, Document
-from asperity.flanks.export.rexs.parts import Given
-from asperity.flanks.export.rexs.write import document
+from asperity.flanks.export.rexs.gearset import document
 from asperity.flanks.parameters import Disc, Hob, Mount
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate

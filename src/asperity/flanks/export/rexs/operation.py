@@ -5,8 +5,8 @@ from collections.abc import Callable
 from typing import Any
 
 from asperity.errors import InputError, plain
+from asperity.flanks.export.rexs.components import LUBRICATION, OILS, OWN
 from asperity.flanks.export.rexs.document import Component, Document
-from asperity.flanks.export.rexs.parts import LUBRICATION, OILS, OWN
 from asperity.gearset.library import find
 from asperity.gearset.lubricants import Lubricant
 

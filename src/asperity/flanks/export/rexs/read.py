@@ -6,9 +6,9 @@ from typing import Any, NamedTuple
 
 from asperity.errors import InputError, plain
 from asperity.flanks.export.rexs.carried import carried_in
+from asperity.flanks.export.rexs.components import OWN
 from asperity.flanks.export.rexs.document import Component, Document, read_document
 from asperity.flanks.export.rexs.operation import count, is_known, mm, needed, operation_of, written
-from asperity.flanks.export.rexs.parts import OWN
 from asperity.gearset.library import find
 from asperity.gearset.materials import WheelMaterial, worm_material
 from asperity.gearset.proportions import RULES

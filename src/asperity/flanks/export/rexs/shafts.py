@@ -8,8 +8,8 @@ plain one, long enough for the gear, with a bearing at either side.
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from asperity.flanks.export.rexs.components import OWN, Given, component, mm
 from asperity.flanks.export.rexs.document import Component
-from asperity.flanks.export.rexs.parts import OWN, Given, component, mm
 from asperity.rating import Operation
 from asperity.shafts.parameters import ShaftBearing
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from asperity.arrays import BoolArray
-from asperity.tribometer.recording.joining import Counts
+from asperity.tribometer.recording.hdf5 import Counts
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.heard.finding import Finding
 from asperity.tribometer.reduction.heard.material import Material

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from asperity import __version__
 from asperity.cli import show
 from asperity.commands import Command
-from asperity.commands.execution import execute as carry_out
+from asperity.commands.execution import execute
 from asperity.errors import ConvergenceError, StorageError
 from asperity.results.quantity import plain
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from asperity.results import Result
 
 
-def execute(
+def execute_on_terminal(
     command: Command,
     case: str,
     settings: Sequence[str],
@@ -27,7 +27,7 @@ def execute(
     **options: Any,
 ) -> None:
     """Do what a command does with a case, print the answer and write its files."""
-    carry_out(command, case, settings, _Terminal(as_json, full), version=__version__, **options)
+    execute(command, case, settings, _Terminal(as_json, full), version=__version__, **options)
 
 
 class _Terminal:

@@ -5,9 +5,9 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.drive.root import study
-from asperity.drive.root.model import RootModel, Roots
-from asperity.drive.root.result import Largest, _notes
+from asperity.drive.root_stress import study
+from asperity.drive.root_stress.model import RootModel, Roots
+from asperity.drive.root_stress.result import Largest, _notes
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts
 from asperity.runs import Run

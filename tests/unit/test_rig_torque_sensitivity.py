@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from asperity.tribometer.reduction.give import Give
 from asperity.tribometer.reduction.levels import EXPECTED_GIVE
 from asperity.tribometer.reduction.likelihoods import estimated
+from asperity.tribometer.reduction.torque_sensitivity import Give
 
 SHAKEN = [False, True] * 3
 window = np.repeat(np.arange(6), 50)

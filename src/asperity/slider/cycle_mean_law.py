@@ -18,7 +18,7 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.formulas import real
 from asperity.friction.lugre import stribeck_share
 from asperity.results.settled import Standing
-from asperity.slider.homogenised_normal import remarks_of, told_by
+from asperity.slider.cycle_mean_normal import remarks_of, told_by
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.periodic import solve_periodic

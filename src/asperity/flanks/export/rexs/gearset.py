@@ -9,8 +9,7 @@ rating is written: the format's names are of DIN 3996:2019, and that edition is 
 import math
 from typing import Any
 
-from asperity.flanks.export.rexs.document import Component, Document, Relation
-from asperity.flanks.export.rexs.parts import (
+from asperity.flanks.export.rexs.components import (
     LUBRICATION,
     NUMBER,
     OWN,
@@ -22,6 +21,7 @@ from asperity.flanks.export.rexs.parts import (
     oil,
     tools,
 )
+from asperity.flanks.export.rexs.document import Component, Document, Relation
 from asperity.flanks.export.rexs.shafts import (
     ALONG_X,
     ALONG_Z,

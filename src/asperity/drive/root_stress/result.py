@@ -8,8 +8,8 @@ import numpy as np
 from asperity.arrays import FloatArray, IntArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.root.loads import Load
-from asperity.drive.root.model import RootModel, Roots
+from asperity.drive.root_stress.loads import Load
+from asperity.drive.root_stress.model import RootModel, Roots
 from asperity.drive.static.notes import few_phases
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -57,8 +57,8 @@ class RootStress(OfDrive):
     title: ClassVar[str] = "Roots of a loaded worm wheel"
     stem: ClassVar[str] = "roots"
     drawings: ClassVar[Mapping[str, str]] = {
-        "roots": "asperity.drive.root.plots:over_pitch",
-        "roots_fillet": "asperity.drive.root.plots:fillet",
+        "roots": "asperity.drive.root_stress.plots:over_pitch",
+        "roots_fillet": "asperity.drive.root_stress.plots:fillet",
     }
     captions: ClassVar[Mapping[str, str]] = {
         "roots": "The largest stresses at both fillets over a pitch of the worm.",

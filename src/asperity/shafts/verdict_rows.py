@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from asperity.arrays import first_least
-from asperity.rating.rows import Row
+from asperity.rating.verdict_rows import Row
 from asperity.shafts.shaft import ShaftFound, least
 from asperity.shafts.strength.din743 import ASKED
 

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 from asperity.arrays import FloatArray
 from asperity.rating.rate import Rated
 from asperity.studies.design import THREADS, VARIABLES, Space
-from asperity.studies.designs import SHOWN, free_numbers
+from asperity.studies.design_compared import SHOWN, free_numbers
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.search import LOCKING
 

@@ -9,9 +9,9 @@ from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
 
 if TYPE_CHECKING:
-    from asperity.gearset.drawn import Views
+    from asperity.gearset.answer import Views
     from asperity.rating.inputs import Inputs, Values
-    from asperity.results.live import Cells
+    from asperity.results.formula_sheets import Cells
 
 
 class Shafts(Protocol):

@@ -6,9 +6,9 @@ from asperity.casefile import Case
 from asperity.drive.friction import rating_inputs
 from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
-from asperity.drive.root.loads import loads_of
-from asperity.drive.root.model import COARSER, COUNTS, TEETH, RootModel, Roots
-from asperity.drive.root.result import Largest, RootStress
+from asperity.drive.root_stress.loads import loads_of
+from asperity.drive.root_stress.model import COARSER, COUNTS, TEETH, RootModel, Roots
+from asperity.drive.root_stress.result import Largest, RootStress
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.sector import right_handed
 from asperity.errors import InputError

@@ -13,7 +13,7 @@ from typing import Any
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.rate import Rated
-from asperity.rating.rows import Row
+from asperity.rating.verdict_rows import Row
 from asperity.studies.design import ASSUMED, Bounds
 
 Optimum = Any

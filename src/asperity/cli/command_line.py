@@ -10,7 +10,7 @@ from typing import Any
 import typer
 
 from asperity.cli.helped import with_all_below
-from asperity.cli.registered import register
+from asperity.cli.registry_commands import register
 from asperity.commands import COMMANDS, GROUPS
 
 

@@ -20,8 +20,8 @@ import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
 from asperity.tribometer.reduction.counted import estimate_counted
-from asperity.tribometer.reduction.give import Give
 from asperity.tribometer.reduction.levels import Levels, estimate_levels
+from asperity.tribometer.reduction.torque_sensitivity import Give
 from asperity.tribometer.uncertainty import Budget, Budgeted, Cause, Contribution
 
 TORQUE = "torque_steel"

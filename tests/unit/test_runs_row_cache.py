@@ -4,8 +4,8 @@ import sqlite3
 
 import pytest
 
-from asperity.runs import rows
-from asperity.runs.rows import Rows
+from asperity.runs import row_cache
+from asperity.runs.row_cache import Rows
 
 KEYS = ["00" * 16, "01" * 16]
 
@@ -127,10 +127,10 @@ def test_without_a_writable_cache_folder_there_is_no_cache(monkeypatch, tmp_path
 
 
 def test_what_is_asked_for_now_and_then_is_kept(open_cache, told, monkeypatch):
-    today = rows._today()
+    today = row_cache._today()
     open_cache().put({KEYS[0]: {"ratio": 0.5}, KEYS[1]: {"ratio": 0.6}})
-    monkeypatch.setattr(rows, "_today", lambda: today + rows.KEPT_DAYS - 1)
+    monkeypatch.setattr(row_cache, "_today", lambda: today + row_cache.KEPT_DAYS - 1)
     assert open_cache().get(KEYS[:1]) == {KEYS[0]: {"ratio": 0.5}}
-    monkeypatch.setattr(rows, "_today", lambda: today + rows.KEPT_DAYS + 1)
+    monkeypatch.setattr(row_cache, "_today", lambda: today + row_cache.KEPT_DAYS + 1)
     assert open_cache().get(KEYS) == {KEYS[0]: {"ratio": 0.5}}
     assert told == []

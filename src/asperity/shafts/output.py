@@ -9,8 +9,8 @@ import numpy as np
 from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
 from asperity.shafts.bearings import Life
-from asperity.shafts.rows import NAMES
 from asperity.shafts.shaft import ShaftFound
+from asperity.shafts.verdict_rows import NAMES
 
 Study = Any
 """A `asperity.shafts.result.ShaftStudy`, whose module imports this one."""

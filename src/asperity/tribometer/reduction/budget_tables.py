@@ -11,8 +11,8 @@ from asperity.results.quantity import plain
 from asperity.results.table import Table
 from asperity.results.words import text_of
 from asperity.tribometer.channels import Channels
+from asperity.tribometer.reduction.combined_uncertainty import TORQUE
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL
-from asperity.tribometer.reduction.joint import TORQUE
 from asperity.tribometer.uncertainty import Budget, Contribution
 
 if TYPE_CHECKING:

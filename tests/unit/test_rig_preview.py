@@ -8,7 +8,7 @@ import pytest
 
 from asperity.tribometer.guardian import stop
 from asperity.tribometer.guardian.journal import Journal
-from asperity.tribometer.live import PREVIEW, Preview, look, runs
+from asperity.tribometer.preview import PREVIEW, Preview, look, runs
 
 
 class Clock:

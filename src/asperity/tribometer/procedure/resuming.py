@@ -10,7 +10,7 @@ from asperity.errors import InputError, StorageError
 from asperity.tribometer.guardian.journal import Lines
 from asperity.tribometer.journal_lines import Line
 from asperity.tribometer.recording import Recording
-from asperity.tribometer.recording.joining import joined_all
+from asperity.tribometer.recording.hdf5 import joined_all
 
 
 def check_kept(journal: Lines) -> None:

@@ -69,9 +69,9 @@ def _command(command: Command, into: typer.Typer) -> None:
     def run(
         settings: list[str] | None, as_json: bool, out: Path | None, case: str = "", **options: Any
     ) -> None:
-        from asperity.cli.execute import execute
+        from asperity.cli.on_terminal import execute_on_terminal
 
-        execute(command, case, settings or (), as_json=as_json, out=out, **options)
+        execute_on_terminal(command, case, settings or (), as_json=as_json, out=out, **options)
 
     own = {option.name for option in command.options}
     case = Annotated[str, typer.Argument(metavar=command.case, help=CASE_HELP)]
