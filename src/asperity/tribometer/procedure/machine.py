@@ -193,7 +193,11 @@ class Machine:
                 error.add_note(str(full))
         if not isinstance(error, AsperityError):
             raise error
-        return StillOnError.of(reason, kind, failures) if failures else error
+        if failures:
+            return StillOnError.of(reason, kind, failures)
+        # Whatever latched ends with one status, also where it is no instrument's.
+        latched = error.exit_code == InstrumentError.exit_code
+        return error if latched else InstrumentError(reason, kind=kind)
 
     def _still_on(self, reason: str, kind: str, failures: Sequence[str]) -> AsperityError:
         """Latch, since something was not read back to be off."""
