@@ -1,6 +1,7 @@
 """The guardian switches off in order, reads back, names what is not proven, waits for nobody."""
 
 import concurrent.futures as cf
+import itertools
 import json
 import os
 import queue
@@ -8,6 +9,7 @@ import re
 import select
 import threading
 import time
+from types import SimpleNamespace
 
 import pytest
 
@@ -21,8 +23,8 @@ from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
 from asperity.tribometer.guardian.wire import Wire
 from asperity.tribometer.guardian.writing import Writing
-from asperity.tribometer.instruments import off
-from asperity.tribometer.instruments.parameters import Guard
+from asperity.tribometer.instruments import off, serial_vibration
+from asperity.tribometer.instruments.parameters import Controller, Guard
 from asperity.tribometer.instruments.protocols import InstrumentError, Reading
 from asperity.tribometer.journal_lines import NAME
 
@@ -91,7 +93,7 @@ class Made:
         self.wire = Wire(os.fdopen(self._hears, "rb", 0), os.fdopen(self._tells, "wb", 0))
         wire = Wire(os.fdopen(hears, "rb", 0), os.fdopen(tells, "wb", 0))
         self.guardian = Guardian(
-            [self._device(key, key in absent) for key in self.fakes], by_hand, wire,
+            [self._device(key, absent) for key in self.fakes], by_hand, wire,
             patience=patience, deadline=deadline, say=self.said.append, relay=relay,
             folder=folder,
         )  # fmt: skip
@@ -105,7 +107,7 @@ class Made:
 
     def _device(self, key, absent):
         def opened():
-            if absent:
+            if key in absent:
                 raise InstrumentError(f"{key} is not there")
             return {key: self.fakes[key]}
 
@@ -187,6 +189,53 @@ def test_an_absent_instrument_keeps_no_other_on_and_is_named(made):
     assert "NOT READ BACK TO BE OFF: steel" in one.said[0] if one.said else True
     one.ask("guardian", "goodbye")
     assert one.leave() == 4
+
+
+def test_what_was_absent_is_opened_when_it_is_plugged_in(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.05)
+    absent = ["steel", LISTENER]
+    one = made(absent=absent)
+    assert one.begin()["gave"]["still_on"] == ["steel: steel is not there"]
+    one.guardian.signal(2)
+    assert one.hears("tripped")["still_on"] == ["steel: steel is not there"]
+    absent.clear()
+    until(lambda: any("at last" in line for line in one.said))
+    assert not one.fakes["steel"].on_
+
+
+def test_what_is_absent_is_not_waited_for():
+    def absent():
+        raise InstrumentError("steel is not there")
+
+    seconds = itertools.count()
+    one = switching.Switching(
+        [Device("steel", {"steel": "steel"}, absent)], limit=1e3, now=lambda: float(next(seconds))
+    )
+    found = one.off("start", 0.0, listen=False)
+    assert found.still_on == ["steel: steel is not there"]
+    # By a clock that goes on by a second with every look, it was looked a few times.
+    assert found.seconds < 300.0
+
+
+def test_a_controller_that_garbles_is_named_with_what_it_answered(monkeypatch):
+    answers = iter(["x?NO", "NO", "YES"])
+    line = SimpleNamespace(ask=lambda _: next(answers))
+    monkeypatch.setattr(serial_vibration, "opened_line", lambda *_: line)
+    words = {
+        "port": "/dev/ttyACM0", "start": "GO", "stop": "END", "ask_output": "ON?",
+        "set_waveform": "WAVE {waveform}", "set_frequency": "FREQ {frequency}",
+    }  # fmt: skip
+    drive = serial_vibration.SerialVibration(
+        Controller.model_validate(words | {"output_off": "NO"})
+    )
+    found = off.drive_off("drive", off.drive_state(drive), None)
+    assert (found.proven, found.on) == (False, True)
+    assert found.evidence == "it is taken to be on: it answered 'ON?' with 'x?NO', not 'NO'"
+    assert off.drive_off("drive", off.drive_state(drive), None).proven
+    drive = serial_vibration.SerialVibration(
+        Controller.model_validate(words | {"output_off": "NO", "output_on": "YES"})
+    )
+    assert off.drive_off("drive", off.drive_state(drive), None).evidence == "its state is on"
 
 
 def written(folder):

@@ -1,5 +1,7 @@
 """Where the command ``asperity`` begins, so light that Ctrl-C is heard from the first moment."""
 
+import contextlib
+import itertools
 import os
 import sys
 
@@ -14,7 +16,10 @@ if TYPE_CHECKING:
 
 def main(arguments: list[str] | None = None) -> "NoReturn":
     """Run the command line and leave with its exit code."""
-    interrupt.at_once()
+    given = sys.argv[1:] if arguments is None else arguments
+    # It switches motors, and whatever ends it is answered to the end.
+    switches = ("rig", "run") in itertools.pairwise(given)
+    interrupt.at_once(to_the_end=switches)
     reraise_pending()
     columns = os.environ.get("COLUMNS", "")
     if columns and not columns.strip("0"):
@@ -29,4 +34,10 @@ def main(arguments: list[str] | None = None) -> "NoReturn":
         code = run(arguments)
     finally:
         interrupt.as_exception()
+    if switches:
+        # Python's own end would take a signal that comes in it for one that nobody hears.
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(code)
     sys.exit(code)

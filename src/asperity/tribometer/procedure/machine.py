@@ -115,6 +115,7 @@ class Machine:
             Ctrl-C was pressed; what is done is kept.
         """
         done = self._journal.done
+        self._done_cells = sum(one.act == "cell" and one.key in done for one in self._actions)
         self._forecast(done)
         try:
             self._remember(done)
@@ -122,7 +123,6 @@ class Machine:
                 for place, action in enumerate(self._actions):
                     self._signals.check(self._how_far())
                     if action.key in done:
-                        self._done_cells += action.act == "cell"
                         continue
                     following = next(map(str, self._actions[place + 1 :]), "")
                     far = self._done_cells, self._cells
