@@ -14,9 +14,9 @@ from types import SimpleNamespace
 import pytest
 
 from asperity.errors import InputError, StorageError
+from asperity.tribometer.guardian import backends, stop, switching, verdicts
 from asperity.tribometer.guardian import guard as guards
 from asperity.tribometer.guardian import guardian as guardians
-from asperity.tribometer.guardian import stop, switching, verdicts
 from asperity.tribometer.guardian.guardian import Guardian
 from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
@@ -384,6 +384,37 @@ def test_what_is_found_when_the_journal_is_closed_already_is_in_it(tmp_path):
         writing.verdict(Verdict("the end", 0.0, 0.1, found))
     writing.all_written().result(60.0)
     assert [line.get("still_on", []) for line in written(tmp_path)] == [[str(stuck)], []]
+
+
+def test_a_journal_that_was_open_takes_that_all_is_off_and_none_is_begun_for_that(tmp_path):
+    for folder, lines in ((tmp_path / "open", 1), (tmp_path / "never", 0)):
+        folder.mkdir()
+        writing = Writing(lambda _: None, folder)
+        if lines:
+            asked = {"to": "journal", "do": "open", "with": [str(folder)]}
+            writing.asked(asked).result(60.0)
+            writing.asked({"to": "journal", "do": "close", "with": [False]}).result(60.0)
+        writing.verdict(Verdict("the end", 0.0, 0.1, ()))
+        writing.all_written().result(60.0)
+        assert len(written(folder)) == lines
+
+
+def test_a_work_that_hangs_is_told_of_for_as_long_as_a_disk_may_take(monkeypatch):
+    assert backends._WORKING == 5.0  # s, as the docs have it
+    monkeypatch.setattr(backends, "_WORKING", 0.2)
+    told = []
+
+    def hangs():
+        for _ in range(50):
+            before = len(told)
+            time.sleep(0.35)
+            if len(told) == before:
+                return "nobody is told any more"
+        return "told for ever"
+
+    bench = SimpleNamespace(guard=SimpleNamespace(here=lambda: told.append(True)))
+    assert backends.GuardedBench.work(bench, hangs) == "nobody is told any more"
+    assert told
 
 
 @pytest.mark.parametrize("way", ["signal", "end", "hangs", "another's fault", "fault of ours"])
