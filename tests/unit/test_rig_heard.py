@@ -64,7 +64,7 @@ TOLD = {
     "both torques told half as large again": "current_steel does not fit its torque",
     "supply of 3 V told as 5.5 V": "speed_steel does not fit its supply",
     "drive picked up by both torques": "current_steel does not fit its torque",
-    "drive picked up by both torques, half as much": "current_steel does not fit its torque",
+    "drive picked up by both torques, a little": "current_steel does not fit its torque",
 }
 
 

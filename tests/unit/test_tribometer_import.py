@@ -325,7 +325,7 @@ DATED = {
         datetime.datetime(2026, 5, 31, 12, 34, 56).astimezone(UTC),
     ),
     "evening": (
-        dated(["Start,5/31/2026 10:34:56 PM"]),
+        dated(["Start,5/31/2026 10:34:56 pm"]),
         datetime.datetime(2026, 5, 31, 22, 34, 56).astimezone(UTC),
     ),
     "after midnight": (
