@@ -593,7 +593,7 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "current told 1.7 times as large": (_gain("current_steel", 1.7), {}),
     "speed told four times as large": (_gain("speed_steel", 4.0), {}),
     "speed told half as large again": (_gain("speed_steel", 1.5), AT_3_V),
-    "speed of the bronze disc told half as large again": (_gain("speed_bronze", 1.5), {}),
+    "speed of the bronze disc told twice as large": (_gain("speed_bronze", 2.0), {}),
     "both torques told half as large again": (_both(1.5), {}),
     "both torques told 0.6 times as large": (_both(0.6), {}),
     "supply of 3 V told as 5.5 V": (_supply_told(5.5), AT_3_V),

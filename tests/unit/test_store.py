@@ -19,8 +19,8 @@ from asperity.files.store import (
     write_atomically,
     write_dataset,
     write_text,
-    written_together,
 )
+from asperity.files.together import written_together
 
 
 def labelled(dimensions, values, units):

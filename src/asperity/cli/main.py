@@ -16,9 +16,8 @@ if TYPE_CHECKING:
 
 def main(arguments: list[str] | None = None) -> "NoReturn":
     """Run the command line and leave with its exit code."""
-    given = sys.argv[1:] if arguments is None else arguments
-    # It switches motors, and whatever ends it is answered to the end.
-    switches = ("rig", "run") in itertools.pairwise(given)
+    # It switches motors: whatever ends the process is answered to its end.
+    switches = arguments is None and ("rig", "run") in itertools.pairwise(sys.argv[1:])
     interrupt.at_once(to_the_end=switches)
     reraise_pending()
     columns = os.environ.get("COLUMNS", "")

@@ -17,7 +17,8 @@ from asperity.casefile.project import Project
 from asperity.commands.command import Command
 from asperity.commands.shown import check_shown, shown_as
 from asperity.errors import ConvergenceError, InputError, StorageError, plain, shown
-from asperity.files.store import output_folder, reason, write_text, written_together
+from asperity.files.store import output_folder, reason, write_text
+from asperity.files.together import written_together
 from asperity.results.files import picture_format
 from asperity.runs import Run
 

@@ -4,7 +4,6 @@ import contextlib
 import contextvars
 import os
 import re
-import shutil
 import stat
 import tempfile
 import tomllib
@@ -59,7 +58,8 @@ def _identity(path: str | os.PathLike[str]) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
-def _refuse_input(path: Path) -> None:
+def refuse_input(path: Path) -> None:
+    """Refuse to write what is read within :func:`inputs_kept`; raises InputError."""
     try:
         read = _identity(path) in (_inputs.get() or ())
     except (OSError, ValueError):  # there is none
@@ -201,7 +201,7 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
         It is what the command reads.
     """
     path = Path(path)
-    _refuse_input(path)
+    refuse_input(path)
     temporary = temporary_beside(path)
     try:
         write(temporary)
@@ -217,45 +217,8 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
         # After the rename there is nothing left to remove; before it, also for an interrupt.
         with contextlib.suppress(OSError):
             temporary.unlink()
-    _flush_folder(path.parent)
+    flush_folder(path.parent)
     return path
-
-
-@contextlib.contextmanager
-def written_together(folder: Path) -> Iterator[Path]:
-    """Give a folder to write files to, which stand in another one when all of them are whole.
-
-    Parameters
-    ----------
-    folder : path
-        Where they are to stand; it must exist. Where one of them cannot be written, none does.
-
-    Raises
-    ------
-    StorageError
-        They cannot be written.
-    InputError
-        One of them is what the command reads.
-    """
-    made = temporary_beside(folder / "together")
-    try:
-        made.mkdir()
-        yield made
-        files = [path for path in sorted(made.rglob("*")) if path.is_file()]
-        places = [folder / path.relative_to(made) for path in files]
-        for place in places:
-            _refuse_input(place)
-        for path, place in zip(files, places, strict=True):
-            place.parent.mkdir(exist_ok=True)
-            os.replace(path, place)
-    except StorageError as error:
-        error.args = (str(error).replace(str(made), str(folder)), *error.args[1:])
-        raise
-    except OSError as error:
-        raise StorageError(f"{folder} cannot be written to: {reason(error)}") from error
-    finally:
-        shutil.rmtree(made, ignore_errors=True)
-    _flush_folder(folder)
 
 
 def stamp(path: Path) -> tuple[int, int, int]:
@@ -271,7 +234,8 @@ def stamp(path: Path) -> tuple[int, int, int]:
     return found.st_mtime_ns, found.st_ctime_ns, found.st_size
 
 
-def _flush_folder(folder: Path) -> None:
+def flush_folder(folder: Path) -> None:
+    """Bring what was renamed in a folder to the disk."""
     # The rename itself outlives a power cut only once the folder is on disk; some file systems
     # cannot flush a folder, and the file is complete either way.
     with contextlib.suppress(OSError):

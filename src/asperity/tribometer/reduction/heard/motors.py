@@ -19,9 +19,9 @@ _LEVELS = 0.5, 2.0  # of the torques themselves, in which bearings are
 _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vibration
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
 # How well [twin] is taken to know a motor's constant and resistance, which warm with it, and its
-# gear's efficiency, as shares; and how well a supply and its leads are known: share and V.
+# gear's efficiency, as shares; and how well a supply is, and what falls in leads and brushes, V.
 _MOTOR, _GEAR = 0.1, 0.25
-_SUPPLY, _LEADS = 0.02, 0.02
+_SUPPLY, _LEADS = 0.02, 0.1
 _BENT = 0.03  # by what share the part that a current answers by may differ from cell to cell
 _BEARS = 0.1, 0.02  # that of a torque, and of the torque itself by what its bearings may answer
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
