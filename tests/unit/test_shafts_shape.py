@@ -329,7 +329,7 @@ def test_sizing_takes_the_span_of_the_shaft():
 
     case = moved(150)
     assert operation_of(dict(case.raw)).bearing_span == pytest.approx(0.12, rel=1e-12)
-    with pytest.raises(InputError, match="leave operation.bearing_span out"):
+    with pytest.raises(InputError, match=r"leave operation\.bearing_span out"):
         operation_of(dict(moved(150, "operation.bearing_span=300 mm").raw))
 
 
@@ -341,8 +341,10 @@ def test_sizing_takes_the_span_of_the_shaft():
 def test_threads_of_another_length_than_the_gearset_has_are_told(length, wide, told):
     from asperity.shafts.model import model_of
 
-    sections = (f"worm_shaft.section=[{{length='60 mm', diameter='30 mm'}}, "
-                f"{{length='{length} mm'}}, {{length='{130 - length} mm', diameter='30 mm'}}]")
+    sections = (
+        f"worm_shaft.section=[{{length='60 mm', diameter='30 mm'}}, "
+        f"{{length='{length} mm'}}, {{length='{130 - length} mm', diameter='30 mm'}}]"
+    )
     more = [] if wide is None else [f"gearset.worm_face_width={wide} mm"]
     case = read_case("actuator-shafts", case_tables(), [sections, "worm_shaft.mesh=95 mm", *more])
     model = model_of(case.require(WormShaft), case.require(Gearset).geometry)

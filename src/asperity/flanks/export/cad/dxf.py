@@ -15,6 +15,7 @@ from asperity.flanks.export.turned import Beside, Bodies, blanks_of, worm_shape
 from asperity.flanks.measuring.drawing import Datum, on_drawing
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset.blanks import Blanks, wheel_sizes
+from asperity.results.language import said
 from asperity.results.svg import Point, Words, scale_text
 from asperity.shafts.drawing import along_with_shafts, scale_with, through_with_shafts
 
@@ -163,10 +164,14 @@ def write_dxf(
         edge = s * 0.5 * sizes["hub_width"]
         sheet.dimension((edge, -high), (edge, high), wide + 10.0 * step + 8.0, ("\u2300",))
     sheet.origin = (max(sheet.reach, left) + _APART / 2.0, 0.0)
+    if worm is not None and worm.threads is not None:
+        # The data have the threads that are drawn.
+        low, high = worm.threads
+        data = [one._replace(value=high - low) if one.symbol == "b_1" else one for one in data]
     _block(sheet, data, s * (g.centre_distance + 0.5 * g.worm_tip_diameter))
     sheet.origin = (0.0, 0.0)
-    low = s * 0.5 * g.wheel_outside_diameter + 25.0
-    sheet.text((-s * 0.5 * g.wheel_throat_diameter, low), f"{name}  {scale_text(s)}  mm", 5.0)
+    below = s * 0.5 * g.wheel_outside_diameter + 25.0
+    sheet.text((-s * 0.5 * g.wheel_throat_diameter, below), f"{name}  {scale_text(s)}  mm", 5.0)
     write_text(folder / NAME, sheet.content())
     return NAME
 
@@ -176,10 +181,10 @@ def _block(sheet: Sheet, data: Sequence[Datum], top: float) -> None:
     y = {0.0: -top, _BLOCK: -top}
     for part, title in _PARTS.items():
         left = _BLOCK if part == "wheel" else 0.0
-        sheet.text((left, y[left]), title, 3.5)
+        sheet.text((left, y[left]), said(title), 3.5)
         y[left] += _LINE * _LETTERS
         for datum in (one for one in data if one.part == part):
-            cells = datum.name, datum.symbol, on_drawing(datum), datum.unit
+            cells = said(datum.name), datum.symbol, said(on_drawing(datum)), datum.unit
             for x, words in zip(_COLUMNS, cells, strict=True):
                 sheet.text((left + x, y[left]), str(words), 2.5)
             y[left] += _LINE * 2.5
