@@ -318,6 +318,17 @@ def test_the_span_of_the_standards_is_that_of_the_shaft(at):
     assert rate_case(same).iso14521["delta_m_mm"] == found.iso14521["delta_m_mm"]
 
 
+@pytest.mark.parametrize(("at", "told"), [(180, None), (150, "75 mm from bearing A, of 120 mm")])
+def test_a_mesh_that_is_not_midway_is_told_beside_the_standard(at, told):
+    from asperity.runs import Run
+    from asperity.shafts import study
+
+    case = moved(at)
+    notes = study.beside_rating(case)(rate_case(case), Run()).notes
+    off = [note for note in notes if "midway" in note]
+    assert [told in note for note in off] == ([] if told is None else [True])
+
+
 def test_another_span_than_that_of_the_shaft_is_refused():
     words = r"operation\.bearing_span is 300 mm, and the bearings of \[worm_shaft\] stand 120 mm"
     with pytest.raises(InputError, match=words):

@@ -12,7 +12,6 @@ from asperity.rating.housing import Housing
 from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521 import balance
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
-from asperity.rating.iso14521.friction import sliding_velocity
 from asperity.rating.iso14521.housed import uncounted
 from asperity.rating.iso14521.limits import implausible, violations
 from asperity.rating.iso14521.tables import EDITIONS, friction_constants, wear_constants
@@ -55,8 +54,8 @@ _HOTTEST_GIVEN = 100.0
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     found: dict[str, None] = {}
-    # At one rpm; it goes with the speed.
-    slides = float(sliding_velocity(given.worm_pitch_diameter, 1.0, given.lead_angle))
+    # It goes with the speed.
+    slides = float(values["sliding_velocity_m_s"]) / float(given.worm_speed)
     for speed in given.speeds:
         sentences = violations(
             centre_distance=given.centre_distance,
