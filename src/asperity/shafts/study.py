@@ -35,7 +35,6 @@ from asperity.shafts.shaft import ShaftFound, find_shaft
 from asperity.shafts.shape import require_once, shape_of
 from asperity.shafts.statics import PointLoad
 
-
 _MIDWAY = 1e-3
 
 
