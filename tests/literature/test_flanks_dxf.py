@@ -115,6 +115,21 @@ def test_the_data_have_the_threads_that_the_shaft_has(with_shaft, tmp_path):
         ]  # fmt: skip
 
 
+def test_shafts_have_the_dimensions_of_their_sections(with_shaft, tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    pair, data, bodies = with_shaft
+    write_dxf(tmp_path, pair, data, beside=bodies)
+    space = ezdxf.readfile(tmp_path / NAME).modelspace()
+    measured = [round(float(one.get_measurement()), 6) for one in space.query("DIMENSION")]
+    for sizes in ((20, 40, 40, 190), (25, 30, 30), (50, 35, 50, 35, 170), (45, 50, 55, 50)):
+        for size in sizes:
+            assert measured.count(size) >= sizes.count(size), size
+    write_dxf(tmp_path, pair, data)
+    space = ezdxf.readfile(tmp_path / NAME).modelspace()
+    plain = [round(float(one.get_measurement()), 6) for one in space.query("DIMENSION")]
+    assert len(measured) - len(plain) == 3 + 3 + 1 + 4 + 4 + 1
+
+
 def test_what_rounding_left_has_no_sign():
     assert on_drawing(Datum("both", "backlash", "j", -1e-12, "mm")) == "0.000"
     assert on_drawing(Datum("both", "backlash", "j", -6e-4, "mm")) == "-0.001"
