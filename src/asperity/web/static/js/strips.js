@@ -2,7 +2,8 @@
 import { html, useRef } from "../vendor/preact.js";
 import * as flowing from "./flowing.js";
 import { usePlayed } from "./frames.js";
-import { digits, readable } from "./units.js";
+import { digits } from "./units.js";
+import { readable } from "./us.js";
 
 const [WIDTH, HIGH, MIDDLE, BAR] = [460, 150, [185, 275], 8];
 /** Where strips begin on the left, and end on the right. */

@@ -157,6 +157,10 @@ export function useData({ from, job }, names) {
   return useAsked(path, (leave) => get(path, leave)).found;
 }
 
+/** What lies one after the other, as rows. */
+export const rows = ({ shape: [count, width], values }) =>
+  Array.from({ length: count }, (_, row) => values.slice(row * width, (row + 1) * width));
+
 /** A time in words. */
 export function lasting(seconds) {
   /** @type {[number, string][]} */
