@@ -43,7 +43,8 @@ window.rest = async () => {
   const began = performance.now();
   for (let still = 0; still < 4; ) {
     await new Promise(requestAnimationFrame);
-    if (performance.now() - began > LONGEST) throw new Error(`not at rest: ${asked} asked, ${soon.size} soon`);
+    if (performance.now() - began > LONGEST)
+      throw new Error(`not at rest: ${asked} asked, ${soon.size} soon`);
     const busy = soon.size || asked || coming() || document.getAnimations().some(moves);
     still = busy ? 0 : still + 1;
   }

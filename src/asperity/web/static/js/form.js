@@ -212,7 +212,7 @@ export function Slider({ path, label, low, high, unit, log, step }) {
     typed === "" ? unset(path) : set(path, withUnit(typed, (wrong ? before : text) || `0 ${own}`, field));
   return html`<div class="slider">
     <label for=${id} title=${meaningOf(field)}>${said}</label>
-    <${Box} text=${written(text)} onSet=${put} label=${`${said}, typed`} placeholder=${written(field.example)}
+    <${Box} text=${written(text, 4)} onSet=${put} label=${`${said}, typed`} placeholder=${written(field.example)}
       invalid=${wrong} />
     <input type="range" id=${id} min=${byRatio ? 0 : least} max=${byRatio ? steps : most}
       step=${byRatio ? 1 : (step ?? (most - least) / 200)}

@@ -35,7 +35,8 @@ export function FlankMap({ title, label, unit, x, y, cells, values, range, lines
     + `up ${digits(low, 4)} to ${digits(high, 4)} mm from it`);
   return html`<${Figure} title=${title} kind="map" columns=${columns}>
     <svg class="drawn" viewBox=${box} role="img"
-        aria-label=${`${title}: ${label}, ${digits(shown(range[0], unit)[0], 3)} to ${amount(range[1], unit, 3)}; the numbers are in the table beneath`}>
+        aria-label=${`${title}: ${label}, ${digits(shown(range[0], unit)[0], 3)} to ${
+          amount(range[1], unit, 3)}; the numbers are in the table beneath`}>
       ${painted({ x, y, cells, values, range }).map(([d, fill]) =>
         html`<path d=${d} fill=${fill} stroke=${fill} stroke-width=${thin / 4} />`)}
       ${lines ? html`<path class="touching" d=${lines} stroke-width=${thin} />` : null}

@@ -32,7 +32,7 @@ export function Num({ entry, label = false, count = 5 }) {
       : [entry.value === null ? "–" : String(entry.value), entry.unit];
   return html`<span class="num">
     ${label ? html`<span class="of">${inWords(entry.meaning)}</span> ` : null}
-    <button type="button" data-key=${entry.key} data-value=${entry.value ?? ""}
+    <button type="button" data-key=${entry.key} data-value=${entry.value ?? ""} data-unit=${entry.unit}
       title="where it comes from" aria-haspopup="dialog"
       onClick=${(event) => (asked.value = { entry, button: event.currentTarget })}>
       <b>${value}</b>${unit ? html` <i>${unit}</i>` : null}

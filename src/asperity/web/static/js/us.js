@@ -10,8 +10,8 @@ export const US = {
   m2: ["ft2", 0.3048 ** -2], mm3: ["in3", IN ** -3], "1/mm": ["1/in", IN], "mm/rad": ["in/rad", 1 / IN],
   "m/s": ["ft/min", 60 / 0.3048], "mm/s": ["in/s", 1 / IN], N: ["lbf", 1 / LBF], kN: ["lbf", 1e3 / LBF],
   "N/mm": ["lbf/in", IN / LBF], "N m": ["lbf·in", 1e3 / (LBF * IN)], W: ["hp", 1 / HP], kW: ["hp", 1e3 / HP],
-  Pa: ["psi", 1 / PSI], MPa: ["psi", 1e6 / PSI], GPa: ["ksi", 1e6 / PSI], "N/mm2": ["psi", 1e6 / PSI],
-  degC: ["degF", 1.8, 32], kg: ["lb", 1 / LB],
+  Pa: ["psi", 1 / PSI], kPa: ["psi", 1e3 / PSI], MPa: ["psi", 1e6 / PSI], GPa: ["ksi", 1e6 / PSI],
+  "N/mm2": ["psi", 1e6 / PSI], degC: ["degF", 1.8, 32], kg: ["lb", 1 / LB],
 };
 
 /** What the reader chose, kept by the browser; "" follows the case. */
@@ -113,11 +113,13 @@ export const inText = (text) => (asKept() || typeof text !== "string" ? text
   : text.replace(RUN, (_, numbers, unit) =>
     `${numbers.replace(new RegExp(NUMBER, "g"), (each) => again(each, unit))} ${US[unit][0]}`));
 
-/** What is written, such as "300 N m", as it is shown in its box. @param {string} text */
-export function written(text) {
+/** What is written, such as "300 N m", as it is shown in its box: units as they are printed, all of which are read. */
+export function written(text, count = 5) {
   const [number, unit] = split(text);
-  const found = Number.isNaN(number) ? null : to(unit);
-  return found ? `${digits(number * found[1] + found[2])} ${found[0]}` : text;
+  if (Number.isNaN(number)) return text;
+  const found = to(unit.replace("°", "deg"));
+  const said = found ? `${digits(number * found[1] + found[2], count)} ${found[0]}` : text;
+  return said.replace(/\bdeg([CF])\b/, "°$1").replaceAll("**2", "²").replaceAll("**3", "³");
 }
 
 /** What is typed into a box, with the unit that stood there if none is typed. @param {string} typed */
