@@ -14,10 +14,13 @@ const IN_WORDS = new RegExp(
   `(?<![A-Za-z0-9_.])(?:(${NAMES}|[A-Za-z]|Ra)_([A-Za-z0-9]{1,6})(?![A-Za-z0-9_.]\\w|\\w)|(mu)(?= [A-Z]_))`, "g");
 
 /** Units as they are printed: 40 degC is 40 °C, mm^2/s is mm²/s. @param {string} text */
-export const printed = (text) => String(inText(text) ?? "").replace(/\bdeg([CF])\b/g, "°$1")
+const print = (text) => String(text ?? "").replace(/\bdeg([CF])\b/g, "°$1")
   .replace(/(?:\^|\*\*)2\b/g, "²")
   .replace(/(?:\^|\*\*)3\b/g, "³").replace(/(?<=\d |\()u(?=[mAVNs]\b)/g, "µ").replace(/(?<=\d) deg\b/g, "°")
   .replace(/\(deg\)/g, "(°)");
+
+/** The same in the units that the reader is shown. @param {string} text */
+export const printed = (text) => print(inText(text));
 
 /** @returns {{text: string, below: string}[]} pieces of a text, each with what stands below it */
 export function pieces(text, pattern = SYMBOL) {
@@ -43,3 +46,5 @@ export const symbol = (text) => set(text, SYMBOL);
 export const plain = (text) => String(text ?? "").replace(/\bmu (?=[A-Z]_)/g, "µ ");
 /** A sentence with symbols in it. @param {string} text */
 export const inWords = (text) => set(inText(text), IN_WORDS);
+/** What somebody wrote, in the units that it has. @param {string} text */
+export const quoted = (text) => set(print(text), IN_WORDS);

@@ -36,7 +36,7 @@ export function Units() {
     look();
   };
   return html`<p class="units"><label for="units">units</label> <select id="units" value=${chosen.value}
-    onChange=${choose}>${[["", "as the case has them"], ["si", "SI"], ["us", "US: in, lbf, °F"]].map(([key, said]) =>
+    onChange=${choose}>${[["", "as the case"], ["si", "SI"], ["us", "US: in, lbf, °F"]].map(([key, said]) =>
       html`<option value=${key}>${said}</option>`)}</select></p>`;
 }
 

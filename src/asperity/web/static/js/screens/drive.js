@@ -46,7 +46,7 @@ function Ledger({ answer, found }) {
     html`<${Sided} value=${sign * answer[key]} most=${most} kind=${sign > 0 ? "more" : "less"} />`;
   const powers = POWERS.map(([key, name, sign]) => ({ name, value: sign * answer[key] }));
   return html`<${Strips} powers=${powers} label="mean powers" />
-    <${Table} kind="bars" caption="Mean powers: what is put in, right, is what goes, left" rows=${POWERS}
+    <${Table} kind="bars" caption="Mean powers: to the right what is put in, to the left where it goes" rows=${POWERS}
       columns=${[["", ([, said]) => said, "row"], ["", bar],
         ["", ([key]) => html`<${Num} entry=${found[key]} count=${4} />`, "right"]]} />
     <p class="says">what is missing, over what is put in: ${digits(answer.closure, 2)}</p>`;

@@ -107,7 +107,7 @@ function Proposals({ found, options, through, parts }) {
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
     a = ${amount(one.centre_distance_mm, "mm", 12)}, ${one.wheel_teeth}:${one.starts}, m = ${
     amount(one.axial_module_mm, "mm", 12)}`}>take</button>`;
-  return html`<${Table} region="proposals" wide="whole" kind="middle" rows=${sorted} columns=${[
+  return html`<${Table} region="proposals" wide="whole proposals" kind="middle" rows=${sorted} columns=${[
     ["open", open], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
     ...COLUMNS.map(([key, said, count]) => ({ key, count, ...headed(said) })).map(({ key, count, head, of }) => [
       html`<button type="button" class="quiet" onClick=${() => sort(key)}>
