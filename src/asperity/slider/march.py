@@ -13,6 +13,7 @@ from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
+from asperity.slider.chance import judged
 from asperity.slider.history import History
 from asperity.slider.integrators import integrator
 from asperity.slider.longer import lasting, needed, until_settled
@@ -231,11 +232,11 @@ class March:
         breakaway = self.breakaway
         broke = breakaway is not None
         standing = march_standing(self._timed, table, residual, broke=broke, means=self._means())
-        ratio = float(sums["drive_force"] / sums["steps"])
+        standing, wanders = judged(standing, self._body, table, sums)
         answer = summarise(
             model, self.p, table.step, sums, start, self.energies(),
             standing=standing,
-            step_error=error_of_march(self._body, table, ratio) if standing.settled else None,
+            step_error=error_of_march(self._body, table, sums) if standing.settled else None,
             residual=residual,
             breakaway_time=breakaway,
             steps=table.steps,
@@ -244,6 +245,7 @@ class March:
             notes=(
                 *march_notes(self._timed, table, residual, broke=broke),
                 *ringing_notes(model),
+                *wanders,
                 *self._beside(halves),
             ),
             substeps=model.substeps,

@@ -143,7 +143,7 @@ def _from_there(cycle: Cycle) -> OfState:
     return OfState(error, (f"{lacks}: {by}, and the error may be greater",))
 
 
-def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
+def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float | None:
     """Return the error of the ratio of a march, from where it ends; None where it is not found.
 
     Parameters
@@ -152,9 +152,10 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
         At its end; left as it is.
     table : Timetable
         Its steps.
-    ratio : float
-        What it found.
+    sums : void
+        Those of its window.
     """
+    ratio = float(sums["drive_force"] / sums["steps"])
     model, step, steps = body.model, table.step, table.steps
     state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
     if model.solve.scheme == "two-phase":
@@ -162,12 +163,7 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     cycles = steps * step * model.frequency
     if not model.vibrates:
         return _marched_again(model, step, state, springs, max(1, int(_SHARE * steps / 2.0)))
-    count = round(1.0 / (model.frequency * step))
-    if not model.meets_corners:
-        count = 2 * ((count + 1) // 2)
-    phase = model.frequency * (steps * step - model.start)
-    end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
-    put(end, step, state, springs)
+    end = at_the_end(body, table)
     unknowns = _unknowns(end)
     if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
         found = np.zeros((unknowns + 1, unknowns))
@@ -185,6 +181,18 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
             return max(error, _hidden(there, jacobian, slopes))
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
     return _cycles_again(end, min(max(1, again), _MOST_AGAIN))
+
+
+def at_the_end(body: Integrator, table: Timetable) -> Cycle:
+    """Return the map of a body over the cycle that follows its march."""
+    model, step = body.model, table.step
+    count = round(1.0 / (model.frequency * step))
+    if not model.meets_corners:
+        count = 2 * ((count + 1) // 2)
+    phase = model.frequency * (table.steps * step - model.start)
+    end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
+    put(end, step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
+    return end
 
 
 def _hidden(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float:
@@ -221,12 +229,13 @@ def _friction(cycle: Cycle, cycles: int) -> float:
     """Return the mean friction of so many cycles over mu F_N."""
     total = 0.0
     for _ in range(cycles):
-        _run_once(cycle)
+        run_once(cycle)
         total += float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"])
     return total / cycles
 
 
-def _run_once(cycle: Cycle) -> None:
+def run_once(cycle: Cycle) -> None:
+    """March a cycle from where its body is."""
     body = cycle.body
     run_cycle(
         body.kept["state"][0], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
@@ -242,7 +251,7 @@ def _marched_again(
     for count, length in ((2 * ((steps + 1) // 2), step), ((steps + 1) // 2, 2.0 * step)):
         cycle = Cycle(model, count, length)
         put(cycle, step, state, springs)
-        _run_once(cycle)
+        run_once(cycle)
         means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
     error = abs(means[1] - means[0]) / of_the_error(model)
     return error if math.isfinite(error) else None
