@@ -108,7 +108,7 @@ def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):
 
 @pytest.mark.parametrize(
     ("first", "ratio", "enough"),
-    [(1e-6, 2e-6, True), (1e-2, 2e-2, False), (2e-5, 1e-6, False), (1e-8, 1e-9, True)],
+    [(1e-6, 2e-6, True), (1e-2, 2e-2, False), (1e-5, 5e-7, False), (1e-8, 1e-9, True)],
 )
 def test_it_is_found_in_full_where_one_cycle_may_not_be_enough(monkeypatch, first, ratio, enough):
     _, cycle = at_its_state("vibration.waveform=triangle")
@@ -131,6 +131,17 @@ def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch
     monkeypatch.setattr(step_error, "_cycles_again", lambda *given: 1.25e-5)
     case = read_case("table-4.3", TABLES, ["solve.duration=0.6 s"])
     assert solve(Model.from_case(case), history=False).step_error == 1.25e-5
+
+
+@pytest.mark.parametrize("waveform", ["sine", "triangle"])
+def test_where_no_state_is_next_to_a_march_its_last_cycles_tell_its_error(monkeypatch, waveform):
+    settings = ["slider.drive_stiffness=20 MN/m", f"vibration.waveform={waveform}"]
+    case = read_case("table-4.3", TABLES, [*settings, "solve.duration=0.6 s"])
+    told = solve(Model.from_case(case), history=False).step_error
+    monkeypatch.setattr(step_error, "_closed", lambda *given: None)
+    again = solve(Model.from_case(case), history=False).step_error
+    assert told > 1e-6
+    assert again == pytest.approx(told, rel=0.5)
 
 
 def test_where_no_state_is_next_to_it_one_is_searched(monkeypatch):

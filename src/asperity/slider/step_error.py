@@ -175,10 +175,11 @@ def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float |
         jacobian, slopes = found[:unknowns], found[unknowns]
         there = end.copied()
         one = _closed(there, jacobian)
-        other = _closed_beside(there, jacobian, slopes)
-        if one is not None and other is not None and abs(one - ratio) <= _AGREE:
-            error = abs(other - one) * part_of_difference(model)
-            return max(error, _hidden(there, jacobian, slopes))
+        if one is not None and abs(one - ratio) <= _AGREE:
+            other = _closed_beside(there, jacobian, slopes)
+            if other is not None:
+                error = abs(other - one) * part_of_difference(model)
+                return max(error, _hidden(there, jacobian, slopes))
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
     return _cycles_again(end, min(max(1, again), _MOST_AGAIN))
 
