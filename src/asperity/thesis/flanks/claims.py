@@ -59,8 +59,7 @@ def _tilt() -> Finding:
     return Finding.judged(
         {
             "without tilt the mark lies on one side of the middle of the face": all(
-                mark.low * mark.high > 0.0
-                for mark in marks[0]
+                mark.low * mark.high > 0.0 for mark in marks[0]
             ),
             "with 2 deg it lies across the middle": all(
                 mark.low < 0.0 < mark.high and abs(mark.centre) < _MIDDLE for mark in marks[1]

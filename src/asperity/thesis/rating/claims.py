@@ -79,8 +79,8 @@ def _methods() -> Finding:
         },
         f"longitudinal {along.efficiency:.1%}, transverse {across.efficiency:.1%}, polyglycol "
         f"{glycol.efficiency:.1%}; polyalphaolefin {100.0 * olefin.gain:+.1f} points",
-        f"From the printed {printed.EFFICIENCY:.0%} and the frictions as quoted, equation (6) gives "
-        f"polyalphaolefin {' to '.join(f'{points:.1f}' for points in sorted(added))} points at any "
+        f"From the printed {printed.EFFICIENCY:.0%} and the frictions as quoted, equation (6) "
+        f"gives polyalphaolefin {' to '.join(f'{points:.1f}' for points in sorted(added))} points at any "
         f"lead angle from {printed.BETWEEN} deg, so that gearset 2 adds nothing to it, and the "
         "order is that of the frictions. That they are base frictions is one reading; were they "
         f"mu_zm, polyalphaolefin would add {100.0 * _as_mean_friction(olefin.base_friction):.0f} "
@@ -100,7 +100,8 @@ def _methods() -> Finding:
         | {"polyalphaolefin_gain": olefin.gain, "velocity_amplitude_for_k_20_m_s": needed.velocity},
         [printed.HOW, GEARSET_2.command("methods")],
         verdict=ARITHMETIC,
-        assumed="The frictions are taken as mu_0T, to which mu_zm is in proportion. The transducer.",
+        assumed="The frictions are taken as mu_0T, to which mu_zm is in proportion; the "
+        "transducer.",
     )
 
 
