@@ -7,7 +7,7 @@ import numpy as np
 from asperity.drive.motor import PRICE_PER_MASS, Motor, Service, lightest, scaled
 from asperity.drive.point import MeshPoint
 from asperity.gearset.geometry import Geometry
-from asperity.thesis.drive.sets import AMPLITUDE, FREQUENCY, LOAD, RATIO, SHAKEN, SPEED, UNSHAKEN
+from asperity.thesis.drive.sets import AMPLITUDE, FREQUENCY, LOAD, SHAKEN, SPEED, UNSHAKEN
 from asperity.thesis.drive.simulations import BASE, of_set, varied
 from asperity.thesis.exhibits import claim
 from asperity.thesis.flanks.meshing import Gear

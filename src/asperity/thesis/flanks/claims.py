@@ -18,6 +18,8 @@ HOBS = {"identical": _IDENTICAL, "oversized": (_NO_TILT,), "oversized, tilted": 
 ASKEW = 0.1  # deg
 _EDGE, _MIDDLE = 0.9, 1.0 / 3.0
 _DYES = (0.5 * MARKING, MARKING, 2.5 * MARKING)
+_FACES = (11.0, 16.0)
+"""Face widths of the wheel, mm, beside the usual one."""
 _GEAR = "Gearset 3 with a centre distance of 2.9 in, unloaded"
 _HERE = f"{_GEAR}; dye {1e3 * MARKING:g} um thick."
 
@@ -54,7 +56,11 @@ def _tilt() -> Finding:
     gears = [Gear(_CASE, (_NO_TILT,)), Gear(_CASE)]
     marks = [[Mark.of(gear, dye) for dye in _DYES] for gear in gears]
     straight, tilted = (each[1] for each in marks)
-    ends = [mark.reach for mark in marks[0]]
+    faces = [gear.plus(f"gearset.wheel_face_width={b:g} mm") for gear in gears for b in _FACES]
+    for n, gear in enumerate(faces):
+        marks[n // len(_FACES)].append(Mark.of(gear))
+    ends = sorted(mark.reach for mark in marks[0])
+    wide = f"face widths of {_FACES[0]:g} to {_FACES[1]:g} mm"
     dyes = f"{1e3 * _DYES[0]:g} to {1e3 * _DYES[-1]:g} um"
     return Finding.judged(
         {
@@ -69,21 +75,21 @@ def _tilt() -> Finding:
         f"face width, with it from {tilted.low:.2f} to {tilted.high:.2f}",
         f"Without tilt all of the mark lies towards one edge, its middle at {straight.centre:.2f}; "
         f"with tilt it lies across the middle of the face, its own at {tilted.centre:.2f}, both "
-        f"with dyes of {dyes}. How near the edge it ends, at {ends[0]:.2f} to {ends[-1]:.2f}, "
-        "hangs on the dye and on the face width and is not judged. The gearset photographed is "
-        "not named, and oversize and tilt hang on the teeth, as the thesis says: that another "
-        "gearset does it with the same two is more than it claims.",
+        f"with dyes of {dyes} and {wide}. How near the edge it ends, at {ends[0]:.2f} to "
+        f"{ends[-1]:.2f}, hangs on the dye and on the face width and is not judged. "
+        "The gearset photographed is not named, and oversize and tilt hang on the teeth, as the "
+        "thesis says: that another gearset does it with the same two is more than it claims.",
         {
             "centre_without_tilt": straight.centre,
             "centre_with_tilt": tilted.centre,
             "end_without_tilt": straight.reach,
             "end_with_tilt": tilted.reach,
         },
-        gears,
+        [*gears, *faces],
         assumed=f"{_GEAR}; dyes of {dyes}, shown for {1e3 * MARKING:g} um; a face width of "
-        f"{straight.face_width:.1f} mm, which the thesis does not give. The yardstick: towards an "
-        "edge is a mark on one side of mid-face; in the middle one across it, whose middle is "
-        f"within {_MIDDLE:.2f} of half the face width.",
+        f"{straight.face_width:.1f} mm, which the thesis does not give, and {wide}. The yardstick: "
+        "towards an edge is a mark on one side of mid-face; in the middle one across it, "
+        f"whose middle is within {_MIDDLE:.2f} of half the face width.",
     )
 
 

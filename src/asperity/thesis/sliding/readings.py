@@ -227,8 +227,8 @@ def _coarse_step() -> Finding:
         | {f"error_{name}": value for name, value in off.items()},
         [*coarse.values(), *fine.values()],
         assumed=f"The yardstick, {_READ:g} of mu F_N: what can be read off such a figure. No "
-        "finite elements: the rigid sliding body stands for the block, with the thesis's two-phase scheme "
-        "at their step; what an elastic block differs by is claim 5.1.",
+        "finite elements: the rigid sliding body stands for the block, with the thesis's two-phase "
+        "scheme at their step; what an elastic block differs by is claim 5.1.",
     )  # fmt: skip
 
 
