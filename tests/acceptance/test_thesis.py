@@ -10,6 +10,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
+from pathlib import Path
 from unittest import mock
 
 import numpy as np
@@ -254,6 +256,17 @@ def check_findings(result):
                 for words in found:
                     for piece in words.split(" ... "):
                         assert any(plain_words(piece) in one for one in quoted), (part, piece)
+
+
+def test_the_docs_count_the_verdicts_as_they_are():
+    docs = Path(__file__).parents[2] / "docs/thesis.rst"
+    count = Counter(VERDICTS.values())
+    said = (
+        f"Of the {len(CLAIMS)} claims {count['reproduced']} are reproduced, {count['differs']} "
+        f"differ, {count['fitted']} are fitted, {count['arithmetic']} are arithmetic and "
+        f"{count['not testable']} not testable."
+    )
+    assert said in docs.read_text("utf-8")
 
 
 def test_what_is_reproduced_names_what_it_could_have_failed_by():

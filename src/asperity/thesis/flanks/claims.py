@@ -17,6 +17,7 @@ _IDENTICAL = ("hob.oversize=1", _NO_TILT)
 HOBS = {"identical": _IDENTICAL, "oversized": (_NO_TILT,), "oversized, tilted": ()}
 ASKEW = 0.1  # deg
 _EDGE, _MIDDLE = 0.9, 1.0 / 3.0
+_LESS = 0.2
 _DYES = (0.5 * MARKING, MARKING, 2.5 * MARKING)
 _FACES = (11.0, 16.0)
 """Face widths of the wheel, mm, beside the usual one."""
@@ -107,8 +108,8 @@ def _misalignment() -> Finding:
     return Finding.judged(
         {
             "an oversized hob makes misalignment matter less": moves["oversized"]
-            < 0.2 * moves["identical"],
-            "also with tilt": moves["oversized, tilted"] < 0.2 * moves["identical"],
+            < _LESS * moves["identical"],
+            "also with tilt": moves["oversized, tilted"] < _LESS * moves["identical"],
         },
         "the mark moves by "
         + ", ".join(f"{move:.2f} ({name})" for name, move in moves.items())
@@ -119,7 +120,7 @@ def _misalignment() -> Finding:
         "is claim 2.7.",
         {f"move_{name}": move for name, move in moves.items()},
         [gear for both in gears.values() for gear in both],
-        assumed=_HERE,
+        assumed=f"{_HERE} The yardstick of “reducing”: to a share of {_LESS:g} at most.",
     )
 
 

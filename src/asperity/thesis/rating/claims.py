@@ -137,6 +137,9 @@ def _failure() -> Finding:
     )
 
 
+_SMALL = 0.2
+
+
 @claim("3.5")
 def _influences() -> Finding:
     study = GEARSET_2.sensitivity
@@ -150,7 +153,7 @@ def _influences() -> Finding:
         {
             "alpha_n, c and n_1 raise it": all(effects[name] == "raises" for name in raising),
             "U, q_1, m_x1 and Ra_1 lower it": all(effects[name] == "lowers" for name in lowering),
-            "alpha_n and Ra_1 little compared to c and U": small < 0.2 * large,
+            "alpha_n and Ra_1 little compared to c and U": small < _SMALL * large,
             "c raises it most": max(slopes, key=lambda name: slopes[name]) == "centre_distance",
         },
         ", ".join(f"{i.quantity.symbol} {i.elasticity:+.2f}" for i in study.influences),
@@ -158,6 +161,7 @@ def _influences() -> Finding:
         "The ratio is varied without rounding the wheel's teeth.",
         {f"{name}_elasticity": slope for name, slope in slopes.items()},
         [GEARSET_2.command("sensitivity")],
+        assumed=f"The yardstick of “small”: a share of {_SMALL:g}.",
     )
 
 
