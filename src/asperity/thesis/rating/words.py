@@ -119,7 +119,7 @@ def _orders() -> Finding:
         "reconstructed; the others are lost.",
         numbers,
         GEARSETS.values(),
-        assumed=FROM_MEMORY,
+        assumed=f"Face widths of the wheels, which are lost, by the usual formula. {FROM_MEMORY}",
     )  # fmt: skip
 
 
