@@ -224,7 +224,11 @@ def test_what_is_an_example_in_a_file_that_is_begun_is_called_one(monkeypatch, c
     text = (tmp_path / "duty.toml").read_text("utf-8")
     blocks = {block.splitlines()[-1]: block.split() for block in text.split("\n\n") if block}
     # What follows from others has no value of its own that is assumed.
-    for line in ('#oil_temperature = "each"', '#oil_temperature = "20 degC"', '#idle_loss = "30 W"'):
+    for line in (
+        '#oil_temperature = "each"',
+        '#oil_temperature = "20 degC"',
+        '#idle_loss = "30 W"',
+    ):
         assert " ".join(blocks[line]).replace(" # ", " ").count("For example:") == 1
     for line in ('#shock = "uniform"', '#cycle = "10 min"'):
         assert "example:" not in blocks[line]

@@ -318,6 +318,17 @@ def test_the_span_of_the_standards_is_that_of_the_shaft(at):
     assert rate_case(same).iso14521["delta_m_mm"] == found.iso14521["delta_m_mm"]
 
 
+@pytest.mark.parametrize(("at", "told"), [(180, None), (150, "75 mm from bearing A, of 120 mm")])
+def test_a_mesh_that_is_not_midway_is_told_beside_the_standard(at, told):
+    from asperity.runs import Run
+    from asperity.shafts import study
+
+    case = moved(at)
+    notes = study.beside_rating(case)(rate_case(case), Run()).notes
+    off = [note for note in notes if "midway" in note]
+    assert [told in note for note in off] == ([] if told is None else [True])
+
+
 def test_another_span_than_that_of_the_shaft_is_refused():
     words = r"operation\.bearing_span is 300 mm, and the bearings of \[worm_shaft\] stand 120 mm"
     with pytest.raises(InputError, match=words):
@@ -329,7 +340,7 @@ def test_sizing_takes_the_span_of_the_shaft():
 
     case = moved(150)
     assert operation_of(dict(case.raw)).bearing_span == pytest.approx(0.12, rel=1e-12)
-    with pytest.raises(InputError, match="leave operation.bearing_span out"):
+    with pytest.raises(InputError, match=r"leave operation\.bearing_span out"):
         operation_of(dict(moved(150, "operation.bearing_span=300 mm").raw))
 
 
@@ -341,8 +352,10 @@ def test_sizing_takes_the_span_of_the_shaft():
 def test_threads_of_another_length_than_the_gearset_has_are_told(length, wide, told):
     from asperity.shafts.model import model_of
 
-    sections = (f"worm_shaft.section=[{{length='60 mm', diameter='30 mm'}}, "
-                f"{{length='{length} mm'}}, {{length='{130 - length} mm', diameter='30 mm'}}]")
+    sections = (
+        f"worm_shaft.section=[{{length='60 mm', diameter='30 mm'}}, "
+        f"{{length='{length} mm'}}, {{length='{130 - length} mm', diameter='30 mm'}}]"
+    )
     more = [] if wide is None else [f"gearset.worm_face_width={wide} mm"]
     case = read_case("actuator-shafts", case_tables(), [sections, "worm_shaft.mesh=95 mm", *more])
     model = model_of(case.require(WormShaft), case.require(Gearset).geometry)
