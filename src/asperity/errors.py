@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from typing import Any, ClassVar, get_args
 
+from asperity import exit_codes
+
 
 class AsperityError(Exception):
     """Base of every exception the package raises on purpose.
@@ -13,13 +15,13 @@ class AsperityError(Exception):
     The text is one line: what was given, what is allowed, what to do.
     """
 
-    exit_code: ClassVar[int] = 1
+    exit_code: ClassVar[int] = exit_codes.FAILED
 
 
 class InputError(AsperityError, ValueError):
     """Something given by the user cannot be used."""
 
-    exit_code = 2
+    exit_code = exit_codes.BAD_INPUT
 
 
 class ConvergenceError(AsperityError, RuntimeError):
@@ -33,7 +35,7 @@ class ConvergenceError(AsperityError, RuntimeError):
         What was reached, such as the residual and the number of iterations.
     """
 
-    exit_code = 3
+    exit_code = exit_codes.NOT_DONE
 
     def __init__(self, message: str, *, reached: Mapping[str, float] | None = None) -> None:
         super().__init__(message)
@@ -43,13 +45,13 @@ class ConvergenceError(AsperityError, RuntimeError):
 class StorageError(AsperityError, OSError):
     """A file or folder cannot be read or written."""
 
-    exit_code = 2
+    exit_code = exit_codes.BAD_INPUT
 
 
 class MissingExtraError(AsperityError, ImportError):
     """An optional dependency is needed and not installed."""
 
-    exit_code = 2
+    exit_code = exit_codes.BAD_INPUT
 
 
 # Formats that turn the direction of writing, so that a text reads as another than it is.

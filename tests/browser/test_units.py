@@ -7,7 +7,7 @@ from apparatus.browser import answered, copied, settled
 from playwright.sync_api import expect
 
 from asperity.files.shipped import shipped_case
-from asperity.results.system import US, converted, shown_in
+from asperity.results.unit_systems import US, converted, shown_in
 
 INCH, POUND_FORCE = 0.0254, 4.4482216152605
 PREFIXES = {"": 1.0, "G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "µ": 1e-6, "n": 1e-9}

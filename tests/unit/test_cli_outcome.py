@@ -2,11 +2,15 @@
 
 import contextlib
 import os
+import re
 import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
+import asperity
+from asperity import exit_codes
 from asperity.casefile import read_case
 from asperity.cli import outcome, show
 from asperity.commands.execution import execute
@@ -78,3 +82,14 @@ def test_what_latched_is_raised_though_a_disk_takes_no_picture(tmp_path):
     result.failure = None
     with pytest.raises(StorageError, match="no space left"):
         execute(command, "rig-final", (), teller, version="1", out=tmp_path / "out")
+
+
+def test_every_exit_code_stands_in_one_place_and_in_the_docs():
+    told = {v: n for n, v in vars(exit_codes).items() if n.isupper() and n != "NO_LIBRARY"}
+    docs = Path(__file__).parents[2] / "docs" / "command-line.rst"
+    table = docs.read_text("utf-8").partition("\nExit codes\n")[2].split("======")[4]
+    assert [int(code) for code in re.findall(r"^(\d+) ", table, re.MULTILINE)] == sorted(told)
+    package = Path(asperity.__file__).parent
+    number = re.compile(r"exit_code(: \w[\w\[\]]*)? = \d|_?exit\((1\d\d|[2-4])\)|return 1[34]\d?\b")
+    for file in package.rglob("*.py"):
+        assert not number.search(file.read_text("utf-8")), file

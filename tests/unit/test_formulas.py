@@ -361,3 +361,39 @@ def test_an_array_that_was_looked_at_is_still_refused_where_another_bound_is_not
         # What has its reason goes on as it is.
         assert np.array_equal(thrice(again), [np.nan, 18.0, np.nan], equal_nan=True)
         assert mask.reason.tolist() == [2, 0, 1]
+
+
+class OwnError(InputError):
+    """A formula's own."""
+
+
+def told_apart(value: float, /, **given: Real) -> OwnError:
+    return OwnError(f"{value} of {given}")
+
+
+@formula(symbol="w", result=positive, because="x is too small", error=told_apart)
+def worded(x: Annotated[Real, Symbol("x", "", error=OwnError, because="mind")], a: Literal["b"]):
+    """Worded."""
+    return x - 1.0
+
+
+def test_a_docstring_tells_shapes_and_every_error():
+    doc = root.__doc__
+    assert "x : array_like, broadcast together\n    x, mm; from -5 to 100 mm." in doc
+    assert "y : array_like, broadcast together, optional\n" in doc
+    assert "Returns\n-------\nfloat, or ndarray or Masked of their common shape\n" in doc
+    assert (
+        "\n\nRaises\n------\nInputError\n    A number is not allowed, arrays have no common shape, "
+        "or r is not finite.\n\nNotes\n" in doc
+    )
+    # Alone it is broadcast with nothing.
+    assert "x : array_like\n" in worded.__doc__
+    raised = worded.__doc__.partition("Raises")[2]
+    assert "common shape, a word is none of those named, or w is not positive." in raised
+    assert raised.count("OwnError\n    ") == 2
+    assert "OwnError\n    x: it must be finite; mind.\n" in raised
+    assert "OwnError\n    w is not defined: x is too small." in raised
+    with pytest.raises(OwnError):
+        worded(0.5, "b")
+    with pytest.raises(InputError):
+        root([1.0, 2.0], [1.0, 2.0, 3.0])

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
+from asperity import exit_codes
 from asperity.cli import begin, outcome
 from asperity.cli.command_line import made
 from asperity.cli.helped import as_written
@@ -357,11 +358,11 @@ def run(arguments: list[str] | None = None) -> int:
         )
     except USAGE_ERROR as error:
         tell(usage(error))
-        code = 2
+        code = exit_codes.BAD_INPUT
     except OSError as error:
         # Of what is left, the help that cannot be printed.
         tell(outcome.unwritten(error))
-        code = 2
+        code = exit_codes.BAD_INPUT
     try:
         sys.stdout.flush()
     except OSError:

@@ -8,9 +8,9 @@ import contextlib
 import os
 import signal
 
+from asperity import exit_codes
 from asperity.processes import interrupts
 
-INTERRUPTED = 130
 LINE = "interrupted"
 
 _to_the_end: list[bool] = []
@@ -50,4 +50,4 @@ def _end(number: int, _frame: object) -> None:
     try:
         os.write(2, f"{interrupts.MEANING[signal.Signals(number).name]}\n".encode())
     finally:
-        os._exit(INTERRUPTED)
+        os._exit(exit_codes.INTERRUPTED)

@@ -10,11 +10,10 @@ from typing import Any, ParamSpec, TextIO
 
 import typer
 
+from asperity import exit_codes
 from asperity.cli import interrupt
 from asperity.errors import AsperityError, ConvergenceError, plain, shown
 from asperity.files.store import reason
-
-BROKEN_PIPE = 141
 
 # What typer raises for a wrong command line, wherever this version of it keeps the class.
 USAGE_ERROR: type[Exception] = typer.BadParameter.__mro__[2]
@@ -37,16 +36,17 @@ def reported(command: Callable[P, None]) -> Callable[P, None]:
         except AsperityError as error:
             _end(_line(error), error.exit_code)
         except KeyboardInterrupt as error:
-            _end(str(error) or interrupt.LINE, interrupt.INTERRUPTED)
+            _end(str(error) or interrupt.LINE, exit_codes.INTERRUPTED)
         except (MemoryError, RuntimeError) as error:
             if isinstance(error, RuntimeError) and "new thread" not in str(error):
                 raise
             what = "memory" if isinstance(error, MemoryError) else "threads"
-            _end(f"the system gives no more {what}; raise its limit (ulimit), or ask for less", 1)
+            line = f"the system gives no more {what}; raise its limit (ulimit), or ask for less"
+            _end(line, exit_codes.FAILED)
         except BrokenPipeError:
             # Who read the output has seen enough. Python would complain at its own last flush.
             silence_standard_output()
-            _end("", BROKEN_PIPE)
+            _end("", exit_codes.BROKEN_PIPE)
         finally:
             if starting:
                 # Of a group, what follows is the start of the command itself.

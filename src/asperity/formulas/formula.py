@@ -294,8 +294,22 @@ class _Made:
         mask.refuse(True, str(error))
         return math.nan
 
+    def _errors(self) -> list[str]:
+        """What is raised, and when, each as its docstring has it."""
+        words = "a word is none of those named, " if self.words or self.own else ""
+        not_result = f"{words}or {self.result.symbol} is not {self.result.bounds.text()}"
+        lines = ["InputError"]
+        lines += [f"    A number is not allowed, arrays have no common shape, {not_result}."]
+        for symbol in self.symbols.values():
+            if symbol.error is not InputError:
+                lines += [symbol.error.__name__, f"    {symbol.symbol}: {symbol.allowed}."]
+        if self.error is not None:
+            made = inspect.get_annotations(self.error, eval_str=True)["return"]
+            lines += [made.__name__, f"    {self.undefined}."]
+        return lines
+
     def described(self, text: str, equation: str, source: Source | None) -> str:
-        """Return a docstring with its sections of parameters, results and source."""
+        """Return a docstring with its sections of parameters, results, errors and source."""
         before, heading, examples = inspect.cleandoc(text).partition("\nExamples\n")
         summary, _, more = before.partition("\n")
         lines = [summary, ""]
@@ -303,12 +317,13 @@ class _Made:
             lines += [f"``{self.result.symbol} = {equation}``", ""]
         lines += [more.strip(), ""] if more.strip() else []
         lines += ["Parameters", "----------"]
+        array = "array_like, broadcast together" if len(self.symbols) > 1 else "array_like"
         for name, parameter in self.signature.parameters.items():
             if name in self.symbols:
                 symbol = self.symbols[name]
                 optional = "" if parameter.default is inspect.Parameter.empty else ", optional"
                 unit = _named(symbol.unit)
-                lines += [f"{name} : array_like{optional}", f"    {symbol.symbol}{unit};"]
+                lines += [f"{name} : {array}{optional}", f"    {symbol.symbol}{unit};"]
                 lines[-1] += f" {symbol.allowed.removeprefix('it must be ')}."
             elif name in self.words:
                 lines += [f"{name} : {{{', '.join(map(repr, self.words[name]))}}}", ""]
@@ -320,8 +335,9 @@ class _Made:
             lines += ["    Of arguments and result; the second in brackets."]
         lines += ["on_invalid : {'raise', 'mask'}"]
         lines += ["    What to do with elements of arrays that are not allowed."]
-        lines += ["", "Returns", "-------", "float, ndarray or Masked"]
+        lines += ["", "Returns", "-------", "float, or ndarray or Masked of their common shape"]
         lines += [f"    {self.result.symbol}{_named(self.result.unit)}."]
+        lines += ["", "Raises", "------", *self._errors()]
         if source is not None:
             lines += ["", "Notes", "-----", f"{source}."]
         if heading:

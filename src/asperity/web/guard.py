@@ -16,6 +16,7 @@ from typing import Any
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse
 
+from asperity import exit_codes
 from asperity.web.verbs import told
 
 Scope = MutableMapping[str, Any]
@@ -52,7 +53,7 @@ class Refused(Exception):  # noqa: N818 - a request that is not answered is no e
         self.status = status
 
 
-def refusal(status: int, line: str, exit_code: int = 2) -> JSONResponse:
+def refusal(status: int, line: str, exit_code: int = exit_codes.BAD_INPUT) -> JSONResponse:
     """Return what is answered where there is no answer: one line."""
     # What was given may stand in the line, with half a character in it.
     line = line.encode("utf-8", "replace").decode()

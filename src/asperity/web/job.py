@@ -12,6 +12,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from asperity import exit_codes
 from asperity.processes.interrupts import reraise_pending
 from asperity.runs.interrupt import stop_of, stop_with_input
 from asperity.web.folder import REQUEST, Folder
@@ -38,7 +39,7 @@ def main(folder: str, identity: str) -> int:
         if stop is None:
             raise
         say(note=str(stop) or "stopped")
-        return 130
+        return exit_codes.INTERRUPTED
 
 
 def _done(folder: Folder, identity: str, say: Any) -> int:

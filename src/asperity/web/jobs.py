@@ -11,6 +11,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
+from asperity import exit_codes
 from asperity.errors import AsperityError, StorageError
 from asperity.files.store import read_bytes, read_text, reason, write_text
 from asperity.processes.sessions import begun, end, heard
@@ -97,7 +98,7 @@ class Jobs:
         write_text(job.home / REQUEST, json.dumps(asked))
         self._held[identity] = job
         job.stopping = job.begun = False
-        job.error, job.exit_code, job.reached, job.notes = "", 0, None, []
+        job.error, job.exit_code, job.reached, job.notes = "", exit_codes.DONE, None, []
         job.set("queued")
         self._waiting.append(job)
         self._next()
@@ -198,7 +199,7 @@ class Jobs:
             await heard(job.process, job.hear)
             ended = job.ended(await job.process.wait())
         except OSError as error:
-            job.error, job.exit_code = f"the job cannot begin: {error}", 1
+            job.error, job.exit_code = f"the job cannot begin: {error}", exit_codes.FAILED
             ended = "failed"
         finally:
             job.told()

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from asperity import exit_codes
 from asperity.errors import AsperityError
 from asperity.files.store import read_text, write_text
 from asperity.web.folder import ANSWER, REQUEST, SO_FAR, STATE
@@ -56,7 +57,7 @@ class Job:
     seconds: float = 0.0
     notes: list[str] = dataclasses.field(default_factory=list)
     error: str = ""
-    exit_code: int = 0
+    exit_code: int = exit_codes.DONE
     reached: dict[str, Any] | None = None
 
     def __post_init__(self) -> None:
@@ -136,11 +137,11 @@ class Job:
 
     def ended(self, code: int) -> str:
         """Return the state in which its process left it."""
-        if code == 0 or (self.error and self.answered):
+        if code == exit_codes.DONE or (self.error and self.answered):
             return "done"
-        if self.stopping or code == 130:
+        if self.stopping or code == exit_codes.INTERRUPTED:
             return "stopped"
         if not self.error:
             self.error = "its process ended, killed or out of memory; the same job again goes on"
-            self.exit_code = 1
+            self.exit_code = exit_codes.FAILED
         return "failed"

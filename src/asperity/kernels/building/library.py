@@ -17,15 +17,13 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from asperity import exit_codes
 from asperity.kernels import folder as kernel_folder
 from asperity.kernels.building.compiler import TARGET, hindrance
 from asperity.kernels.native import keys, load
 from asperity.kernels.native.entries import Entry, listed
 from asperity.kernels.native.kept import UNFIT
 from asperity.kernels.native.target import FEATURES
-
-NO_LIBRARY = 3
-"""Exit code where no library can be made here, which the last line on standard error explains."""
 
 _PATIENCE = 1.0  # s
 
@@ -242,10 +240,10 @@ def main() -> None:
     try:
         build(given.folder, entries, given.processes, lambda line: print(line, flush=True))
     except KeyboardInterrupt:
-        sys.exit(130)
+        sys.exit(exit_codes.INTERRUPTED)
     except NoLibraryError as error:
         print(f"no library of kernels: {error}", file=sys.stderr)
-        sys.exit(NO_LIBRARY)
+        sys.exit(exit_codes.NO_LIBRARY)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from asperity import exit_codes
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.alarm import Alarm
 from asperity.tribometer.guardian.owned import LISTENER, Asked, Device, Verdict
@@ -157,7 +158,7 @@ class Guardian:
             self.deserted()
             if self._failures >= _ATTEMPTS:
                 self._name_all(error)
-                self._left = 4
+                self._left = exit_codes.STILL_ON
 
     def _name_all(self, error: Exception) -> None:
         names = *(self._called(key) for key in self._of if key != LISTENER), *self._by_hand
@@ -329,7 +330,7 @@ class Guardian:
         self._deserted, verdicts = came, self._verdicts
         last = verdicts.last
         if self._orderly and last is not None and not last.unheard and not self._on:
-            self._left = 4 if last.still_on else 0
+            self._left = exit_codes.STILL_ON if last.still_on else exit_codes.DONE
             return
         # Who took its leave has told a person what was not off, and was itself told of it.
         attempts = 0 if self._orderly and not self._on else _ATTEMPTS
@@ -352,10 +353,10 @@ class Guardian:
                 break
         seconds = verdicts.took
         if verdicts.last is None or seconds is None:
-            self._left = 4
+            self._left = exit_codes.STILL_ON
             return
         self._say(f"{why}; read back to be off within {seconds:.2g} s: {verdicts.last.names}")
-        self._left = 0
+        self._left = exit_codes.DONE
 
     def _close(self) -> None:
         """Let go of everything; what does not let go is left."""

@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from asperity import exit_codes
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError
 
@@ -33,7 +34,7 @@ class InstrumentError(AsperityError):
         In two or three words, such as ``"line lost"``; a latched interlock is named by it.
     """
 
-    exit_code: ClassVar[int] = 3
+    exit_code: ClassVar[int] = exit_codes.NOT_DONE
 
     def __init__(self, message: str, *, kind: str = "instrument") -> None:
         super().__init__(message)
@@ -43,7 +44,7 @@ class InstrumentError(AsperityError):
 class StillOnError(InstrumentError):
     """Something may be on: it was not read back that it is off."""
 
-    exit_code: ClassVar[int] = 4
+    exit_code: ClassVar[int] = exit_codes.STILL_ON
 
     @classmethod
     def of(cls, reason: str, kind: str, failures: Sequence[str]) -> "StillOnError":
