@@ -6,6 +6,7 @@ arrays of one shape where variants of a gearset are rated.
 
 import dataclasses
 import functools
+import itertools
 import math
 from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
@@ -125,18 +126,27 @@ class Inputs:
         """The parts of the duty cycle; none without one, or where this is one of them."""
         if self.hours is not None:
             return ()
-        return tuple(map(self._part, self.operation.steps or ()))
+        return tuple(map(self._part, itertools.count(1), self.operation.steps or ()))
 
-    def _part(self, step: LoadStep) -> Part:
-        speed = self.worm_speed if step.worm_speed is None else scaled(step.worm_speed, RPM)
+    def _part(self, number: int, step: LoadStep) -> Part:
+        speed: Real = self.worm_speed
+        if step.worm_speed is not None:
+            speed = self._of_step(number, "worm_speed", scaled(step.worm_speed, RPM), "rpm")
         if step.duration is not None:
-            hours: Real = scaled(step.duration, 1.0 / _HOUR)
+            hours = self._of_step(number, "hours", scaled(step.duration, 1.0 / _HOUR), "h")
         else:
             assert step.turns is not None
-            hours = step.turns / (60.0 * (speed / self.gear_ratio))
-        starts = step.starts_per_hour
-        starts = self.operation.starts_per_hour if starts is None else starts
-        return Part(hours, step.torque, speed, starts, step.drives == "load")
+            turns = self._of_step(number, "turns", step.turns)
+            hours = turns / (60.0 * (speed / self.gear_ratio))
+        torque = self._of_step(number, "output_torque", step.torque, "N m")
+        starts: Real = self.operation.starts_per_hour
+        if step.starts_per_hour is not None:
+            starts = self._of_step(number, "starts_per_hour", step.starts_per_hour)
+        return Part(hours, torque, speed, starts, step.drives == "load")
+
+    def _of_step(self, number: int, name: str, value: float, unit: str = "") -> Real:
+        """Return what a step of the duty cycle is given, the first of them number 1."""
+        return value
 
     @functools.cached_property
     def loads(self) -> tuple[Part, ...]:

@@ -22,7 +22,7 @@ from asperity.rating.bs721.rating import rated as rated_bs721
 from asperity.rating.bs721.tables import Tables
 from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import Fact, facts
-from asperity.rating.inputs import Inputs, Part, Values
+from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import rated_capacity, rated_efficiency
 from asperity.rating.result import Rating
 from asperity.rating.variation import derived
@@ -214,29 +214,8 @@ class _TracedInputs(Inputs):
     oil_temperature = property(lambda self: self._cell("oil_temperature", "degC"))
     sump_limit = property(lambda self: self._cell("sump_limit", "degC"))
 
-    @property
-    def duty(self) -> tuple[Part, ...]:
-        """The parts of the duty cycle, their numbers cells."""
-        if self.hours is not None:
-            return ()
-        found = []
-        steps = zip(self.plain.duty, self.plain.operation.steps or (), strict=True)
-        for number, (part, step) in enumerate(steps, 1):
-            name = f"duty_cycle_{number}"
-            speed = self.worm_speed
-            if step.worm_speed is not None:
-                speed = self.cells.input(f"{name}_worm_speed", part.speed, "rpm")
-            if step.duration is not None:
-                hours = self.cells.input(f"{name}_hours", part.hours, "h")
-            else:
-                turns = self.cells.input(f"{name}_turns", float(step.turns or 0.0), "")
-                hours = turns / (60.0 * (speed / self.gear_ratio))
-            torque = self.cells.input(f"{name}_output_torque", part.torque, "N m")
-            starts: Any = self.operation.starts_per_hour
-            if step.starts_per_hour is not None:
-                starts = self.cells.input(f"{name}_starts_per_hour", part.starts, "")
-            found.append(Part(hours, torque, speed, starts, part.back))
-        return tuple(found)
+    def _of_step(self, number: int, name: str, value: float, unit: str = "") -> Any:
+        return self.cells.input(f"duty_cycle_{number}_{name}", float(value), unit)
 
     @property
     def life(self) -> Any:

@@ -19,7 +19,7 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import Rated, rate
 from asperity.rating.verdict_rows import Row
-from asperity.results import Result, quantity
+from asperity.results import Result, labelled, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
 from asperity.shafts.study import rows_by
@@ -87,6 +87,12 @@ class Optimum(Result):
         return number_of(self.after, "eta_z1_2") - number_of(self.before, "eta_z1_2")
 
     @property
+    @labelled("", "", "rise of the efficiency of the teeth, points", only="json")
+    def gain_points(self) -> float:
+        """By how many points of a hundred the efficiency of the teeth rises."""
+        return 100.0 * self.gain
+
+    @property
     def active(self) -> tuple[Limit, ...]:
         """The constraints that hold the design back."""
         return tuple(limit for limit in self.limits if limit.active)
@@ -116,21 +122,17 @@ class Optimum(Result):
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""
-        answer: dict[str, Any] = {
+        answer = super().to_json() | {
             "name": self.before.gearset.name,
             "given": design_numbers(self.before),
             "optimum": design_numbers(self.after),
-            "gain_points": 100.0 * self.gain,
             "constraints": [limit._asdict() for limit in self.limits],
-            "starts": self.starts,
-            "agreed": self.agreed,
             "settings": list(self.settings),
             "made": None if self.made is None else design_numbers(self.made),
             "made_settings": list(self.made_settings),
             "safeties": safeties_json(self.before, self.after, self.made),
             "locking": locking_of(self.before, self.after, self.made),
             **self._of_shafts(),
-            "notes": list(self.notes),
         }
         return answer if self.curve is None else {**answer, "trade_off": self.curve.to_json()}
 
