@@ -14,6 +14,7 @@ from asperity.runs import Interrupted, Run
 from asperity.runs.tree import read_tree, write_tree
 from asperity.slider import TABLES, Model, Solve, Stopped, solve, solve_many
 from asperity.slider.kernels import condense
+from asperity.slider.longer import until_settled
 from asperity.slider.march import March, march, march_key
 
 LAWS = ["split", "unsplit", "vector"]
@@ -382,7 +383,7 @@ def test_a_mean_over_a_stretch_stands_at_its_mean_time():
 def test_a_march_that_is_kept_goes_on_bit_for_bit(settings, tmp_path, monkeypatch):
     monkeypatch.setattr("asperity.slider.march._STRETCH", 7000)
     model = body("table-4.4", "solve.duration=0.2 s", *settings)
-    whole = March(model, record=True).run()
+    whole = until_settled(model, March(model, record=True))
     kept = {}
 
     class Halting(Run):
@@ -398,7 +399,7 @@ def test_a_march_that_is_kept_goes_on_bit_for_bit(settings, tmp_path, monkeypatc
         if kept:
             march.restore(read_tree(tmp_path / "kept.npz"))
         with contextlib.suppress(Interrupted):
-            answer = march.run()
+            answer = until_settled(model, march)
     assert len(kept) > 20
     numbers = [one.to_json() | {"seconds": 0.0} for one in (answer, whole)]
     assert numbers[0] == numbers[1]

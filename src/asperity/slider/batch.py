@@ -4,7 +4,7 @@ import dataclasses
 import functools
 import math
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -22,7 +22,7 @@ from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.chance import judged
 from asperity.slider.integrators import integrator
 from asperity.slider.longer import advice, needed
-from asperity.slider.march import marched
+from asperity.slider.march import march, march_once
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import as_it_rings, ringing_notes
@@ -120,7 +120,6 @@ def solve_many(
         One for each model; the exception of a body that could not be solved stands in its place.
     """
     flag = stop if stop is not None else np.zeros(1, dtype=np.int64)
-    by_itself = functools.partial(marched, history=False, stop=flag)
     answers: list[SlideResult | AsperityError | None] = [None] * len(models)
     groups: dict[tuple[object, ...], list[tuple[int, Timetable]]] = {}
     alone: list[int] = []
@@ -144,7 +143,7 @@ def solve_many(
                 continue
             solved = _march([models[i] for i, _ in batch], [t for _, t in batch], flag)
             for (index, _), answer in zip(batch, solved, strict=True):
-                answers[index] = _refined(models[index], by_itself, answer)
+                answers[index] = _refined(models[index], answer, flag)
     for index in alone:
         if flag[0]:
             raise Stopped
@@ -156,14 +155,16 @@ def solve_many(
 
 
 def _refined(
-    model: Model, by_itself: Callable[[Model], SlideResult], answer: SlideResult | AsperityError
+    model: Model, answer: SlideResult | AsperityError, stop: np.ndarray
 ) -> SlideResult | AsperityError:
     """Return the answer of a body that settled if it may, by a step that makes no great error."""
     if isinstance(answer, AsperityError):
         return answer
+    once = functools.partial(march_once, history=False, stop=stop)
     try:
-        on = not answer.settled and model.solve.duration is None
-        return as_it_rings(by_itself(model) if on else refined(model, by_itself, answer))
+        if not answer.settled and model.solve.duration is None:
+            return march(model, history=False, stop=stop)
+        return as_it_rings(refined(model, once, answer))
     except AsperityError as error:
         return error
 

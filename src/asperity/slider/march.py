@@ -144,13 +144,6 @@ class March:
         """Time it is marched for, s."""
         return self._timed.duration
 
-    def run(self) -> SlideResult:
-        """March to the end, from wherever the march stands.
-
-        Where the case says no duration it goes on until it has settled, within bounds.
-        """
-        return until_settled(self.model, self)
-
     def go_on(self, duration: float) -> None:
         """Take a later end, s."""
         self._timed = lasting(self.model, duration)
@@ -333,31 +326,13 @@ def march(
     Interrupted
         Ctrl-C was pressed.
     """
-    return as_it_rings(marched(model, history=history, stop=stop, run=run))
-
-
-def marched(
-    model: Model,
-    *,
-    history: bool = True,
-    stop: npt.NDArray[np.int64] | None = None,
-    run: Run | None = None,
-) -> SlideResult:
-    """March as `march`; a contact that rings for ever counts as settled where its means are steady.
-
-    So its step is chosen by the error of its means, as any other's.
-    """
     run = run if run is not None else Run()
     kept = None if run.folder is None else run.resume(march_key(model, history=history))
 
     def once(finer: Model) -> SlideResult:
         nonlocal kept
-        body = March(finer, record=history, stop=stop, run=run)
-        if kept is not None and kept["finer"] == finer.finer:
-            body.restore(kept)
-            kept = None
-        with run.interruptible():
-            return body.run()
+        goes_on, kept = (kept, None) if kept and kept["finer"] == finer.finer else (None, kept)
+        return march_once(finer, history=history, stop=stop, run=run, kept=goes_on)
 
     first = None
     if kept is not None and kept["finer"] != model.finer:
@@ -366,7 +341,25 @@ def marched(
             first = once(dataclasses.replace(model, finer=kept["finer"]))
         if first is not None and first.step_error is None:
             first = None
-    return refined(model, once, first)
+    # What rings for ever has its step by the error of its means, as any other.
+    return as_it_rings(refined(model, once, first))
+
+
+def march_once(
+    model: Model,
+    *,
+    history: bool = True,
+    stop: npt.NDArray[np.int64] | None = None,
+    run: Run | None = None,
+    kept: Tree | None = None,
+) -> SlideResult:
+    """March as `march` in the steps that the model has, from ``kept`` on if it is given."""
+    run = run if run is not None else Run()
+    body = March(model, record=history, stop=stop, run=run)
+    if kept is not None:
+        body.restore(kept)
+    with run.interruptible():
+        return until_settled(model, body)
 
 
 def march_key(model: Model, *, history: bool) -> str:
