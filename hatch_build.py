@@ -1,6 +1,6 @@
 """How wheels are made: with a library of compiled kernels where there is a C compiler.
 
-Compiling takes some ten processor minutes, the first time; what is made is kept in the user's
+Compiling takes some seven processor minutes, the first time; what is made is kept in the user's
 cache. ``ASPERITY_LIBRARY=0`` in the environment leaves the library out, which makes a wheel for all
 machines; with ``ASPERITY_LIBRARY=1`` a library that cannot be made is an error.
 """

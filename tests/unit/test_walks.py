@@ -37,7 +37,7 @@ def drawing():
 
 
 def sections():
-    parts = re.split(r"^(.+)\n~{3,}\n", TEXT[TEXT.index("Four walks") :], flags=re.MULTILINE)
+    parts = re.split(r"^(.+)\n~{3,}\n", TEXT[TEXT.index("Five walks") :], flags=re.MULTILINE)
     return dict(zip(parts[1::2], parts[2::2], strict=True))
 
 
@@ -74,10 +74,10 @@ def test_every_dotted_name_of_a_page_exists(page):
     assert sorted(name for name in found if not exists(name)) == []
 
 
-def test_there_are_four_walks_of_at_least_six_steps(drawing):
+def test_there_are_five_walks_of_at_least_six_steps(drawing):
     walks = drawing.walks(TEXT)
     assert [walk.title for walk in walks] == [*sections()]
-    assert len(walks) == 4
+    assert len(walks) == 5
     assert all(len(walk.steps) >= 6 for walk in walks)
 
 
@@ -118,6 +118,6 @@ def test_a_sampling_rate_arrives_in_the_plan():
 def test_a_walk_is_drawn_over_the_folders_that_it_touches(drawing, tmp_path):
     drawing.draw_all(DOCS / "built.rst", tmp_path)
     found = sorted(path.name for path in tmp_path.iterdir())
-    assert found == [f"walk-{name}.png" for name in ("drive", "page", "rig", "spectrum")]
-    folder, name = drawing.parted("drive.protocols.setup.shakes")
-    assert (folder, name) == ("drive.protocols", "setup\nshakes")
+    assert found == [f"walk-{name}.png" for name in ("drive", "page", "rig", "slide", "spectrum")]
+    folder, name = drawing.parted("drive.protocols.solve.solve_shaken")
+    assert (folder, name) == ("drive.protocols", "solve\nsolve_shaken")
