@@ -446,6 +446,8 @@ def test_a_guardian_switches_described_instruments_and_reads_them_back(guarded):
         guard.ask(key, "on")
     assert guard.ask("steel", "reading") == [3.0, 1.5]
     assert guard.ask("bronze", "output") is True
+    # It answers no command: whoever looks at it without asking may be there before it has acted.
+    assert guard.ask("amplifier", "output") is True
     assert guard.ask("vibration", "vibrates") is True
     assert (two.outputs[1].limit, one.outputs[1].limit) == (2.0, 3.0)
     assert one.outputs[1].on

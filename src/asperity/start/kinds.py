@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from asperity.errors import InputError, nearest
 from asperity.files import store
 from asperity.files.shipped import shipped_cases
-from asperity.tribometer.deposit import BEGUN_AUTHORS
+from asperity.tribometer.deposit import BEGUN_AUTHORS, BEGUN_TITLE
 
 Values = dict[str, dict[str, Any]]
 
@@ -242,12 +242,12 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "rig": Kind(
             "A disc-on-disc tribometer and what is to be tested on it",
             {
-                # With these reports and packages can be made, and are seen to be begun.
+                # With these reports can be made, and packages as soon as they are replaced.
                 "conditions": {"laboratory": "(your laboratory)", "operator": "(your name)"},
                 "package": {
-                    "title": "Friction under vibration",
+                    "title": BEGUN_TITLE,
                     "authors": list(BEGUN_AUTHORS),
-                    "licence": "CC-BY-4.0",
+                    "licence": "",
                 },
             },
             (
