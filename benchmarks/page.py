@@ -28,7 +28,7 @@ from _common import finish
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from apparatus.browser import TELL_REST
-from apparatus.page import Served, descendants, memory, processor_time
+from apparatus.page import Served, descendants, memory
 from apparatus.walks import Walk, to_a_law, to_a_report, to_the_best_way
 
 CHANGES = 200
@@ -145,6 +145,12 @@ def of_a_change(page):
         "processor, ms": 1e3 * spent / CHANGES,
         "kB": max(size for _, size in found) / 1e3,
     }
+
+
+def processor_time(pid):
+    """Return the processor time a process has taken, s."""
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def address(page):

@@ -14,6 +14,7 @@ LONG = 30_000
 """How long a thing may take to be seen on a busy machine, ms."""
 
 TELL_REST = """
+const LONGEST = 240_000;
 const { setTimeout: later, clearTimeout: never, fetch: ask } = window;
 const soon = new Set();
 let asked = 0;
@@ -25,15 +26,27 @@ window.setTimeout = (act, delay = 0, ...given) => {
   return name;
 };
 window.clearTimeout = (name) => { soon.delete(name); never(name); };
-window.fetch = (...given) => {
+const counted = (answer) => {
   asked += 1;
-  return ask(...given).finally(() => { asked -= 1; });
+  return answer.finally(() => { asked -= 1; });
 };
+window.fetch = (...given) => counted(ask(...given));
+// An answer is there once all of it is.
+for (const kind of ["json", "text", "blob", "arrayBuffer"]) {
+  const read = Response.prototype[kind];
+  Response.prototype[kind] = function () { return counted(read.call(this)); };
+}
+// A screen that is opened for the first time is a module on its way, which nothing else tells.
+const coming = () => document.querySelector("main > .wait:not([role])");
 const moves = (one) => one.playState === "running" && one.effect.getComputedTiming().endTime < 1e4;
 window.rest = async () => {
+  const began = performance.now();
   for (let still = 0; still < 4; ) {
     await new Promise(requestAnimationFrame);
-    still = soon.size || asked || document.getAnimations().some(moves) ? 0 : still + 1;
+    if (performance.now() - began > LONGEST)
+      throw new Error(`not at rest: ${asked} asked, ${soon.size} soon`);
+    const busy = soon.size || asked || coming() || document.getAnimations().some(moves);
+    still = busy ? 0 : still + 1;
   }
 };
 """

@@ -3,6 +3,7 @@
 import io
 import re
 import shutil
+import time
 from contextlib import closing
 from pathlib import Path
 
@@ -287,6 +288,26 @@ def test_sizing_keeps_what_the_case_or_the_reader_requires(seen):
     assert float(page.get_by_label("ratio", exact=True).input_value()) == pytest.approx(
         40, rel=0.01
     )
+
+
+def test_the_ratio_stands_before_the_answer(seen):
+    page = seen.open("size", ratio="40", output_torque="300 N m", worm_speed="1500 rpm")
+    settled(page)
+    # Its answer does not come at all.
+    page.route("**/api/do/rate", lambda route: None)
+    page.get_by_role("button", name="take a =").first.click()
+    expect(page.get_by_text("One moment.").first).to_be_visible()
+    expect(page.get_by_label("ratio", exact=True)).to_have_value(re.compile(r"^4[01](\.\d+)?$"))
+    page.unroute_all(behavior="ignoreErrors")
+
+
+def test_a_screen_that_is_on_its_way_is_no_rest(seen):
+    page = seen.open("size")
+    settled(page)
+    page.route("**/screens/gear.js", lambda route: (time.sleep(0.8), route.continue_()))
+    page.get_by_role("link", name="Gearset", exact=True).click()
+    settled(page)
+    assert page.get_by_label("ratio", exact=True).input_value() == "15"
 
 
 def test_a_job_says_that_something_was_set_since(seen):

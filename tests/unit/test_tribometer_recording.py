@@ -1,6 +1,7 @@
 """A recording holds what was recorded, says what is missing, and survives being killed."""
 
 import contextlib
+import errno
 import importlib.util
 import json
 import os
@@ -220,6 +221,29 @@ def test_another_netcdf_is_refused_with_what_to_do(tmp_path):
     xr.Dataset({"a": 1}).to_netcdf(tmp_path / "run.nc", engine="h5netcdf")
     with pytest.raises(StorageError, match="asperity rig import"):
         Recording.open(tmp_path / "run.nc")
+
+
+@pytest.mark.skipif(not hasattr(os, "posix_fallocate"), reason="asks the system for space")
+def test_space_is_asked_for_before_a_file_is_begun(tmp_path, monkeypatch):
+    path = tmp_path / "one.nc"
+    made = recorder(path)
+    made.append(counts(BLOCK), 0.1)
+    made.leave()
+    asked = []
+
+    def full(descriptor, place, size):
+        asked.append(size)
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as disk:
+        disk.setattr(os, "posix_fallocate", full)
+        with pytest.raises(StorageError, match="no space left"):
+            joined(path)
+    # All of the counts, at least; what was recorded stands where it stood.
+    assert asked[0] >= 2 * 2 * BLOCK
+    assert list(tmp_path.iterdir()) == [blocks_beside(path)]
+    assert joined(path)
+    assert stored(path).shape == (BLOCK, 2)
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs limits of a process")

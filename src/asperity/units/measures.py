@@ -61,6 +61,7 @@ foot = 12 * inch = ft
 pound = 0.45359237 * kilogram = lb
 pound_force = pound * standard_gravity = lbf
 psi = pound_force / inch ** 2
+ksi = 1000 * psi
 british_thermal_unit = 1055.05585262 * joule = BTU = Btu
 acre = 43560 * foot ** 2
 horsepower = 550 * foot * pound_force / second = hp

@@ -1,5 +1,5 @@
 /** What is asked of the server. Every answer is JSON; every error is one line. */
-import { signal, useEffect, useRef, useState } from "../vendor/preact.js";
+import { signal, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
 import { instead, takeAnother, token } from "./state.js";
 
 /** What the command line says before what is wrong with a setting; here the field says it. */
@@ -244,7 +244,8 @@ export function useLive(verb, body, delay = 0) {
     const timer = running && asked !== text ? setTimeout(() => leave.abort(), since + LONGEST - performance.now()) : 0;
     return () => clearTimeout(timer);
   }, [text, state.of]);
-  useEffect(() => {
+  // By layout: an effect waits for the next picture, and the question with it.
+  useLayoutEffect(() => {
     if (!text) return;
     const mine = queue.current;
     const run = async () => {
@@ -262,11 +263,13 @@ export function useLive(verb, body, delay = 0) {
       }
       mine.running = false;
     };
-    clearTimeout(mine.timer);
-    mine.timer = setTimeout(() => {
+    const begin = () => {
       mine.next = text;
       if (!mine.running) run();
-    }, delay);
+    };
+    clearTimeout(mine.timer);
+    if (delay) mine.timer = setTimeout(begin, delay);
+    else begin();
     return () => clearTimeout(mine.timer);
   }, [verb, text, delay]);
   const path = state.data || state.error ? "" : shippedAt(verb, text);

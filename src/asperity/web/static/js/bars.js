@@ -34,7 +34,7 @@ export const Sided = ({ value, most, kind = value < 0 ? "less" : "more" }) =>
  */
 export const Margins = ({ rows }) => html`<${Table} kind="bars" rows=${rows} columns=${[
   ["safety", (row) => html`${row.name} <span class="of">${symbol(row.symbol)}</span>`, "row"],
-  ["up to 3 times what is asked", ({ value, asked, holds }) => html`<${Bar} from=${0}
+  ["0 to 3 × asked", ({ value, asked, holds }) => html`<${Bar} from=${0}
     to=${Math.min(value / asked / MOST, 1) * 300} mark=${300 / MOST} kind=${holds ? "good" : "bad"} />`],
   ["value", ({ entry, value }) => (entry ? html`<${Num} entry=${entry} count=${3} />` : digits(value, 3)), "right"],
   ["asked", ({ asked }) => digits(asked, 3), "right"],

@@ -6,6 +6,7 @@ import { framesOf, seen, SECONDS } from "./deforming.js";
 import { Play, usePlayed } from "./frames.js";
 import { Legend } from "./map.js";
 import { digits } from "./units.js";
+import { amount, shown } from "./us.js";
 
 const rounded = new Intl.NumberFormat("en", { maximumSignificantDigits: 2 });
 
@@ -14,7 +15,8 @@ export function Deformed({ packed, contact }) {
   const box = useRef(null);
   const made = useMemo(() => framesOf(packed), [packed]);
   const { rest, magnified, range, loads, times } = made;
-  usePlayed(box, deforming, { packed, contact }, [packed]);
+  const force = shown(1, "N");
+  usePlayed(box, deforming, { packed, contact, force }, [packed, force[1]]);
   const view = (points, room) => {
     const [[left, right], [low, high]] = [0, 1].map((k) => span(points.map((each) => each[k])));
     const edge = room * Math.max(right - left, high - low);
@@ -23,8 +25,9 @@ export function Deformed({ packed, contact }) {
   };
   const [skin, under] = [view(rest.map(seen), 0.07), view(contact.x.map((x, at) => [x, contact.y[at]]), 0.03)];
   const part = (name, { box: seenIn, thin }, ends, unit, label, title) => html`<figure><figcaption>${title}</figcaption>
-    <svg class="map-of" viewBox=${seenIn} role="img" aria-label=${`${title}: ${label}, ${digits(ends[0], 3)} to
-      ${digits(ends[1], 3)} ${unit}`}><g data-of=${name} class=${name}>
+    <svg class="map-of" viewBox=${seenIn} role="img"
+      aria-label=${`${title}: ${label}, ${digits(shown(ends[0], unit)[0], 3)} to
+      ${amount(ends[1], unit, 3)}`}><g data-of=${name} class=${name}>
       ${Array.from({ length: LEVELS + 1 }, () => html`<path stroke-width=${thin} />`)}</g></svg>
     <${Legend} range=${ends} unit=${unit} label=${label} /></figure>`;
   return html`<div class="deformed" ref=${box}>

@@ -50,9 +50,11 @@ export function frameAt({ times }, part) {
 
 /**
  * What draws an elastic block at a time, s, into the box of its two pictures.
- * @param {Element} box @param {{packed: any, contact: {x: number[], y: number[], cells: number[][]}}} of as of Deformed
+ * @param {Element} box
+ * @param {{packed: any, contact: {x: number[], y: number[], cells: number[][]}, force?: [number, string]}} of
+ *   as of Deformed; `force`: what a newton is in the unit that is shown, and that unit
  */
-export function playing(box, { packed, contact }) {
+export function playing(box, { packed, contact, force: [newton, unit] = [1, "N"] }) {
   const made = framesOf(packed);
   const { rest, cells, magnified, range, loads, times } = made;
   const put = (name, paths) => {
@@ -71,6 +73,7 @@ export function playing(box, { packed, contact }) {
     put("under", painted({ ...contact, values: contact.x.map((_, at) => find(made.pressures, at)), range: loads }));
     const now = box.querySelector("[data-of=now]");
     const scalar = (values) => find(values.map((value) => [value]), 0);
-    if (now) now.textContent = `${digits(1e3 * scalar(times), 4)} ms, drive force ${digits(scalar(made.forces), 3)} N`;
+    const pulls = `${digits(newton * scalar(made.forces), 3)} ${unit}`;
+    if (now) now.textContent = `${digits(1e3 * scalar(times), 4)} ms, drive force ${pulls}`;
   };
 }

@@ -2,6 +2,7 @@
 import { html, useRef, useState } from "../vendor/preact.js";
 import { inWords, plain } from "./symbols.js";
 import { named, Table } from "./table.js";
+import { column } from "./us.js";
 import { digits } from "./units.js";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -110,7 +111,8 @@ const stem = (title) => title.toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(
  */
 export function Beneath({ title, columns: made, svg }) {
   const [open, setOpen] = useState(false);
-  const columns = open ? made() : [];
+  const shown = () => made().map(column);
+  const columns = open ? shown() : [];
   const name = stem(title);
   const button = (label, run) =>
     html`<button type="button" class="quiet" aria-label=${`${title} as ${label}`} onClick=${run}>${label}</button>`;
@@ -124,7 +126,7 @@ export function Beneath({ title, columns: made, svg }) {
     <span class="files">
       ${svg ? button("PNG", async () => download(`${name}.png`, await png(svg()))) : null}
       ${svg ? button("SVG", () => download(`${name}.svg`, svg())) : null}
-      ${button("CSV", () => download(`${name}.csv`, csv(made())))}
+      ${button("CSV", () => download(`${name}.csv`, csv(shown())))}
     </span>
   </div>`;
 }

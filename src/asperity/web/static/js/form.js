@@ -5,6 +5,7 @@ import { fault, instead, useCase } from "./state.js";
 import { inWords, printed } from "./symbols.js";
 import { useTouch } from "./touch.js";
 import { digits, factor, inUnit, split } from "./units.js";
+import { shown, written } from "./us.js";
 
 /** Words of a key: `drive_velocity` is "drive velocity". */
 export const words = (key) => key.replaceAll("_", " ");
@@ -83,7 +84,7 @@ function withUnit(typed, before, field) {
   if (BASED.test(typed) && field.kind !== "text") return JSON.stringify(typed);
   const [number, unit] = split(typed);
   if (field?.kind !== "quantity" || unit || Number.isNaN(number)) return typed;
-  const usual = split(before)[1] || field.unit;
+  const usual = split(written(before))[1] || shown(0, field.unit)[1];
   return usual ? `${typed} ${usual}` : typed;
 }
 
@@ -112,9 +113,9 @@ export function Field({ path, label, brief }) {
             (each) => html`<option value=${each}>${each}</option>`,
           )}
         </select>`
-      : html`<${Box} id=${id} text=${text} onSet=${put} invalid=${wrong}
+      : html`<${Box} id=${id} text=${field.kind === "quantity" ? written(text) : text} onSet=${put} invalid=${wrong}
           list=${listed.length ? `${id}-list` : undefined}
-          placeholder=${field.example} describedby=${`${id}-says`} />
+          placeholder=${written(field.example)} describedby=${`${id}-says`} />
         ${listed.length ? html`<datalist id=${`${id}-list`}>${listed.map(({ name, says }) =>
           html`<option value=${name}>${says}</option>`)}</datalist>` : null}`}
     ${from === "set"
@@ -211,11 +212,11 @@ export function Slider({ path, label, low, high, unit, log, step }) {
     typed === "" ? unset(path) : set(path, withUnit(typed, (wrong ? before : text) || `0 ${own}`, field));
   return html`<div class="slider">
     <label for=${id} title=${meaningOf(field)}>${said}</label>
-    <${Box} text=${text} onSet=${put} label=${`${said}, typed`} placeholder=${field.example}
+    <${Box} text=${written(text, 4)} onSet=${put} label=${`${said}, typed`} placeholder=${written(field.example)}
       invalid=${wrong} />
     <input type="range" id=${id} min=${byRatio ? 0 : least} max=${byRatio ? steps : most}
       step=${byRatio ? 1 : (step ?? (most - least) / 200)}
-      value=${Number.isFinite(place) ? place : 0} aria-valuetext=${text || "not given"}
+      value=${Number.isFinite(place) ? place : 0} aria-valuetext=${written(text) || "not given"}
       ...${touch} />
   </div>`;
 }

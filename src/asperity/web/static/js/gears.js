@@ -6,6 +6,7 @@ import { Legend } from "./map.js";
 import { lineOf, sectionOf, threadsOf, wheelOf, windowOf } from "./mesh.js";
 import * as turning from "./turning.js";
 import { valueIn } from "./turning.js";
+import { inText } from "./us.js";
 import { digits } from "./units.js";
 
 /** Ways to shake it: what is said of each. */
@@ -78,8 +79,9 @@ export function Gears({ geometry, mode = "", speed, pressed = null }) {
   const { picture, made, colour } = useMesh({ geometry, mode, speed, pressed: shown });
   const { range } = made;
   const does = shown ? "Pressed with" : "The surfaces slide at";
-  const says = `Worm and wheel in mesh, cut through the middle of the wheel. ${does}
-    ${digits(range[0], 3)} to ${digits(range[1], 3)} ${shown ? "MPa" : "m/s"}.${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`;
+  const says = inText(`Worm and wheel in mesh, cut through the middle of the wheel. ${does}
+    ${digits(range[0], 3)} to ${digits(range[1], 3)} ${shown ? "MPa" : "m/s"}.
+    ${mode ? ` Shaken: ${WAYS[mode]}.` : ""}`);
   return html`<section class="panel at-stage" aria-label="in mesh"><h2>In mesh</h2>
     <${Drawn} picture=${picture} made=${made} colour=${colour} mode=${mode} says=${says} />
     <div class="row"><${Play} />

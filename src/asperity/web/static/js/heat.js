@@ -6,6 +6,7 @@ import { Legend } from "./map.js";
 import { Axes, BOTTOM, LEFT, RIGHT, scale, TOP, useWidth } from "./plot.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
+import { column } from "./us.js";
 
 const HEIGHT = 420;
 
@@ -24,7 +25,8 @@ function cellsOf(values) {
 }
 
 /** @param {{title: string, unit: string, down: any, across: any, values: (number | null)[]}} props */
-export function Heat({ title, unit, down, across, values }) {
+export function Heat({ title, down: lines, across: columnsOf, ...told }) {
+  const [down, across, { unit, values }] = [lines, columnsOf, told].map(column);
   const [box, width] = useWidth();
   const known = values.filter((value) => value !== null);
   const range = span(known);

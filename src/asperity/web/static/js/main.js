@@ -41,7 +41,7 @@ function Page() {
   return html`<${App} screens=${SCREENS}>
     ${trouble.value ? html`<p class="fault" role="alert">✗ ${trouble.value.message}</p>` : null}
     ${!listed ? html`<h1>There is no screen ${screen}</h1>` : View ? html`<${View} key=${screen} />`
-      : html`<p class="wait">One moment.</p>`}
+      : trouble.value ? null : html`<p class="wait">One moment.</p>`}
   <//>`;
 }
 

@@ -3,7 +3,7 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { Beneath } from "./figure.js";
 import { inWords, symbol } from "./symbols.js";
 import { Table } from "./table.js";
-import { readable } from "./units.js";
+import { readable, shown } from "./us.js";
 
 const TRUST = {
   verified: "✓ verified", computed: "✓ computed",
@@ -32,7 +32,7 @@ export function Num({ entry, label = false, count = 5 }) {
       : [entry.value === null ? "–" : String(entry.value), entry.unit];
   return html`<span class="num">
     ${label ? html`<span class="of">${inWords(entry.meaning)}</span> ` : null}
-    <button type="button" data-key=${entry.key} data-value=${entry.value ?? ""}
+    <button type="button" data-key=${entry.key} data-value=${entry.value ?? ""} data-unit=${entry.unit}
       title="where it comes from" aria-haspopup="dialog"
       onClick=${(event) => (asked.value = { entry, button: event.currentTarget })}>
       <b>${value}</b>${unit ? html` <i>${unit}</i>` : null}
@@ -84,6 +84,7 @@ export const Facts = ({ found, keys }) => html`<p class="facts">${keys.map((key)
   .filter((entry) => entry && entry.value !== null)
   .map((entry) => html`<${Num} key=${entry.key} entry=${entry} label count=${4} />`)}</p>`;
 
+const SHOWN = ["value", "unit"];
 const COLUMNS = [
   ["what", ({ meaning, key }) => inWords(meaning) || key], ["symbol", (entry) => symbol(entry.symbol)],
   ["value", (entry) => html`<${Num} entry=${entry} />`, "right"],
@@ -96,7 +97,8 @@ const COLUMNS = [
 export function AllNumbers({ entries, of = "" }) {
   const [open, setOpen] = useState(false);
   const columns = () => ["key", "symbol", "value", "unit", "meaning", "equation", "source"].map((label) =>
-    ({ label, values: entries.map((entry) => entry[label]) }));
+    ({ label, values: entries.map((entry) => (
+      SHOWN.includes(label) ? shown(entry.value, entry.unit)[SHOWN.indexOf(label)] : entry[label])) }));
   return html`<details class="all" onToggle=${(event) => setOpen(event.target.open)}>
     <summary>all ${entries.length} numbers</summary>
     ${open ? html`<${Table} region=${`all numbers${of}`} rows=${entries} columns=${COLUMNS} />

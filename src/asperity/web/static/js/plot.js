@@ -5,6 +5,7 @@ import { between } from "./motion.js";
 import { printed } from "./symbols.js";
 import { named } from "./table.js";
 import { digits } from "./units.js";
+import { asKept, back, column, headed, shown } from "./us.js";
 
 /**
  * @typedef {{label: string, unit?: string, values: (number | null)[], x?: number[], dash?: number[],
@@ -160,13 +161,27 @@ function Running({ part, places, dots, bottom }) {
     ${dots.map(({ colour }) => html`<circle class=${`runs fill${colour}`} r="4.5" />`)}</g>`;
 }
 
-/** @param {Shown} props */
-export function Plot(props) {
-  const { title, x, bands = [], marks = [], y, height = 260, log, xlog, range, onPick, running } = props;
+/** The same in the units that the reader is shown. @param {Shown} props @returns {Shown} */
+function inUnits(props) {
+  if (asKept()) return props;
+  const { x, series, marks, bands, y, onPick } = props;
+  const along = (place) => shown(place, x.unit)[0];
+  // Who picks is told in the unit that was given.
+  return { ...props, x: column(x), y: y && headed(y).head, onPick: onPick && ((place) => onPick(back(place, x.unit))),
+    bands: bands?.map(({ from, to }) => ({ from: along(from), to: along(to) })),
+    marks: marks?.map((each) => ({ x: along(each.x), y: shown(each.y, series[0]?.unit)[0] })),
+    series: series.map((line) => ({ ...column(line), x: line.x?.map(along), ends: /** @type {any} */ (
+      line.ends?.map((values) => values.map((each) => shown(each, line.unit)[0]))) })) };
+}
+
+/** @param {Shown} given */
+export function Plot(given) {
+  const { title, x, bands = [], marks = [], y, height = 260, log, xlog, range, onPick, running,
+    series } = inUnits(given);
   const [box, width] = useWidth();
   const [pointed, setPointed] = useState(null);
   // Of what there is no number of, nothing is drawn and nothing said.
-  const lines = props.series.map((line, place) => ({ ...line, colour: colourOf(line, place) }))
+  const lines = series.map((line, place) => ({ ...line, colour: colourOf(line, place) }))
     .filter(({ values }) => values.some(number));
   const units = [...new Set(lines.map(({ unit }) => unit ?? ""))];
   const of = (unit) => lines.filter((line) => (line.unit ?? "") === unit);

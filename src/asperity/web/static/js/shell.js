@@ -1,9 +1,10 @@
 /** What is around every screen: where to go, the case, what to take along, what went wrong. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
-import { about, forgetCase, loadAbout, post, THERE } from "./api.js";
+import { about, forgetCase, loadAbout, post, THERE, useCaseFile } from "./api.js";
 import { Behind } from "./number.js";
 import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
 import { inWords } from "./symbols.js";
+import { follow, Units } from "./us.js";
 import { visited } from "./visited.js";
 
 /**
@@ -80,6 +81,7 @@ export function App({ screens, children }) {
       ${[...new Set(screens.map(({ group }) => group))].filter((group) => group !== HIDDEN).map((group) => html`
         <div class="group" key=${group}>${group ? html`<p>${group}</p>` : null}
           <ul>${screens.filter((each) => each.group === group).map(link)}</ul></div>`)}
+      <${Units} />
     </nav>
     <main id="main" tabindex="-1">
       ${about.value && !about.value.ready ? html`<p class="wait" role="status">
@@ -98,9 +100,11 @@ const STEPS = [["undo", "↶", undo], ["redo", "↷", redo]];
 function CasePicker({ kinds, first, start = {} }) {
   const { name, settings, reset } = useCase();
   const cases = (about.value?.cases ?? []).filter(({ kind }) => kinds.includes(kind));
+  const says = settings["project.units"] ?? useCaseFile(name)?.tables.project?.units ?? "";
   useEffect(() => {
     if (!name && first) reset(first, start, true);
   }, [name]);
+  useEffect(() => (follow(says), () => follow("")), [says]);
   const option = (each) => html`<option key=${each.name} value=${each.alias || each.name}>
     ${each.alias || each.name}</option>`;
   const known = cases.find((each) => each.name === name || each.alias === name);

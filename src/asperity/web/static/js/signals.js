@@ -6,6 +6,7 @@ import { path, ticks } from "./plot.js";
 import { useCase } from "./state.js";
 import { along as sideways } from "./touch.js";
 import { digits, inUnit } from "./units.js";
+import { column } from "./us.js";
 
 /** Of the keys that say how segments are found. */
 export const OWN = "reduction.";
@@ -65,6 +66,7 @@ export function Signals({ time, signals, segments, settling_s: answered, duratio
     return html`<rect class=${`window fill${colour}`} x=${from} width=${to - from} y="4"
       height=${rows.length * ROW - 8} />`;
   };
+  const drawn = rows.map(column);
   return html`<${Figure} title="Signals, and the windows before and with vibration" kind="bare" columns=${columns}>
     <div class="scroll wide"><svg ref=${box} class="signals drawn" viewBox=${`0 0 ${WIDTH} ${height}`} role="group"
         aria-label="signals over time" onPointerMove=${move} onPointerUp=${drop} onPointerCancel=${leave}>
@@ -73,7 +75,7 @@ export function Signals({ time, signals, segments, settling_s: answered, duratio
         <text x=${along(ends(one.with)[0]) + 10} y="18">
           ${one.commanded_Hz ? `${digits(one.commanded_Hz, 4)} Hz` : "?"}${one.refused ? " ✗" : ""}</text>
       </g>`)}
-      ${rows.map(({ name, unit, values }, row) => html`<${Line} key=${name} label=${`${words(name)} (${unit})`}
+      ${drawn.map(({ name, unit, values }, row) => html`<${Line} key=${name} label=${`${words(name)} (${unit})`}
         time=${time} values=${values} along=${along} top=${row * ROW} />`)}
       ${ticks(0, duration, false, 10).map((at) => html`<text key=${at} class="tick" x=${along(at)} y=${height - 6}
         text-anchor="middle">${at}</text>`)}

@@ -2,11 +2,12 @@
 import { html, useRef } from "../vendor/preact.js";
 import * as flowing from "./flowing.js";
 import { usePlayed } from "./frames.js";
-import { digits, readable } from "./units.js";
+import { digits } from "./units.js";
+import { readable } from "./us.js";
 
-const [WIDTH, HIGH, MIDDLE, BAR] = [460, 150, [185, 275], 8];
+const [WIDTH, HIGH, MIDDLE, BAR] = [510, 150, [210, 300], 8];
 /** Where strips begin on the left, and end on the right. */
-const ENDS = [115, 345];
+const ENDS = [140, 370];
 /** Between two strips, and the least room of a label. */
 const [GAP, LINE] = [8, 38];
 /** Of what is put in, below which a strip is left out. */

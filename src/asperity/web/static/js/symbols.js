@@ -1,5 +1,6 @@
 /** Symbols set as they are printed: S_delta with its index below, mu as µ. */
 import { html } from "../vendor/preact.js";
+import { inText } from "./us.js";
 
 const GREEK = {
   alpha: "α", beta: "β", gamma: "γ", delta: "δ", epsilon: "ε", zeta: "ζ", eta: "η", theta: "θ", lambda: "λ",
@@ -13,9 +14,13 @@ const IN_WORDS = new RegExp(
   `(?<![A-Za-z0-9_.])(?:(${NAMES}|[A-Za-z]|Ra)_([A-Za-z0-9]{1,6})(?![A-Za-z0-9_.]\\w|\\w)|(mu)(?= [A-Z]_))`, "g");
 
 /** Units as they are printed: 40 degC is 40 °C, mm^2/s is mm²/s. @param {string} text */
-export const printed = (text) => String(text ?? "").replace(/\bdeg([CF])\b/g, "°$1").replace(/(?:\^|\*\*)2\b/g, "²")
+const print = (text) => String(text ?? "").replace(/\bdeg([CF])\b/g, "°$1")
+  .replace(/(?:\^|\*\*)2\b/g, "²")
   .replace(/(?:\^|\*\*)3\b/g, "³").replace(/(?<=\d |\()u(?=[mAVNs]\b)/g, "µ").replace(/(?<=\d) deg\b/g, "°")
   .replace(/\(deg\)/g, "(°)");
+
+/** The same in the units that the reader is shown. @param {string} text */
+export const printed = (text) => print(inText(text));
 
 /** @returns {{text: string, below: string}[]} pieces of a text, each with what stands below it */
 export function pieces(text, pattern = SYMBOL) {
@@ -40,4 +45,6 @@ export const symbol = (text) => set(text, SYMBOL);
 /** The same where nothing can stand below a letter. @param {string} text */
 export const plain = (text) => String(text ?? "").replace(/\bmu (?=[A-Z]_)/g, "µ ");
 /** A sentence with symbols in it. @param {string} text */
-export const inWords = (text) => set(text, IN_WORDS);
+export const inWords = (text) => set(inText(text), IN_WORDS);
+/** What somebody wrote, in the units that it has. @param {string} text */
+export const quoted = (text) => set(print(text), IN_WORDS);

@@ -3,6 +3,7 @@ import { html, useEffect, useRef, useState } from "../vendor/preact.js";
 import { fetchRaw, useAddress, useAsked } from "./api.js";
 import { inWords, symbol } from "./symbols.js";
 import { Table } from "./table.js";
+import { again, headed, inText, shown, to } from "./us.js";
 import { placeOf } from "./work.js";
 
 /** What stands for the command of a job of any. */
@@ -26,8 +27,29 @@ export function Drawn({ id, file, alt, kind }) {
   return html`<div class=${kind} ref=${box}>${source ? html`<img src=${source} alt=${alt} />` : null}</div>`;
 }
 
+/** Columns of which nothing is shown in other units. */
+const KEPT = ["equation", "source", "as written", "key", "keys"];
+const NUMBERS = /^[-+\d.eE]+(?: to [-+\d.eE]+)*$/;
+
+/** A table in the units that the reader is shown: by its column of units, or by those above numbers. */
+function inUnits({ columns, rows, title, remarks }) {
+  const place = columns.findIndex(({ heading }) => heading === "unit");
+  const heads = columns.map(({ heading }) => headed(heading));
+  const all = headed(title);
+  const cell = (text, unit, { heading, right, typeset }) => (typeset || KEPT.includes(heading) ? text
+    : right && to(unit) && NUMBERS.test(text) ? text.replace(/[-+\d.eE]+/g, (each) => again(each, unit))
+    : inText(text));
+  return {
+    title: place < 0 ? all.head : inText(title), remarks: remarks.map(inText),
+    columns: columns.map((one, at) => ({ ...one, heading: place < 0 ? heads[at].head : one.heading })),
+    rows: rows.map((row) => row.map((text, at) => (at === place ? shown(0, text)[1]
+      : cell(text, place < 0 ? heads[at].unit || all.unit : row[place], columns[at])))),
+  };
+}
+
 /** @param {{title: string, columns: any[], rows: string[][], remarks: string[], name: string}} props */
-function One({ title, columns, rows, remarks, name }) {
+function One({ name, ...told }) {
+  const { title, columns, rows, remarks } = inUnits(told);
   const cell = ({ typeset }, at) => (row) => (typeset ? symbol(row[at]) : inWords(row[at]));
   const shown = columns.map((one, at) => [inWords(one.heading), cell(one, at), one.right ? "right" : at ? "" : "row"]);
   return html`${rows.length ? html`<${Table} kind="of-command" caption=${title && inWords(title)} columns=${shown}

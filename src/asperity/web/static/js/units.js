@@ -7,7 +7,7 @@ const PLAIN = {
 const WHOLE = {
   deg: Math.PI / 180, rpm: 2 * Math.PI / 60, min: 60, h: 3600, "%": 0.01, bar: 1e5, kg: 1, mm: 1e-3,
   in: 0.0254, inch: 0.0254, ft: 0.3048, foot: 0.3048, mil: 2.54e-5, lb: 0.45359237, lbf: 4.4482216152605,
-  kgf: 9.80665, psi: 6894.757293168, ksi: 6894757.293168,
+  kgf: 9.80665, hp: 745.69987158227022, psi: 6894.757293168, ksi: 6894757.293168,
 };
 
 function simple(name) {
@@ -21,7 +21,7 @@ function simple(name) {
 export function factor(unit) {
   const [over, ...under] = unit.trim().split("/");
   const product = (text) =>
-    text.split(/[\s*]+/).reduce((made, name) => made * simple(name), 1);
+    text.split(/[\s*·]+/).reduce((made, name) => made * simple(name), 1);
   return under.reduce((made, text) => made / product(text), product(over));
 }
 

@@ -157,6 +157,10 @@ export function useData({ from, job }, names) {
   return useAsked(path, (leave) => get(path, leave)).found;
 }
 
+/** What lies one after the other, as rows. */
+export const rows = ({ shape: [count, width], values }) =>
+  Array.from({ length: count }, (_, row) => values.slice(row * width, (row + 1) * width));
+
 /** A time in words. */
 export function lasting(seconds) {
   /** @type {[number, string][]} */
@@ -213,7 +217,7 @@ export function Work({ work, label }) {
 /** A job in a box of its own: what it is, how long it takes, how far it is, and what came of it. */
 export const WorkPanel = ({ title, name, says, label, work, children }) => html`
   <section class="panel" aria-label=${name ?? title}><h2>${title}</h2>
-    ${says ? html`<p class="says">${says}</p>` : null}
+    ${says ? html`<p class="says to-press">${says}</p>` : null}
     <${Work} work=${work} label=${label} />
     <div class=${work.stale ? "before" : ""}>
       ${work.data ? html`<${Notes} notes=${work.data.notes} />` : null}

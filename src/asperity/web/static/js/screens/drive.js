@@ -2,28 +2,22 @@
 import { html, useMemo } from "../../vendor/preact.js";
 import { useAsked, useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
-import { span } from "../colours.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
-import { Gears, Way } from "../gears.js";
-import { FlankMap } from "../map.js";
+import { Gears } from "../gears.js";
 import { AllNumbers, byKey, Facts, Num } from "../number.js";
-import { Plot } from "../plot.js";
 import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { Strips } from "../strips.js";
-import { route, setParam, useCase } from "../state.js";
+import { useCase } from "../state.js";
 import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { amount } from "../us.js";
+import { firstError, rows, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
   ["power_friction_W", "friction", -1], ["power_damping_W", "damping", -1], ["power_stored_W", "stored", -1]];
-const RANKINGS = {
-  per_micrometre: "most saved for a micrometre", per_watt: "most saved for a watt of the actuator",
-  by_force: "least force on the teeth",
-};
 const BOUNDS = {
   velocity_ratio: { low: 0.01, high: 100, unit: "" }, velocity_amplitude: { low: 0.01, high: 10, unit: "m/s" },
   displacement_amplitude: { low: 0.1, high: 500, unit: "um" },
@@ -31,15 +25,6 @@ const BOUNDS = {
 const UNDER = ["phase", "tooth_force", "load", "pattern", "node_radius", "node_face", "faces"];
 const WORTH = ["saved_per_actuator_W_W", "actuator_electrical_W", "actuator_apparent_VA", "force_max_N", "open_share",
   "second_flank_share", "resonance_worm_Hz", "resonance_wheel_Hz"];
-const LOADED = ["efficiency", "input_torque_Nm", "transmission_error_rad", "load_share_max", "pressure_flank_MPa",
-  "pressure_worm_tip_MPa", "force_worm_tip_N", "pressure_wheel_tip_MPa", "force_wheel_tip_N", "pressure_mean_MPa",
-  "flow_pressure_MPa"];
-const HELD = ["holding_share", "threshold_m", "threshold_closed_form_m", "creep_rad_s"];
-const DASHES = [[], [6, 4], [2, 3], [8, 3, 2, 3]];
-
-/** What lies one after the other, as rows. */
-const rows = ({ shape: [count, width], values }) =>
-  Array.from({ length: count }, (_, row) => values.slice(row * width, (row + 1) * width));
 
 const less = (ratio) => (typeof ratio !== "number" ? "."
   : `: the motor gives ${digits(100 * Math.abs(1 - ratio), 3)} % ${ratio < 1 ? "less" : "more"}.`);
@@ -61,7 +46,7 @@ function Ledger({ answer, found }) {
     html`<${Sided} value=${sign * answer[key]} most=${most} kind=${sign > 0 ? "more" : "less"} />`;
   const powers = POWERS.map(([key, name, sign]) => ({ name, value: sign * answer[key] }));
   return html`<${Strips} powers=${powers} label="mean powers" />
-    <${Table} kind="bars" caption="Mean powers: what is put in, right, is what goes, left" rows=${POWERS}
+    <${Table} kind="bars" caption="Mean powers: to the right what is put in, to the left where it goes" rows=${POWERS}
       columns=${[["", ([, said]) => said, "row"], ["", bar],
         ["", ([key]) => html`<${Num} entry=${found[key]} count=${4} />`, "right"]]} />
     <p class="says">what is missing, over what is put in: ${digits(answer.closure, 2)}</p>`;
@@ -84,90 +69,27 @@ function Worth({ answer, found }) {
     ${answer.settled && answer.motor_shaken ? html`<p>
       <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
       ${` motor ${answer.motor_shaken} for ${answer.motor_plain}; with the actuator `}
-      ${digits(answer.saved_mass_kg, 3)} kg saved</p>` : null}
+      ${amount(answer.saved_mass_kg, "kg", 3)} saved</p>` : null}
     <${Facts} found=${found} keys=${WORTH} />`;
 }
 
-function Pattern({ data, found }) {
-  const value = (name, times = 1) => data[name].values.map((each) => times * each);
-  const loads = value("load");
-  const at = Number(route.value.params.load ?? loads.length - 1);
-  const values = rows(data.pattern)[at].map((pressure) => pressure / 1e6);
-  const force = rows(data.tooth_force);
-  const sums = force.map((row) => row.reduce((sum, each) => sum + each, 0));
-  const teeth = force[0].map((_, tooth) => force.map((row, n) => row[tooth] / sums[n]));
-  const series = teeth.filter((shares) => Math.max(...shares) > 1e-3)
-    .map((shares, n) => ({ label: `tooth ${n + 1}`, values: shares, dash: DASHES[n % DASHES.length] }));
-  return html`<p class="choice"><label for="load">torque of the wheel</label>${" "}
-      <select id="load" value=${String(at)} onChange=${(event) => setParam("load", event.target.value)}>
-        ${loads.map((load, n) => html`<option value=${String(n)}>${digits(load, 4)} N m</option>`)}</select></p>
-    <div class="pair">
-      <${FlankMap} title="Where it bears over a pitch, and how hard" label="largest pressure" unit="MPa"
-        x=${value("node_face", 1e3)} y=${value("node_radius", 1e3)} cells=${rows(data.faces)} values=${values}
-        range=${[0, span(values)[1]]} />
-      <${Plot} title="Share of each tooth" series=${series} x=${{
-        label: "angle of the worm", unit: "°", values: value("phase", 180 / Math.PI) }} /></div>
-    <${Facts} found=${found} keys=${LOADED} />`;
+/** A part of the screen that is loaded once what stands above it does. */
+function Later({ load, part, ...given }) {
+  const { found } = useAsked(part, load);
+  return found ? html`<${found[part]} ...${given} />` : null;
 }
-
-/** What is no prediction stands in brackets. */
-const bracketed = (text, settled) => (settled ? text : `(${text})`);
-
-/** The ways side by side, each taken by a click. */
-function Ways({ answer, geometry, speed }) {
-  const { set } = useCase();
-  return html`<div class="ways">${answer.directions.map((way) => html`<${Way} key=${way.mode} mode=${way.mode}
-      geometry=${geometry} speed=${speed}>
-    <p>${way.settled ? html`<b>${digits(way.torque_ratio, 3)}</b> of the torque, ${digits(way.saved_W, 3)} W saved`
-      : html`<${Verdict} ok=${false} no="not settled" />: no saving is told`}</p>
-    <button type="button" onClick=${() => set("vibration.mode", way.mode)}>take ${way.mode}</button><//>`)}</div>`;
-}
-
-function Directions({ answer }) {
-  const number = (said, key, count = 4) => [said, (way) => digits(way[key] ?? NaN, count), "right"];
-  return html`<${Table} region="directions" rows=${answer.directions} columns=${[
-      ["way", ({ mode }) => mode, "row"],
-      ["torque ratio", (way) => bracketed(digits(way.torque_ratio, 4), way.settled), "right"],
-      number("balance", "torque_balance", 2),
-      ["state", (way) => html`<${Verdict} ok=${way.settled} yes="settled" no="not settled" />`],
-      number("saved (W)", "saved_W"), number("per µm (W)", "saved_per_micrometre_W"),
-      number("per W", "saved_per_actuator_W_W"), number("force", "force_ratio"),
-    ]} />
-    <ul class="plain">${Object.entries(answer.rankings).map(([key, order]) =>
-      html`<li>${RANKINGS[key]}: ${order.join(", ") || "none settled"}</li>`)}</ul>`;
-}
-
-function Locking({ answer, found, data }) {
-  const x = data && { label: "amplitude", unit: "µm", values: data.amplitude.values.map((u) => 1e6 * u) };
-  const loose = data?.settled_over?.values.map((stays) => stays === 0) ?? [];
-  return html`<p class="big"><${Verdict} ok=${answer.locked}
-      yes="holds its load without vibration" no="runs back without vibration" /></p>
-    ${answer.settled ? null
-      : html`<p role="status">The creep has not settled, no prediction: ${inWords(answer.settled_by)}.</p>`}
-    <${Facts} found=${found} keys=${HELD} />
-    ${data ? html`<${Plot} title="Creep of the wheel, the motor off" y="creep (rad/s)" x=${x} xlog=${true} series=${[
-      { label: "marched", unit: "rad/s", values: data.creep_over.values, points: "round" },
-      { label: "far beyond the threshold, closed form", unit: "rad/s", values: data.creep_limit.values, dash: [6, 4] },
-      ...(loose.some(Boolean) ? [{ label: "not settled", unit: "rad/s", points: "square", bare: true, colour: 6,
-        values: data.creep_over.values.map((value, at) => (loose[at] ? value : null)) }] : []),
-    ]} />` : null}`;
-}
-
-/** What is further asked, loaded once the screen stands. */
-function Later(given) {
-  const { found } = useAsked("further", () => import("../further.js"));
-  return found ? html`<${found.Further} ...${given} />` : null;
-}
+const below = () => import("../below.js");
+const further = () => import("../further.js");
 
 export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: {} } : null;
   const shaken = useJob("drive", body, "", true);
   // The answer and its picture come first, what stands below them after that.
-  const below = useAfter(Boolean(shaken.data || shaken.error || shaken.job)) ? body : null;
-  const loaded = useJob("drive", below && { ...below, options: { static: true } }, "-static", true);
-  const ways = useJob("directions", below, "", true);
-  const held = useJob("locking", below, "", true);
+  const standing = useAfter(Boolean(shaken.data || shaken.error || shaken.job)) ? body : null;
+  const loaded = useJob("drive", standing && { ...standing, options: { static: true } }, "-static", true);
+  const ways = useJob("directions", standing, "", true);
+  const held = useJob("locking", standing, "", true);
   const { geometry } = useLive("rate", body && { case: name, settings }, 200).data?.answer ?? {};
   const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const mode = useValue("vibration.mode").text;
@@ -198,16 +120,18 @@ export function view() {
           <${AllNumbers} entries=${shaken.data.entries} />` : null}<//>
       <${WorkPanel} title="Under load" name="under load" label="load it" work=${loaded}
           says="A minute or two: elastic teeth at several angles of the worm.">
-        ${under ? html`<${Pattern} data=${under} found=${still} />` : null}<//>
+        ${under ? html`<${Later} load=${below} part="Pattern" data=${under} found=${still} />` : null}<//>
       <${WorkPanel} title="Which way to shake it" name="which way" label="try each way" work=${ways}
           says="As long as shaking it once for each of the ways.">
         ${ways.data && geometry && speed
-          ? html`<${Ways} answer=${ways.data.answer} geometry=${geometry} speed=${speed} />` : null}
-        ${ways.data ? html`<${Directions} answer=${ways.data.answer} />` : null}<//>
+          ? html`<${Later} load=${below} part="Ways" answer=${ways.data.answer} geometry=${geometry}
+            speed=${speed} />` : null}
+        ${ways.data ? html`<${Later} load=${below} part="Directions" answer=${ways.data.answer} />` : null}<//>
       <${WorkPanel} title="Does it hold when the motor stops?" name="locking" label="take the motor off" work=${held}
           says="A minute or several: it is marched at several amplitudes.">
-        ${held.data ? html`<${Locking} answer=${held.data.answer} found=${holding} data=${creep} />` : null}<//>
-      ${below ? html`<${Later} name=${name} settings=${settings} />` : null}
+        ${held.data ? html`<${Later} load=${below} part="Locking" answer=${held.data.answer} found=${holding}
+          data=${creep} />` : null}<//>
+      ${standing ? html`<${Later} load=${further} part="Further" name=${name} settings=${settings} />` : null}
     </section></div>
   <//>`;
 }

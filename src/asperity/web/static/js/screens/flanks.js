@@ -16,6 +16,7 @@ import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
+import { amount } from "../us.js";
 import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
@@ -186,7 +187,7 @@ function Over({ gears, shown: { layer, side, values, range }, phi }) {
   const counted = (found, count) => fine.map((_, n) => found[Math.round((n * count) / STEPS) % found.length]);
   const counts = [
     { label: "rigid", values: counted(teeth, teeth.length - 1) },
-    { label: `gap under ${digits(film, 2)} µm`, values: counted(marked, marked.length - 1), dash: [6, 4] },
+    { label: `gap under ${amount(film, "µm", 2)}`, values: counted(marked, marked.length - 1), dash: [6, 4] },
     ...(loaded ? [{ label: "under load", values: counted(loaded.teeth, loaded.teeth.length), dash: [2, 3] }] : []),
   ];
   return html`<div class="grid" ref=${box}>${map}

@@ -12,6 +12,7 @@ import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { printed, symbol } from "../symbols.js";
 import { Table } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
+import { amount, written } from "../us.js";
 
 /** What stands side by side: a meaning, and its key by each standard. */
 const SIDE_BY_SIDE = [
@@ -58,7 +59,7 @@ function Fitting({ error, settings, geometry, setAll }) {
   const module = (inUnit(wanted, "mm") / geometry.centre_distance_mm) * geometry.axial_module_mm;
   const fit = () => setAll({ "gearset.axial_module": `${Number(module.toPrecision(6))} mm` });
   return html`<p><button type="button" class="main" onClick=${fit}>
-    the same shape at ${wanted}: axial module ${digits(module, 4)} mm</button></p>`;
+    the same shape at ${written(wanted)}: axial module ${amount(module, "mm")}</button></p>`;
 }
 
 /** Where the torque is lower than that through the travel: the latter in its usual part, or left out. */
@@ -70,17 +71,19 @@ function Travel({ error, setAll }) {
   const wanted = text(valve ? number / 3 : number, unit);
   return Number.isNaN(number) ? null : html`<p><button type="button" class="main"
     onClick=${() => setAll({ "operation.through_travel_torque": wanted })}>
-    ${valve ? "a third" : "all"} of it through the travel: ${wanted}</button></p>`;
+    ${valve ? "a third" : "all"} of it through the travel: ${written(wanted)}</button></p>`;
 }
 
-/** The ratio; another one is a question for Size, with the torque and speed that are set. */
-function Ratio({ geometry }) {
-  const [torque, speed] = ["output_torque", "worm_speed"].map((key) => useValue(`operation.${key}`).text);
+/** The ratio as the teeth have it; another one is a question for Size, with the torque and speed that are set. */
+function Ratio() {
+  const [teeth, starts, torque, speed] = ["gearset.wheel_teeth", "gearset.starts", "operation.output_torque",
+    "operation.worm_speed"].map((path) => useValue(path).text);
+  const ratio = Number(teeth) / Number(starts);
   // What is set may not be known yet, though an answer that ships is shown.
-  const ask = (ratio) => torque && go("size", { ...caseParams(route.peek().params), ratio, output_torque: torque,
-    worm_speed: speed });
+  const ask = (other) => torque && go("size", { ...caseParams(route.peek().params), ratio: other,
+    output_torque: torque, worm_speed: speed });
   return html`<div class="field"><label for="ratio">ratio</label>
-    <${Box} id="ratio" text=${geometry && torque ? digits(geometry.gear_ratio) : ""} onSet=${ask}
+    <${Box} id="ratio" text=${ratio > 0 && ratio < Infinity ? digits(ratio) : ""} onSet=${ask}
       describedby="ratio-says" />
     <p class="says" id="ratio-says">another ratio: gearsets that hold at this torque and speed are proposed</p></div>`;
 }
@@ -98,7 +101,7 @@ function tried(sway, geometry, rise, setAll) {
     const why = !path ? ", teeth are whole" : alone ? "" : `, which alone needs a profile shift of ${digits(shift, 2)}`;
     return {
       name, change: efficiency === null ? null : 100 * (efficiency - sway.eta_z1_2),
-      says: printed(`${words(name)}${path ? ` to ${digits(value, 4)} ${unit}`.trimEnd() : ` +${rise} %`}${why}`),
+      says: printed(`${words(name)}${path ? ` to ${amount(value, unit)}` : ` +${rise} %`}${why}`),
       why: found.reason ?? "no answer", pick: alone ? () => setAll(texts) : undefined,
     };
   });
@@ -112,7 +115,8 @@ function Drawing({ svg, geometry }) {
     ({ label: ["size", "value"][part], values: sizes.map((each) => (part ? each[1] : each[0])) }));
   return html`<section class="panel"><h2>To scale</h2>
     ${address ? html`<img class="drawing" src=${address}
-      alt="the gearset along the wheel's axis, to scale, with its main sizes" />` : null}
+      alt="the gearset along the wheel's axis, to scale, with its main sizes" />
+      <p class="says">Lengths in mm.</p>` : null}
     <${Beneath} title="To scale" svg=${() => svg} columns=${columns} /></section>`;
 }
 
@@ -234,7 +238,7 @@ export function view() {
     <${Travel} error=${error} setAll=${setAll} />
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
     <div class="columns headed moving">
-      <div class="controls"><${Ratio} geometry=${answer?.geometry} />
+      <div class="controls"><${Ratio} />
         <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} /><//></div>
       <div class="headline said-first">${answer ? html`<${Headline} verdict=${answer.verdict} />` : null}</div>
       ${answer && speed ? html`<${Gears} geometry=${answer.geometry} speed=${speed} />` : null}
@@ -251,7 +255,7 @@ export function view() {
         ${sway ? html`<${Efficiency} sway=${sway} geometry=${answer.geometry} setAll=${setAll} />` : null}
         <${Locking} locking=${answer.self_locking} />
         <${AllNumbers} entries=${data.entries} />
-      </div>` : html`<p class="wait shown">One moment.</p>`}
+      </div>` : error ? null : html`<p class="wait shown">One moment.</p>`}
     </div>
   <//>`;
 }

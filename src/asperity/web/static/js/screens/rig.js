@@ -11,6 +11,7 @@ import { OWN, Refusals, Signals } from "../signals.js";
 import { go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { digits } from "../units.js";
+import { headed } from "../us.js";
 import { Files, placeOf, useJob, useShipped, Work, WorkPanel } from "../work.js";
 
 const EXPORTS = ".csv,.txt,.asc,.lvm,.dat,.mat,.tdms,.wav,.sr,.mf4,.nc";
@@ -154,6 +155,7 @@ const NUMBERS = [
   ["torque with (N m)", "torque_with_Nm"], ["change (%)", "torque_change_percent"], [html`k<sub>v</sub>`, "k_v"],
   ["sliding before (mm/s)", "sliding_velocity_before_mm_s"],
 ];
+const plain = (head) => ({ head, of: (value) => value });
 const percent = (ratio) => (ratio === null ? null : 100 * (ratio - 1));
 const shown = (value) => (value === null ? "–" : digits(value, 4));
 
@@ -182,8 +184,9 @@ function Levels({ segments }) {
   return html`<section class="panel" aria-label="levels"><h2>What vibration did</h2>
     <${Table} region="levels of all segments" wide="levels" rows=${segments} columns=${[
       ["segment", (_, at) => at + 1, "row"],
-      ...NUMBERS.map(([said, key]) =>
-        [said, (one) => html`<span data-key=${key} data-value=${one[key]}>${shown(one[key])}</span>`, "right"]),
+      ...NUMBERS.map(([said, key]) => ({ key, ...(typeof said === "string" ? headed(said) : plain(said)) }))
+        .map(({ key, head, of }) => [head, (one) =>
+          html`<span data-key=${key} data-value=${one[key]}>${shown(of(one[key]))}</span>`, "right"]),
       ["95 % interval (%)", (one) => one.torque_change_ci95_percent?.map(shown).join(" to ") ?? "–", "right"],
       ["model (%)", (one) => shown(percent(one.model_ratio)), "right"], ["quality", quality]]} />
     ${used.length ? html`<${Plot} title="Measured change of torque, its interval, and the model" x=${x} y="change (%)"

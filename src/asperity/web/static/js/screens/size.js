@@ -9,6 +9,7 @@ import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
 import { digits, split } from "../units.js";
+import { amount, headed, withUnitOf, written } from "../us.js";
 import { useJob, useTaken, WorkPanel } from "../work.js";
 
 const ASKED = [["ratio", "ratio", "15"], ["output_torque", "torque of the wheel", "300 N m"],
@@ -43,7 +44,7 @@ function smallest(proposals) {
   const [first] = proposals.filter(({ holds }) => holds)
     .toSorted((one, other) => one.centre_distance_mm - other.centre_distance_mm);
   return first ? `; the smallest is ${first.wheel_teeth}:${first.starts} with a = ${
-    digits(first.centre_distance_mm, 4)} mm` : "";
+    amount(first.centre_distance_mm, "mm")}` : "";
 }
 
 const limit = (path) => {
@@ -104,13 +105,14 @@ function Proposals({ found, options, through, parts }) {
     ...(through && { [THROUGH]: `${Number((torque / parts).toPrecision(12))} ${unit}` }),
   });
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
-    a = ${one.centre_distance_mm} mm, ${one.wheel_teeth}:${one.starts}, m = ${one.axial_module_mm} mm`}>take</button>`;
-  return html`<${Table} region="proposals" wide="whole" kind="middle" rows=${sorted} columns=${[
+    a = ${amount(one.centre_distance_mm, "mm", 12)}, ${one.wheel_teeth}:${one.starts}, m = ${
+    amount(one.axial_module_mm, "mm", 12)}`}>take</button>`;
+  return html`<${Table} region="proposals" wide="whole proposals" kind="middle" rows=${sorted} columns=${[
     ["open", open], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
-    ...COLUMNS.map(([key, said, count]) => [
+    ...COLUMNS.map(([key, said, count]) => ({ key, count, ...headed(said) })).map(({ key, count, head, of }) => [
       html`<button type="button" class="quiet" onClick=${() => sort(key)}>
-        ${said}${by === key ? (way === "up" ? " ▲" : " ▼") : ""}</button>`,
-      (one) => digits(one[key], count), "right",
+        ${head}${by === key ? (way === "up" ? " ▲" : " ▼") : ""}</button>`,
+      (one) => digits(of(one[key]), count), "right",
       { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none" },
     ]),
     ...(found.some(({ hob }) => hob) ? [["hob", ({ hob }) => hob]] : []),
@@ -160,8 +162,9 @@ function TradeOff({ answer }) {
     const far = (at) => Math.abs(torques[at] - x);
     apply(settingsOf(curve, torques.reduce((best, _, at) => (far(at) < far(best) ? at : best), 0)));
   };
+  const permitted = headed("permissible torque (N m)");
   const take = ({ says, torque, settings }) => html`<button type="button" onClick=${() => apply(settings)}
-    aria-label=${`take ${says}, ${digits(torque, 4)} N m`}>take</button>`;
+    aria-label=${`take ${says}, ${amount(torque, "N m")}`}>take</button>`;
   return html`<${Plot} title="Efficiency against permissible torque" y="efficiency (%)" onPick=${pick} height=${320}
       x=${{ label: "permissible torque by BS 721", unit: "N m", values: torques }}
       series=${[
@@ -170,7 +173,7 @@ function TradeOff({ answer }) {
     <p class="says to-press">A click on the curve opens that gearset.</p>
     <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
       ["open", take], ["design", ({ says }) => says],
-      ["permissible torque (N m)", ({ torque }) => digits(torque, 4), "right"],
+      [permitted.head, ({ torque }) => digits(permitted.of(torque), 4), "right"],
       ["efficiency (%)", ({ efficiency }) => digits(100 * efficiency, 4), "right"], ["verdict", verdict],
     ]} />`;
 }
@@ -223,11 +226,12 @@ export function view() {
       actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
     ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold ${
-      options.output_torque} at ${options.ratio}:1 and ${options.worm_speed} by every standard${
+      written(options.output_torque)} at ${options.ratio}:1 and ${options.worm_speed} by every standard${
       smallest(answer.proposals)}.</p>` : null}
     <section class="panel" aria-label="what is asked"><div class="row asks-for">
       ${ASKED.map(([key, said]) => html`<label class="asked">${said}
-        <${Box} text=${options[key]} label=${said} onSet=${(text) => setParam(key, text)} /></label>`)}
+        <${Box} text=${written(options[key])} label=${said}
+          onSet=${(text) => setParam(key, withUnitOf(text, options[key]))} /></label>`)}
       <span class="asked"><label for="rank">best in</label>
         <select id="rank" value=${rank} onChange=${(event) => setParam("rank", event.target.value)}>
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
@@ -236,10 +240,10 @@ export function view() {
       ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil,
           materials, roughness and life are the case's${loads ? html`, and so are its loads (${loads}), which
           wear, pitting and heat are judged by; strength is by the torque above` : null}${through
-          ? html`; its torque through the travel, ${through}, is not, since it goes with another torque: ${parts === 3
-          ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>
+          ? html`; its torque through the travel, ${written(through)}, is not, since it goes with another torque: ${
+          parts === 3 ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>
         <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
-        : html`<p class="wait">One moment.</p>`}
+        : sized.error ? null : html`<p class="wait">One moment.</p>`}
     </section>
     <${WorkPanel} title=${`What a higher torque costs ${name}`} name="trade-off" work=${work}
       label="find the most efficient designs" says="Of the gearset of the case as it is, with its own torque and

@@ -9,7 +9,8 @@ import { ReportOf } from "../report.js";
 import { Screen } from "../shell.js";
 import { moment, Stage } from "../stage.js";
 import { route, setParam, useCase } from "../state.js";
-import { digits, inUnit, readable } from "../units.js";
+import { digits, inUnit } from "../units.js";
+import { readable, written } from "../us.js";
 
 const START = { "solve.method": "periodic" };
 /** How long nothing must change before a curve is asked, ms. */
@@ -174,7 +175,7 @@ function curveBody({ name, settings }, over, k) {
 function told({ case: name, settings, options }) {
   const hidden = ["solve.method", ...OWN[options.over]];
   const said = Object.entries(settings).filter(([path]) => !hidden.includes(path));
-  return [name, ...said.map(([path, text]) => `${words(path.split(".")[1])} ${text}`)].join(", ");
+  return [name, ...said.map(([path, text]) => `${words(path.split(".")[1])} ${written(text)}`)].join(", ");
 }
 
 /** Curves that are pinned, asked for once each. */

@@ -10,6 +10,7 @@ import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
 import { inWords, plain, printed } from "../symbols.js";
 import { digits, split } from "../units.js";
+import { amount, withUnitOf, written } from "../us.js";
 import { dataOf, Files, lasting, useJob, Work } from "../work.js";
 
 const SLIDE = { tables: ["slider", "friction", "vibration", "normal"], rest: ["solve"], verb: "slide", shown: "ratio",
@@ -85,7 +86,8 @@ function AxisForm({ name, label, axis, tables, file }) {
     setParam(name, textOf({ path, from, to, points: "11", spacing: field.log ? "log" : "even" }));
   };
   const numeric = ({ kind }) => ["quantity", "number", "integer"].includes(kind);
-  const boxes = axis ? [["from", axis.from, (from) => change({ from })], ["to", axis.to, (to) => change({ to })],
+  const boxes = axis ? [["from", written(axis.from), (from) => change({ from: withUnitOf(from, axis.from) })],
+    ["to", written(axis.to), (to) => change({ to: withUnitOf(to, axis.to) })],
     ["points", axis.points, (points) => change({ points }), !axis.count]] : [];
   return html`<fieldset><legend>${label}</legend>
     <div class="field"><label for=${`${name}-path`}>key</label>
@@ -151,8 +153,8 @@ function Least({ title, unit, values, loose, axes }) {
   const count = axes.at(-1).values.length;
   const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
   const where = axes.map(({ label, unit: of, values: all }, k) =>
-    printed(`${label} ${digits(all[places[k]], 4)} ${of}`.trim()));
-  return html`<p class="big">Least: <b>${digits(value, 3)}</b> ${unit} at ${where.join(", ")}${" "}
+    printed(`${label} ${amount(all[places[k]], of)}`));
+  return html`<p class="big">Least: <b>${amount(value, unit, 3)}</b> at ${where.join(", ")}${" "}
     <span class="says">${inWords(title)}</span></p>`;
 }
 

@@ -5,6 +5,7 @@ import { Beneath } from "../figure.js";
 import { ReportNow } from "../report.js";
 import { Screen } from "../shell.js";
 import { route, setParam } from "../state.js";
+import { quoted } from "../symbols.js";
 import { Table } from "../table.js";
 import { useShipped } from "../work.js";
 
@@ -83,14 +84,14 @@ function unmade({ claims, figures, folder }) {
 
 const COLUMNS = [
   ["claim", ({ id }) => id, "row"],
-  ["what it says", ({ text, section, said }) => html`${text} <span class="says">Section ${section}.</span>
+  ["what it says", ({ text, section, said }) => html`${quoted(text)} <span class="says">Section ${section}.</span>
     ${said.map((words) => html`<p class="says" key=${words}>${words}</p>`)}`],
-  ["thesis", ({ theirs }) => theirs],
-  ["here", ({ id, ours, why, how, line, kept }) => html`${ours || "–"}
+  ["thesis", ({ theirs }) => quoted(theirs)],
+  ["here", ({ id, ours, why, how, line, kept }) => html`${quoted(ours || "–")}
     ${kept ? null : html`<p class="says">${ours ? "as it ships, " : ""}not made here</p>`}
     <details><summary aria-label=${`claim ${id}: ${kept || why ? "why" : "how"}`}>${
       kept || why ? "why" : "how"}</summary>
-    ${why ? html`<p>${why}</p>` : null}<${How} lines=${kept ? how : [line]} /></details>`],
+    ${why ? html`<p>${quoted(why)}</p>` : null}<${How} lines=${kept ? how : [line]} /></details>`],
   ["verdict", ({ verdict }) => {
     const [sign, word, colour] = VERDICTS[verdict];
     return html`<span class=${`verdict ${colour}`}>${sign} ${word}</span>`;
@@ -105,7 +106,7 @@ function Chapter({ number, title, text, claims, figures }) {
   ].map(([label, key]) => ({ label, values: claims.map((one) => one[key]) }));
   const made = figures.filter(({ kept }) => kept).length;
   return html`<section class="panel" aria-label=${`chapter ${number}`}>
-    <h2>${number} ${title}</h2><p class="says">${text}</p>
+    <h2>${number} ${title}</h2><p class="says">${quoted(text)}</p>
     ${claims.length ? html`<${Table} region=${`claims of chapter ${number}`} wide="claims"
         rows=${claims.map((one) => ({ ...one, key: one.id }))} columns=${COLUMNS} />
       <${Beneath} title=${`Claims of chapter ${number}`} columns=${columns} />` : null}

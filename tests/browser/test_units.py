@@ -1,0 +1,172 @@
+"""Units of the US on the page: each number as `--units us` shows it, a switch that stays."""
+
+import re
+
+import pytest
+from apparatus.browser import answered, copied, settled
+from playwright.sync_api import expect
+
+from asperity.files.shipped import shipped_case
+from asperity.results.system import US, converted, shown_in
+
+INCH, POUND_FORCE = 0.0254, 4.4482216152605
+PREFIXES = {"": 1.0, "G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
+SUPERSCRIPT = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+# What a US unit is of the unit that the entry has; of the page's own besides, which are smaller.
+SMALLER = {("m", "µin"): 1e6 / INCH, ("m/s", "in/s"): 1.0 / INCH}
+EVERY = """() => [...document.querySelectorAll("main .num button")].map((button) => ({
+  key: button.dataset.key, value: button.dataset.value, of: button.dataset.unit,
+  text: button.querySelector("b").textContent,
+  unit: button.querySelector("i")?.textContent.trim() ?? "",
+}))"""
+
+
+def choose(page, system):
+    page.get_by_label("units", exact=True).select_option(system)
+    settled(page)
+
+
+def numbers(page):
+    """Return every number of the screen that opens: its key, what it is, how it is shown."""
+    found = [
+        one
+        for one in page.evaluate(EVERY)
+        if re.fullmatch(r"-?\d+(\.\d+)?(e[-+]?\d+)?", one["value"])
+    ]
+    return {f"{n} {one['key']}": one for n, one in enumerate(found)}
+
+
+def read(text):
+    """Return a number as it is printed, 3.1·10⁻⁵ too."""
+    mantissa, _, power = text.replace("−", "-").partition("·10")
+    return float(mantissa) * 10.0 ** float(power.translate(SUPERSCRIPT) or 0)
+
+
+def in_si(text, shown, unit):
+    """Return what is shown in SI in the unit of its entry."""
+    if shown == unit:
+        return read(text)
+    if unit == "rad":
+        return read(text) * {"deg": 0.017453292519943295, "µrad": 1e-6}[shown]
+    return read(text) * PREFIXES[shown.removesuffix(unit)]
+
+
+def in_us(value, shown, unit):
+    """Return what a value of an entry must be in the unit that is shown."""
+    if (unit, shown) in SMALLER:
+        return value * SMALLER[unit, shown]
+    with shown_in("us"):
+        number, name = converted(value, unit)
+    assert name.replace("uin", "µin") == shown, (value, shown, unit)
+    return number
+
+
+@pytest.mark.parametrize(
+    ("screen", "params"),
+    [
+        ("slide", {"case": "table-4.3", "set.solve.method": "periodic"}),
+        ("gear", {"case": "gearset-3"}),
+        ("drive", {}),
+        ("block", {}),
+        ("flanks", {}),
+    ],
+)
+def test_each_number_is_what_it_is_in_si_and_in_units_of_the_us(seen, screen, params):
+    page = seen.open(screen, **params)
+    settled(page)
+    units = {}
+    for fold in page.locator("details.all > summary").all():
+        fold.click()
+    settled(page)
+    choose(page, "si")
+    before = numbers(page)
+    choose(page, "us")
+    after = numbers(page)
+    assert before.keys() == after.keys()
+    assert len(before) > 20
+    for name, one in before.items():
+        value, other = float(one["value"]), after[name]
+        # What is below its rounding says so in words.
+        if "within" in one["text"]:
+            continue
+        assert other["value"] == one["value"]
+        unit = one["of"]
+        if one["unit"] == other["unit"]:
+            assert one["text"] == other["text"], name
+            continue
+        given = in_si(one["text"], one["unit"], unit)
+        assert given == pytest.approx(value, rel=2e-2, abs=1e-30), name
+        assert read(other["text"]) == pytest.approx(in_us(value, other["unit"], unit), rel=1e-3)
+        units[other["unit"]] = units.get(other["unit"], 0) + 1
+    assert units
+
+
+def test_the_page_has_the_units_of_the_command_line(seen):
+    page = seen.open("home")
+    settled(page)
+    shown = page.evaluate("import('/js/us.js').then(({ US }) => US)")
+    # A pressure in kPa stands on the page alone.
+    assert shown.keys() - {"kPa"} == US.keys()
+    for unit, (name, factor, *plus) in shown.items():
+        if unit == "kPa":
+            continue
+        assert name == US[unit].unit.replace("uin", "µin"), unit
+        assert factor == pytest.approx(US[unit].factor, rel=1e-13), unit
+        assert sum(plus) == US[unit].offset, unit
+
+
+def test_a_switch_stays_and_what_is_typed_in_inches_is_the_same_in_json(seen, server):
+    page = seen.open("gear", case="gearset-3")
+    settled(page)
+    torque = page.get_by_label("output torque", exact=True)
+    expect(torque).to_have_value("366 N m")
+    choose(page, "us")
+    expect(torque).to_have_value("3239.4 lbf·in")
+    expect(page.get_by_label("ambient temperature", exact=True)).to_have_value("68 °F")
+    # A bare number has the unit that stood there.
+    torque.fill("3300")
+    torque.press("Enter")
+    settled(page)
+    assert "operation.output_torque=3300 lbf·in" in copied(page)
+    found = answered([*copied(page), "--json"], server.folder)
+    assert found["bs721"]["output_torque_Nm"] == pytest.approx(3300 * POUND_FORCE * INCH)
+    # Another screen, and the same after the page was loaded anew.
+    page.get_by_role("link", name="Size and trade-off").click()
+    settled(page)
+    expect(page.get_by_role("button", name="a (in)", exact=True)).to_be_visible()
+    page.reload()
+    settled(page)
+    expect(page.get_by_role("button", name="a (in)", exact=True)).to_be_visible()
+    choose(page, "si")
+    expect(page.get_by_role("button", name="a (mm)", exact=True)).to_be_visible()
+
+
+def test_the_units_of_a_case_are_followed_until_the_reader_chooses(seen, server):
+    text = shipped_case("gearset-3").read_text("utf-8")
+    (server.folder / "inches.toml").write_text(f'{text}\n[project]\nunits = "us"\n', "utf-8")
+    page = seen.open("gear", case="inches.toml")
+    settled(page)
+    expect(page.get_by_label("output torque", exact=True)).to_have_value("3239.4 lbf·in")
+    choose(page, "si")
+    expect(page.get_by_label("output torque", exact=True)).to_have_value("366 N m")
+    choose(page, "")
+    expect(page.get_by_label("output torque", exact=True)).to_have_value("3239.4 lbf·in")
+
+
+def test_a_slider_and_a_curve_are_in_units_of_the_us(seen):
+    page = seen.open("slide", case="table-4.3", **{"set.solve.method": "periodic"})
+    settled(page)
+    choose(page, "us")
+    force = page.get_by_label("normal force, typed", exact=True)
+    expect(force).to_have_value("12.36 lbf")
+    force.fill("10")
+    force.press("Enter")
+    settled(page)
+    assert "slider.normal_force=10 lbf" in copied(page)
+    expect(page.get_by_label("normal force", exact=True)).to_have_attribute(
+        "aria-valuetext", "10 lbf"
+    )
+    expect(page.locator("svg text", has_text="friction (lbf)")).to_have_count(1)
+    page.get_by_label("Over a cycle as table", exact=True).click()
+    table = page.get_by_role("region", name="Over a cycle, table")
+    expect(table.get_by_role("columnheader", name="friction (lbf)")).to_be_visible()
