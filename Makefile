@@ -12,6 +12,8 @@ BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 .venv/lib || true
 PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder --durations 25 --durations-min 5
 # Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.
 SHARE ?= 1
+# Of the others, this part: 0/2 and 1/2 are all of them together.
+PART ?= 0/1
 # Compiled modules are kept: the tests start hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
 
@@ -27,7 +29,7 @@ test: .venv/.dev  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
 
 slow: .venv/.dev  ## prove the rest of it
-	$(BIN)/python -m pytest -m slow --share $(SHARE) $(PYTEST_OPTIONS)
+	$(BIN)/python -m pytest -m slow --share $(SHARE) --part $(PART) $(PYTEST_OPTIONS)
 
 lint: .venv/.dev  ## look at format, style and docstrings
 	$(BIN)/ruff format --check .

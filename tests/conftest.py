@@ -8,6 +8,7 @@ import signal
 from collections import defaultdict
 from collections.abc import Generator
 from pathlib import Path
+from zlib import crc32
 
 import hypothesis
 import pytest
@@ -48,6 +49,13 @@ _absent = [program for program in _NEEDS if shutil.which(program) is None]
 collect_ignore = [name for program in _absent for name in _NEEDS[program]]
 
 
+def _part(given: str) -> tuple[int, int]:
+    which, of = map(int, given.split("/"))
+    if not 0 <= which < of:
+        raise ValueError(f"{given}: 0/{of} to {of - 1}/{of} are parts")
+    return which, of
+
+
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--share",
@@ -55,6 +63,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         default=1.0,
         metavar="SHARE",
         help="of each campaign (a statement tried on thousands of inputs, in parts) run this share",
+    )
+    parser.addoption(
+        "--part",
+        type=_part,
+        default=(0, 1),
+        metavar="WHICH/OF",
+        help="of what is no campaign run one part, as 0/2 and 1/2, which are all of it together",
     )
 
 
@@ -86,10 +101,22 @@ def pytest_collection_modifyitems(
     # When ordinary tests are deselected: `apparatus.grid` leaves parts of campaigns to them.
     # Parts of a campaign differ in the parameter it is over, or in any if it names none. Of each
     # campaign one part is run at least, but where another test tries the statement on less.
-    share = config.getoption("share")
-    if share >= 1.0:
-        return
-    campaigns = defaultdict(list)
+    share, (which, of) = config.getoption("share"), config.getoption("part")
+    left_out = {
+        item
+        for item in items
+        if not item.get_closest_marker("campaign") and crc32(item.nodeid.encode()) % of != which
+    }
+    if share < 1.0:
+        left_out |= _outside_the_share(items, share)
+    if left_out:
+        config.hook.pytest_deselected(items=[item for item in items if item in left_out])
+        items[:] = [item for item in items if item not in left_out]
+
+
+def _outside_the_share(items: list[pytest.Item], share: float) -> set[pytest.Item]:
+    """Return the parts of campaigns that are left to a run of all of them."""
+    left_out, campaigns = set(), defaultdict(list)
     for item in items:
         if mark := item.get_closest_marker("campaign"):
             over, tried_by = map(mark.kwargs.get, ("over", "tried_by"))
@@ -99,13 +126,10 @@ def pytest_collection_modifyitems(
             apart = [one for one in given.items() if over and one[0] != over]
             campaign = item.nodeid.partition("[")[0], repr(sorted(apart)), not tried_by
             campaigns[campaign].append(item)
-    left_out = set()
     for (*_, least), parts in campaigns.items():
         count = max(least, round(share * len(parts)))
         left_out |= set(parts) - {parts[math.floor(n * len(parts) / count)] for n in range(count)}
-    if left_out:
-        config.hook.pytest_deselected(items=[item for item in items if item in left_out])
-        items[:] = [item for item in items if item not in left_out]
+    return left_out
 
 
 def pytest_report_header() -> list[str]:

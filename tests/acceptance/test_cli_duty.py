@@ -2,6 +2,7 @@
 
 import io
 import json
+import tomllib
 
 import pytest
 
@@ -181,7 +182,7 @@ def test_a_load_above_the_rated_torque_is_asked_for_again(monkeypatch, capsys, t
 def test_a_duty_asks_how_far_the_ratio_may_be_off_and_in_which_units(
     monkeypatch, capsys, tmp_path, asperity
 ):
-    lines = ("50", "0.5 %", "wanted", "2213 lb-in", "1400 rpm", "", "S3 15 %", "", "us")
+    lines = ("50", "0.5 %", "wanted", "2213 lb-in", "1400 rpm", "", "S3 15 %", "", "", "", "us")
     said = asked(monkeypatch, capsys, tmp_path, *lines)
     assert "by how much teeth may miss that ratio [3 %]" in said
     assert "units that are shown: si or us [si]" in said
@@ -190,6 +191,47 @@ def test_a_duty_asks_how_far_the_ratio_may_be_off_and_in_which_units(
     assert "a (in)" in output
     code, output, errors = asperity("size", "duty.toml", "--uncut", "--json", cwd=tmp_path)
     assert {one["wheel_teeth"] for one in json.loads(output)["proposals"]} == {50}
+
+
+@pytest.mark.parametrize(
+    ("duty", "answers", "housing"),
+    [
+        ("S3 15 %", ("12 kg", ""), {"iron": "12 kg"}),
+        ("S2 15 min", ("twelve", "12 kg", "3 kg"), {"iron": "12 kg", "aluminium": "3 kg"}),
+        ("S2 15 min", ("12 mm", "", "3 kg"), {"aluminium": "3 kg"}),
+        ("S3 15 %", ("", ""), None),
+        ("S1", (), None),
+    ],
+)
+def test_a_duty_that_comes_and_goes_asks_what_the_gearbox_weighs(
+    monkeypatch, capsys, tmp_path, duty, answers, housing
+):
+    known = ("requirements.ratio=50", "requirements.ratio_tolerance=0.03",
+             "requirements.self_locking=any", f"spectrum.duty={duty}", "project.units=si",
+             "operation.output_torque=250 N m", "operation.worm_speed=1400 rpm",
+             "spectrum.step=200 N m, 1400 rpm, 5 h")  # fmt: skip
+    said = asked(monkeypatch, capsys, tmp_path, *answers, "ISO VG 320 mineral", settings=known)
+    assert ("mass of iron" in said) == (duty != "S1")
+    written = tomllib.loads((tmp_path / "duty.toml").read_text("utf-8"))
+    assert written.get("housing") == housing
+    assert written["operation"]["lubricant"] == "ISO VG 320 mineral"
+
+
+def test_what_is_an_example_in_a_file_that_is_begun_is_called_one(monkeypatch, capsys, tmp_path):
+    known = ("operation.output_torque=250 N m", "operation.worm_speed=1400 rpm")
+    monkeypatch.chdir(tmp_path)
+    new("duty", None, {}, known, "", defaults=True, as_json=False)
+    text = (tmp_path / "duty.toml").read_text("utf-8")
+    blocks = {block.splitlines()[-1]: block.split() for block in text.split("\n\n") if block}
+    # What follows from others has no value of its own that is assumed.
+    for line in (
+        '#oil_temperature = "each"',
+        '#oil_temperature = "20 degC"',
+        '#idle_loss = "30 W"',
+    ):
+        assert " ".join(blocks[line]).replace(" # ", " ").count("For example:") == 1
+    for line in ('#shock = "uniform"', '#cycle = "10 min"'):
+        assert "example:" not in blocks[line]
 
 
 def test_only_hobs_of_the_shelf_are_proposed_and_each_is_named(asperity, tmp_path):

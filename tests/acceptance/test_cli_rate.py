@@ -229,6 +229,38 @@ def test_nothing_is_listed_as_best_that_a_standard_fails_by_which_it_holds(asper
         assert best["iso14521"]["safety_pitting"] == pytest.approx(listed[key]["safety"], rel=1e-12)
 
 
+ENDS_TWO = """
+[gearset]
+starts = 1
+wheel_teeth = 29
+axial_module = "5 mm"
+diameter_factor = 10
+worm_material = "case-hardened steel"
+wheel_material = "CuSn12Ni2-C-GC"
+[operation]
+worm_speed = "45.88 rpm"
+output_torque = "781.5 N m"
+lubricant = "ISO VG 100 mineral"
+"""
+
+
+def test_nor_is_what_a_standard_by_which_it_holds_gives_no_answer_for(asperity, tmp_path):
+    path = tmp_path / "heavy.toml"
+    path.write_text(ENDS_TWO, encoding="utf-8")
+    before = one_object(asperity("rate", str(path), "--json")[1])
+    words = {"iso14521": False, "bs721": True, "agma6034": True}
+    assert before["verdict"]["holds"] == words
+    listed = {one["key"]: one for one in before["verdict"]["alternatives"]}
+    iron = "gearset.wheel_material=EN-GJS-400-15"
+    other = one_object(asperity("rate", str(path), "--set", iron, "--json")[1])
+    _, _, first = before["verdict"]["first"].partition(".")
+    assert other["iso14521"][first] > listed["gearset.wheel_material"]["safety"]
+    assert other["verdict"]["holds"] == words | {"bs721": None, "agma6034": None}
+    best = f"gearset.wheel_material={listed['gearset.wheel_material']['value']}"
+    changed = one_object(asperity("rate", str(path), "--set", best, "--json")[1])
+    assert changed["verdict"]["holds"] == words
+
+
 def test_the_three_standards_word_a_failure_alike(asperity):
     heavy = ("--set", "operation.output_torque=900 N m")
     answer = one_object(asperity("rate", "gearset-3", *heavy, "--json")[1])

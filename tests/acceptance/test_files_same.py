@@ -81,6 +81,7 @@ def asked(name, lot):
         "methods": (["gearset-3"], [*gear, *law]),
         "optimise": (["gearset-3"], []),
         "flank": (["gearset-3b", "--density", "coarse"], []),
+        "crossed": (["gearset-3"], gear),
         "drive": (["drive-screw"], [*TEETH, *shake]),
         "directions": (["drive-screw"], [*TEETH, *shake]),
         "misalign": (

@@ -611,7 +611,7 @@ def test_a_full_disk_ends_with_everything_off(begun, rig, tmp_path):
     rig.hold(False)
     in_time = InTime(rig, tmp_path / "run")
     procedure = begun(before=filled)
-    assert procedure.ended() == 2
+    assert procedure.ended() == 3
     in_time.off(why="the procedure")
     assert not OUTPUTS & set(rig.on())
     assert lines_of(tmp_path / "run", "latched")[-1]["interlock"] == "disk"

@@ -255,19 +255,31 @@ def test_what_no_repository_takes_is_refused_in_a_line(asperity, run, tmp_path, 
     assert all(word in " ".join(errors.split()) for word in words), errors
 
 
-def test_a_case_that_is_begun_makes_a_package_and_a_report_that_say_so(asperity, run, tmp_path):
+def test_a_case_that_is_begun_makes_a_package_when_its_examples_are_replaced(
+    asperity, run, tmp_path
+):
     begun = tmp_path / "my-rig.toml"
     assert asperity("new", "rig", begun)[0] == 0
-    code, printed, errors = asperity(
-        "rig", "package", run / "run", "--config", begun, "--out", tmp_path / "out", "--json"
-    )
+    given = "rig", "package", run / "run", "--config", begun, "--out", tmp_path / "out"
+    code, _, errors = asperity(*given)
+    assert (code, (tmp_path / "out").exists()) == (2, False)
+    told = " ".join(errors.split())
+    assert "package.title and package.authors are what asperity new wrote for an example" in told
+    assert "package.licence is missing" in told
+    assert 'licence = "CC-BY-4.0"' in told
+    text = begun.read_text("utf-8")
+    mine = ("(title of these data)", "Mine"), ("Doe, Jane", "Roe, Richard")
+    for word, own in (*mine, ('licence = ""', 'licence = "CC0-1.0"')):
+        assert text.count(word) == 1
+        text = text.replace(word, own)
+    begun.write_text(text, "utf-8")
+    code, _, errors = asperity(*given)
     assert code == 0, errors
-    notes = json.loads(printed)["notes"]
-    assert "package.authors is Doe, Jane, as asperity new has it; give yours" in notes
     page = (tmp_path / "out" / "results" / "report.html").read_text("utf-8")
     assert "(your laboratory)" in page
 
 
+@pytest.mark.slow
 def test_a_package_that_a_full_disk_does_not_take_is_left_in_no_part(
     asperity, run, tmp_path, monkeypatch
 ):

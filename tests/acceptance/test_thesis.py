@@ -10,6 +10,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
+from pathlib import Path
 from unittest import mock
 
 import numpy as np
@@ -61,6 +63,7 @@ def made(tmp_path_factory):
 DRAWN = [number for number in FIGURES if number not in SLOW]
 
 
+@pytest.mark.slow
 def test_what_is_said_to_call_no_kernel_calls_none(tmp_path, monkeypatch):
     # They stand on the page while kernels are compiled.
     class CalledError(BaseException):
@@ -146,16 +149,16 @@ VERDICTS = {
     "2.5": "not testable",
     "2.6": "not testable",
     "2.7": "not testable",
-    "2.8": "reproduced",
+    "2.8": "arithmetic",
     "2.9": "arithmetic",
-    "2.10": "reproduced",
+    "2.10": "not testable",
     "2.11": "arithmetic",
     "3.1": "fitted",
     "3.2": "fitted",
-    "3.3": "reproduced",
+    "3.3": "arithmetic",
     "3.4": "fitted",
     "3.5": "reproduced",
-    "3.6": "reproduced",
+    "3.6": "not testable",
     "3.7": "reproduced",
     "3.8": "fitted",
     "3.9": "reproduced",
@@ -166,8 +169,8 @@ VERDICTS = {
     "3.14": "differs",
     "3.15": "differs",
     "3.16": "not testable",
-    "3.17": "reproduced",
-    "3.18": "reproduced",
+    "3.17": "not testable",
+    "3.18": "arithmetic",
     "4.1": "reproduced",
     "4.2": "arithmetic",
     "4.3": "reproduced",
@@ -179,7 +182,7 @@ VERDICTS = {
     "4.9": "arithmetic",
     "4.10": "arithmetic",
     "4.11": "reproduced",
-    "4.12": "reproduced",
+    "4.12": "not testable",
     "4.13": "differs",
     "4.14": "arithmetic",
     "5.1": "reproduced",
@@ -191,7 +194,7 @@ VERDICTS = {
     "6.3": "fitted",
     "6.4": "not testable",
     "6.5": "fitted",
-    "6.6": "reproduced",
+    "6.6": "not testable",
     "6.7": "not testable",
     "6.8": "arithmetic",
     "6.9": "arithmetic",
@@ -208,28 +211,28 @@ VERDICTS = {
     "6.20": "arithmetic",
     "6.21": "not testable",
     "7.1": "arithmetic",
-    "7.2": "reproduced",
+    "7.2": "fitted",
     "7.3": "not testable",
-    "7.4": "differs",
+    "7.4": "arithmetic",
     "7.5": "not testable",
-    "7.6": "reproduced",
+    "7.6": "not testable",
     "7.7": "not testable",
     "7.8": "reproduced",
     "7.9": "reproduced",
-    "7.10": "differs",
+    "7.10": "not testable",
     "7.11": "differs",
     "7.12": "arithmetic",
-    "7.13": "differs",
+    "7.13": "arithmetic",
     "7.14": "differs",
     "7.15": "not testable",
     "7.16": "not testable",
-    "7.17": "reproduced",
+    "7.17": "arithmetic",
     "7.18": "not testable",
     "7.19": "arithmetic",
     "7.20": "differs",
-    "7.21": "reproduced",
+    "7.21": "not testable",
     "7.22": "arithmetic",
-    "7.23": "differs",
+    "7.23": "not testable",
     "8.1": "arithmetic",
     "8.2": "not testable",
 }
@@ -254,6 +257,17 @@ def check_findings(result):
                 for words in found:
                     for piece in words.split(" ... "):
                         assert any(plain_words(piece) in one for one in quoted), (part, piece)
+
+
+def test_the_docs_count_the_verdicts_as_they_are():
+    docs = Path(__file__).parents[2] / "docs/thesis.rst"
+    count = Counter(VERDICTS.values())
+    said = (
+        f"Of the {len(CLAIMS)} claims {count['reproduced']} are reproduced, {count['differs']} "
+        f"differ, {count['fitted']} are fitted, {count['arithmetic']} are arithmetic and "
+        f"{count['not testable']} not testable."
+    )
+    assert said in docs.read_text("utf-8")
 
 
 def test_what_is_reproduced_names_what_it_could_have_failed_by():
@@ -348,7 +362,7 @@ def test_lugre_without_its_extras_is_dahl_to_the_last_bit(result):
         ("3.1", "No test of the formulas by itself"),
         ("3.3", "that takes v_a = 27.8 m/s"),
         ("3.4", "were used to find the wheel's teeth"),
-        ("3.6", "The bounds are assumed, Table 3.6 is lost"),
+        ("3.6", "The bounds are assumed, Table 3.6 is lost, and they decide"),
         ("3.7", "Judged for gearsets 2 and 3 only"),
         ("3.8", "reconstructed from these three numbers"),
     ],

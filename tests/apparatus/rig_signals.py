@@ -246,6 +246,8 @@ TORQUE = 0.6448
 TAKEN = 1.0 / (30.0 * 0.7 * 0.0515)
 """What gear and motor of `rig-final` take of current for the torque, A per N m."""
 _HELD = 2.86e-3  # velocity of the bronze disc's rim, m/s
+BRONZE_TAKEN = (0.9 - 0.0515 * 60.0 * _HELD / 0.0225) / 0.3
+"""What a supply of 0.9 V leaves the motor of the bronze disc of `rig-final`, A."""
 _SLIDING = {1.0: (2.5e-3, 5.5e-3), 3.0: (42e-3, 43e-3), 5.5: (90e-3, 90.5e-3)}
 _RADII = 0.030, 0.0225
 NOISY = Imperfections(
@@ -271,7 +273,7 @@ def run_of(
     for place, (frequency, ratio) in enumerate(zip(frequencies, ratios, strict=False)):
         # The discs push each other with one force.
         pushed = -TORQUE * _RADII[1] / _RADII[0]
-        quiet = Phase(duration, TORQUE, pushed, speeds[0], bronze, 2.0, 0.8)
+        quiet = Phase(duration, TORQUE, pushed, speeds[0], bronze, 2.0, BRONZE_TAKEN)
         shaken = dataclasses.replace(
             quiet,
             torque_steel=TORQUE * ratio,

@@ -13,7 +13,6 @@ import pytest
 from apparatus.fake_picoscope import FakeDriver
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.errors import StorageError
 from asperity.runs import Run
 from asperity.tribometer.instruments.inputs import inputs_of, lines_of
 from asperity.tribometer.instruments.protocols import FULL_SCALE, InstrumentError, Poll, Reading
@@ -316,6 +315,6 @@ def run_on_a_full_disk(case, folder, most):
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
     bench, rig = made_bench(case)
     answer = run(case, folder, bench=bench)
-    return isinstance(answer.failure, StorageError) and not rig.on & {
-        "steel", "bronze", "vibration"
-    }  # fmt: skip
+    ended = answer.failure
+    latched = ended is not None and (ended.exit_code, getattr(ended, "kind", "")) == (3, "disk")
+    return latched and not rig.on & {"steel", "bronze", "vibration"}

@@ -122,7 +122,7 @@ def test_claims_are_found_by_words_and_verdict_and_say_what_makes_them(seen, ser
         page = seen.open("thesis")
         rows = page.locator("tbody tr")
         expect(page.get_by_text("94 of 94 claims")).to_be_visible()
-        page.get_by_role("searchbox").fill("oversize alone")
+        page.get_by_role("searchbox").fill("Oversize alone leaves contact")
         expect(rows).to_have_count(1)
         # What another version made is not shown as this one's.
         expect(rows.first).to_contain_text("not made here")

@@ -8,10 +8,15 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import MissingExtraError
-from asperity.flanks.export.cad.dxf import write_dxf
-from asperity.flanks.measuring.drawing import Datum
+from asperity.flanks.export.cad.dxf import NAME, write_dxf
+from asperity.flanks.export.turned import Bodies
+from asperity.flanks.measuring.drawing import Datum, drawing_data, on_drawing
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
+from asperity.gearset.tolerancing.backlash import backlash
+from asperity.gearset.tolerancing.grades import graded
+from asperity.gearset.tolerancing.table import Tolerances
+from asperity.results.language import catalogue_of, spoken
 
 DATA = [
     Datum("worm", "number of threads", "z_1", 4),
@@ -63,6 +68,72 @@ def test_it_bears_the_data(drawn):
     assert {"OUTLINE", "CENTRE", "HATCH", "DIMENSIONS", "TEXT"} <= {
         entity.dxf.layer for entity in document.modelspace()
     }
+
+
+class Measured:
+    """Whatever is measured is some number."""
+
+    def __getattr__(self, name):
+        return 1.25
+
+
+@pytest.fixture(scope="module")
+def with_shaft():
+    case = read_case("actuator-shafts", case_tables(), ["tolerances.centre_distance=js7"])
+    pair = Pair.of(case.require(Gearset))
+    play = backlash(case.require(Gearset), case.require(Tolerances))
+    data = drawing_data(pair, Measured(), graded(pair.geometry, 8), play)
+    return pair, data, Bodies.of(case, pair)
+
+
+def test_a_drawing_in_german_leaves_nothing_english(with_shaft, tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    german = catalogue_of("de")
+    german.missing.clear()
+    pair, data, bodies = with_shaft
+    with spoken(german):
+        write_dxf(tmp_path, pair, data, beside=bodies, name="ours")
+    assert german.missing == set()
+    document = ezdxf.readfile(tmp_path / NAME)
+    texts = {text.dxf.text for text in document.modelspace().query("TEXT")}
+    assert {"Schneckenrad", "Radsatz", "Zahnbreite", "Wälzfräser: Neigung"} <= texts
+    assert not {one.name for one in data} & texts
+    write_dxf(tmp_path, pair, data, beside=bodies, name="ours")
+    texts = {t.dxf.text for t in ezdxf.readfile(tmp_path / NAME).modelspace().query("TEXT")}
+    assert {one.name for one in data} <= texts
+
+
+def test_the_data_have_the_threads_that_the_shaft_has(with_shaft, tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    pair, data, bodies = with_shaft
+    for beside, long in ((bodies, 90.0), (None, pair.geometry.worm_face_width)):
+        write_dxf(tmp_path, pair, data, beside=beside)
+        texts = [t.dxf.text for t in ezdxf.readfile(tmp_path / NAME).modelspace().query("TEXT")]
+        place = texts.index("b_1")
+        assert texts[place - 1 : place + 2] == [
+            "length of the threaded worm", "b_1", f"{long:.3f}"
+        ]  # fmt: skip
+
+
+def test_shafts_have_the_dimensions_of_their_sections(with_shaft, tmp_path):
+    ezdxf = pytest.importorskip("ezdxf")
+    pair, data, bodies = with_shaft
+    write_dxf(tmp_path, pair, data, beside=bodies)
+    space = ezdxf.readfile(tmp_path / NAME).modelspace()
+    measured = [round(float(one.get_measurement()), 6) for one in space.query("DIMENSION")]
+    for sizes in ((20, 40, 40, 190), (25, 30, 30), (50, 35, 50, 35, 170), (45, 50, 55, 50)):
+        for size in sizes:
+            assert measured.count(size) >= sizes.count(size), size
+    write_dxf(tmp_path, pair, data)
+    space = ezdxf.readfile(tmp_path / NAME).modelspace()
+    plain = [round(float(one.get_measurement()), 6) for one in space.query("DIMENSION")]
+    assert len(measured) - len(plain) == 3 + 3 + 1 + 4 + 4 + 1
+
+
+def test_what_rounding_left_has_no_sign():
+    assert on_drawing(Datum("both", "backlash", "j", -1e-12, "mm")) == "0.000"
+    assert on_drawing(Datum("both", "backlash", "j", -6e-4, "mm")) == "-0.001"
+    assert on_drawing(Datum("both", "backlash", "j", -4e-5, "in")) == "0.0000"
 
 
 def test_without_the_extra_a_line_says_what_to_install(monkeypatch, tmp_path):

@@ -34,7 +34,7 @@ MORE = (
     ("gearset.flank=ZK", "mount.axial_offset='0.1 mm'", "mount.shaft_angle_error='0.1 deg'"),
     ("gearset.flank=ZN", "operation.lubrication=spray", "operation.oil_temperature='65 degC'"),
     ('operation.lubricant={ base_oil="polyglycol", viscosity_40="220 mm^2/s", '
-     'viscosity_100="37 mm^2/s" }', "operation.bearing_span='120 mm'"),
+     'viscosity_100="37 mm^2/s" }', "operation.bearing_span='150 mm'"),
 )  # fmt: skip
 
 

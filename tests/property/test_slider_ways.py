@@ -15,6 +15,8 @@ from asperity.errors import AsperityError
 from asperity.slider import batch, solve, solve_many
 
 BAR = 2e-3
+MOST_DRAWN = 6
+"""Times as many bodies are drawn as are to be compared, until so many have settled."""
 LONG = 1500
 """Cycles after which a body has come to where it stays, but for those that say so."""
 
@@ -116,14 +118,12 @@ def told_apart(periodic, marched):
 
 
 def states_against_marches(seed, count, folder, **options):
-    """Return the bodies whose state and march are apart, how many say so, and how many have two.
+    """Return the bodies whose state and march are apart untold, and how many say so.
 
     Ductile asperities come to their state as 1/t: what four times the march brings nearer is on its
-    way. A march that stands elsewhere all that time has found another state of the same body, of
-    which a search cannot know; that nothing tells of it is a limit of the package
-    (``docs/validation.rst``).
+    way.
     """
-    apart, said, two = [], 0, 0
+    apart, said = [], 0
     for n, lot in enumerate(lots(seed, count, folder, **options)):
         periodic = answered(lot, folder, method="periodic")
         marched = answered(lot, folder, **periods(lot, LONG))
@@ -139,27 +139,26 @@ def states_against_marches(seed, count, folder, **options):
         longer = answered(lot, folder, **periods(lot, 4 * LONG))
         if longer is not None and abs(periodic.ratio - longer.ratio) < 0.7 * abs(off):
             said += 1
-        elif longer is not None and abs(longer.ratio - marched.ratio) <= 0.1 * BAR:
-            two += 1
         else:
-            apart.append((n, periodic.ratio, marched.ratio, lot.toml()))
-    return apart, said, two
+            then = None if longer is None else longer.ratio
+            apart.append((n, periodic.ratio, marched.ratio, then, lot.toml()))
+    return apart, said
 
 
 def test_a_few_bodies_march_into_their_periodic_states(tmp_path):
-    apart, said, two = states_against_marches(3, 3, tmp_path, models=("dahl",), pressed=False)
+    apart, said = states_against_marches(3, 3, tmp_path, models=("dahl",), pressed=False)
     assert not apart
-    assert (said, two) == (0, 0)
+    assert said == 0
 
 
 @pytest.mark.slow
 @pytest.mark.campaign(tried_by="test_a_few_bodies_march_into_their_periodic_states")
 @pytest.mark.parametrize("part", range(20))
 def test_bodies_march_into_their_periodic_states(tmp_path, part):
-    apart, said, two = states_against_marches((2, part), 30, tmp_path)
+    # At least 18 of 30 are compared.
+    apart, said = states_against_marches((2, part), 30, tmp_path)
     assert not apart
     assert said <= 12
-    assert two <= 2
 
 
 def check_lanes(drawn, folder, cycles):
@@ -222,9 +221,11 @@ def test_lanes_and_single_marches_are_the_same(tmp_path, part, shared):
 
 
 def check_homogenised(seed, count, folder, **options):
-    """Hold a homogenised law to the periodic state; return how many were compared."""
+    """Hold a homogenised law to the periodic state until so many were compared; return how many."""
     compared = 0
-    for lot in lots(seed, count, folder, **options):
+    for lot in lots(seed, MOST_DRAWN * count, folder, **options):
+        if compared == count:
+            break
         homogenised = answered(lot, folder, method="homogenised", **periods(lot, 1000))
         periodic = answered(lot, folder, method="periodic")
         if homogenised is None or periodic is None:
@@ -245,7 +246,8 @@ def test_a_few_homogenised_laws_end_in_the_periodic_state(tmp_path, seed):
 @pytest.mark.campaign(tried_by="test_a_few_homogenised_laws_end_in_the_periodic_state")
 @pytest.mark.parametrize("part", range(20))
 def test_the_homogenised_law_ends_in_the_periodic_state(tmp_path, part):
-    check_homogenised((4, part), 2, tmp_path, models=("dahl", "lugre"), pressed=part % 3 == 0)
+    options = {"models": ("dahl", "lugre"), "pressed": part % 3 == 0}
+    assert check_homogenised((4, part), 2, tmp_path, **options) == 2
 
 
 def nothing_and_little(seed, count, folder, method):
@@ -301,9 +303,11 @@ def test_a_vibration_of_nothing_changes_nothing(tmp_path, method, part):
 
 
 def check_finer_steps(seed, count, folder, method, **options):
-    """Hold an answer to that of a quarter of its step; return how many were compared."""
+    """Hold an answer to that of a quarter of its step until so many were; return how many."""
     compared = 0
-    for lot in lots(seed, count, folder, **options):
+    for lot in lots(seed, MOST_DRAWN * count, folder, **options):
+        if compared == count:
+            break
         settings = {"method": method}
         given = answered(lot, folder, **settings)
         if given is None:
@@ -320,7 +324,7 @@ def check_finer_steps(seed, count, folder, method, **options):
 
 
 def test_a_finer_step_changes_no_second_digit_of_a_few_bodies(tmp_path):
-    assert check_finer_steps(8, 3, tmp_path, "periodic", pressed=False) >= 2
+    assert check_finer_steps(8, 2, tmp_path, "periodic", pressed=False) == 2
 
 
 @pytest.mark.slow
@@ -328,4 +332,5 @@ def test_a_finer_step_changes_no_second_digit_of_a_few_bodies(tmp_path):
 @pytest.mark.parametrize("method", ["march", "periodic"])
 @pytest.mark.parametrize("part", range(10))
 def test_a_finer_step_changes_no_second_digit(tmp_path, method, part):
-    check_finer_steps((8, part), 20, tmp_path, method)
+    count = {"march": 5, "periodic": 15}[method]
+    assert check_finer_steps((8, part), count, tmp_path, method) == count

@@ -1,11 +1,17 @@
-"""How a command ends does not hang on a terminal that is gone."""
+"""How a command ends does not hang on a terminal that is gone, nor on a disk that is full."""
 
+import contextlib
 import os
 import sys
+from types import SimpleNamespace
 
 import pytest
 
+from asperity.casefile import read_case
 from asperity.cli import outcome, show
+from asperity.commands.execution import execute
+from asperity.errors import ConvergenceError, StorageError
+from asperity.tribometer.tables import TABLES
 
 
 class Gone:
@@ -48,3 +54,27 @@ def test_a_bar_on_a_terminal_that_goes_ends_nothing(gone, monkeypatch):
         closed.setattr(sys, "stderr", Gone(gone))
         with show.progress_bar("cells") as moved:
             moved(1, 2)
+
+
+def test_what_latched_is_raised_though_a_disk_takes_no_picture(tmp_path):
+    def full(folder, *, pictures):
+        raise StorageError("run.png cannot be written: no space left on device")
+
+    failure = ConvergenceError("latched")
+    result = SimpleNamespace(write=full, whole=False, reported=True, failure=failure)
+    command = SimpleNamespace(
+        options=(), arguments=(), out="DIR", into="", counts="cells", stem="run",
+        case_of=lambda *_: read_case("rig-final", TABLES), prepared=lambda *_: None,
+        solved=lambda *_: result,
+    )  # fmt: skip
+    notes = []
+    teller = SimpleNamespace(
+        read=lambda _: None, note=notes.append, progress=lambda _: contextlib.nullcontext(),
+        so_far=None, show=lambda *_: None, written=lambda *_: None,
+    )  # fmt: skip
+    with pytest.raises(ConvergenceError, match="latched"):
+        execute(command, "rig-final", (), teller, version="1", out=tmp_path / "out")
+    assert notes == ["run.png cannot be written: no space left on device"]
+    result.failure = None
+    with pytest.raises(StorageError, match="no space left"):
+        execute(command, "rig-final", (), teller, version="1", out=tmp_path / "out")

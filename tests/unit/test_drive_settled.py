@@ -249,12 +249,23 @@ class TestAMarch:
         _, settle = self.march(slow)
         short = settle(given)
         assert not short.settled
-        said = short.said("torque ratio").rpartition("longer by ")[2]
-        more = 1e-3 * float(said.removesuffix(" ms would do"))
+        said = short.said("torque ratio").rpartition("solve.duration of ")[2]
+        more = 1e-3 * float(said.removesuffix(" ms would do")) - given
         _, settle = self.march(slow)
         assert settle(given + more).settled
         _, settle = self.march(slow)
         assert not settle(given + 0.6 * more).settled
+
+    def test_of_three_blocks_alone_says_what_duration_would_do_too(self):
+        march, settle = self.march(10e-3)
+        short = settle(2e-3)
+        assert march.rows.size == short.cycles
+        said = short.said("torque ratio").rpartition("solve.duration of ")[2]
+        would = 1e-3 * float(said.removesuffix(" ms would do"))
+        _, settle = self.march(10e-3)
+        assert settle(would).settled
+        _, settle = self.march(math.inf)
+        assert "leave solve.duration out" in settle(2e-3).said("torque ratio")
 
     def test_goes_on_without_a_duration_as_long_as_it_comes_nearer(self):
         slow = 40e-3

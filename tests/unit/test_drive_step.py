@@ -183,7 +183,11 @@ def test_what_a_march_settled_by_or_lacks_is_told_and_what_its_duration_would_do
     assert "spreads by" in hammering.settled_by
     assert "duration" in hammering.settled_by
     assert hammering.step_error is None
-    assert any(note == f"aperiodic: {hammering.settled_by}" for note in hammering.notes)
+    (note,) = [note for note in hammering.notes if note.endswith(f": {hammering.settled_by}")]
+    assert note.startswith(("aperiodic", "not periodic yet"))
+    short = solved("vibration.velocity_ratio=1.5", "solve.duration=0.1 ms")
+    (note,) = [note for note in short.notes if note.startswith("marched for")]
+    assert "where solve.duration asks for 0.1" in note
 
 
 def test_a_wheel_that_rings_without_creeping_has_no_speed():

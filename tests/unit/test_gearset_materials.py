@@ -126,6 +126,25 @@ def test_a_missing_file_of_your_own_is_named(tmp_path, monkeypatch):
         find(WheelMaterial, "CuSn12-C-GZ")
 
 
+@pytest.mark.parametrize(
+    ("files", "said"),
+    [
+        ([], "where a data file of your own has it, name that as asperity --materials FILE"),
+        (["[motor.x]\npower = '1 kW'\n"], "none of the data files that are named has one"),
+    ],
+)
+def test_a_name_of_a_thing_that_never_ships_says_where_it_may_come_from(
+    monkeypatch, tmp_path, files, said
+):
+    from asperity.shafts.bearing import RollingBearing
+
+    for text in files:
+        (tmp_path / "own.toml").write_text(text, "utf-8")
+        monkeypatch.setenv(library.VARIABLE, str(tmp_path / "own.toml"))
+    with pytest.raises(InputError, match=f"no rolling bearing of that name is known; {said}$"):
+        find(RollingBearing, "6205")
+
+
 def test_a_name_that_is_not_known_brings_the_near_one_or_all():
     with pytest.raises(InputError, match="did you mean 'preloaded'"):
         find(Bearings, "preload")

@@ -1,10 +1,15 @@
 """Ctrl-C where nothing can be raised is heard all the same."""
 
+import os
+import signal
 import subprocess
 import sys
 import zipfile
 
+import pytest
+
 from asperity.processes.interrupts import reraise_pending
+from asperity.runs.interrupt import Signals
 
 CLEANED_UP = """
 import signal, time
@@ -57,3 +62,58 @@ def test_an_archive_whose_making_was_broken_off_is_dropped_without_a_word(monkey
     other = Other()
     del other
     assert len(said) == 1
+
+
+ENDED = """
+import os, signal
+from asperity.cli import interrupt
+from asperity.runs.interrupt import Signals
+
+number = signal.{name}
+# A shell may have it ignored, as under nohup.
+signal.signal(number, signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL)
+interrupt.at_once(to_the_end=True)
+interrupt.as_exception()
+signals = Signals()
+with signals.listening():
+    {within}
+for _ in range(5):
+    os.kill(os.getpid(), number)
+os._exit(3)
+"""
+NAMES = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "ended with its terminal",
+         "SIGQUIT": "quit"}  # fmt: skip
+
+
+@pytest.mark.skipif(os.name != "posix", reason="needs signals")
+@pytest.mark.parametrize("name", NAMES)
+def test_what_ends_a_run_before_it_listens_is_told_and_nothing_ends_it_after(name):
+    def ended(text):
+        done = subprocess.run(
+            [sys.executable, "-c", text], capture_output=True, text=True, timeout=60, check=False
+        )
+        return done.returncode, done.stderr
+
+    text = ENDED.format(name=name, within="os.kill(os.getpid(), number)")
+    assert ended(text) == (3, "")
+    assert ended(text.replace("signals = ", "os.kill(os.getpid(), number)\nsignals = ")) == (
+        130, f"{NAMES[name]}\n"
+    )  # fmt: skip
+
+
+def test_a_signal_is_told_whether_it_came_before_or_comes_after():
+    signals, (hears, tells) = Signals(), os.pipe()
+    os.set_blocking(hears, False)
+    os.set_blocking(tells, False)
+    try:
+        with signals.listening():
+            os.kill(os.getpid(), signal.SIGTERM)
+            assert signals.heard == "terminated"
+            with signals.told_to(tells):
+                assert os.read(hears, 8) == bytes([signal.SIGTERM])
+                os.kill(os.getpid(), signal.SIGINT)
+                assert os.read(hears, 8) == bytes([signal.SIGINT])
+        assert signals.heard == "terminated"
+    finally:
+        os.close(hears)
+        os.close(tells)

@@ -307,9 +307,14 @@ def test_violations_are_sentences_about_what_is_used():
     )
     assert iso.limits.violations(**{**usual, "centre_distance": 60.17}, sump_by_formula=False) == ()
     many = iso.limits.violations(
-        centre_distance=500.0, profile_shift=-8.0, worm_speed=5.0, ratio=80.0, geometry_factor=3.0
-    )
-    assert len(many) == len(iso.limits.VALIDITY) == 6
+        centre_distance=500.0, profile_shift=-8.0, worm_speed=5.0, ratio=80.0, geometry_factor=3.0,
+        sliding_velocity=26.0,
+    )  # fmt: skip
+    assert len(many) == len(iso.limits.VALIDITY) == 7
+    for velocity, count in ((0.0999, 1), (0.1, 0), (25.0, 0), (25.01, 1)):
+        found = iso.limits.violations(**usual, sliding_velocity=velocity)
+        assert len(found) == count
+        assert all("ISO/TS 14521:2020 is valid from 0.1 to 25 m/s" in one for one in found)
 
 
 def test_every_least_safety_has_a_source():

@@ -97,6 +97,30 @@ def test_the_german_screen_and_report_of_a_rating_leave_nothing_english(given):
     assert result.brief() != screen
 
 
+WORDY = [
+    ("actuator-duty", "tolerances.fit=C", "tolerances.centre_distance=js7", "tolerances.grade=8",
+     "tolerances.temperatures={housing='60 degC', gears='70 degC'}", "spectrum.duty=S3 15 %",
+     "housing.area_rule=well ribbed", "housing.idle_loss=30 W", "operation.fan=true"),
+    ("gearset-2", "spectrum.duty_class=EN 15714-2 A"),
+    ("gearset-3", "spectrum.step=60 N m, 700 rpm, 10 h", "spectrum.duty=S3 15 %",
+     "gearset.wheel_material=EN-GJS-400-15", "gearset.flank=ZC"),
+    ("gearset-3", "operation.input_power=2 kW", "rating.iso14521_edition=1998"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("given", WORDY, ids=lambda given: given[-1])
+def test_all_that_a_rating_tells_in_full_leaves_nothing_english(given):
+    _, result = answer_of(*given)
+    german = catalogue_of("de")
+    german.missing.clear()
+    with spoken(german):
+        result.brief()
+        assert "nachgerechnet" in said(f"{result.heading()}, rated")
+        for table in result.tables(sources=True):
+            shown_table(table)
+    assert german.missing <= {result.gearset.name}
+
+
 SIZED = [
     {"ratio": 40, "output_torque": "300 N m", "worm_speed": "1500 rpm",
      "settings": ("operation.service=valve", "tolerances.fit=C")},
@@ -136,6 +160,25 @@ def test_german_tables_of_a_designers_commands_leave_nothing_english(command, ca
             shown_text(text)
         rendered(result.tables())
     assert german.missing <= {read["gearset"].name}
+
+
+def test_nothing_of_short_words_is_taken_for_a_symbol(words):
+    with spoken(words):
+        for text in ("as it is", "at 3", "3 of 4", "1.2 FAILS"):
+            assert said(text) == text
+        for text in ("d at_2", "K_A of(3)", "F_to", "3 in", "S_W 1.53"):
+            assert said(text) == text
+    assert words.missing == {"as it is", "at 3", "3 of 4", "1.2 FAILS"}
+
+
+def test_an_equation_that_has_words_is_shown_in_the_language(words):
+    heads = ("symbol", "equation")
+    formula = "pi tau a/2 if a < 2 else 3"
+    table = Table.of(heads, [("c", "wheel"), ("a", formula), ("b", "axle")])
+    with spoken(words):
+        shown = shown_table(table)
+    assert [row[1] for row in shown.rows] == ["Rad", formula, "axle"]
+    assert words.missing == {"symbol", "equation", "axle"}
 
 
 @pytest.mark.parametrize("given", CASES, ids=" ".join)

@@ -88,6 +88,21 @@ def test_no_standard_covers_it_and_its_own_table_judges(ours):
     assert "does not lock itself" not in screen
     assert "no standard covers a wheel of plastic" in screen
     assert "own table wheel root" in rated.to_html()
+    # All that is told in full has it as well.
+    (beside,) = [t for t in rated.tables() if "besides the standards" in heads(t)]
+    assert [row[0] for row in beside.rows] == [f"own table {row.name}" for row in rated.rows]
+    assert [float(row[1]) for row in beside.rows] == pytest.approx(
+        [row.value for row in rated.rows], rel=1e-4
+    )
+    assert not [t for t in rate_case(bronze()).tables() if "besides the standards" in heads(t)]
+
+
+def bronze():
+    return read_case("gearset-3", case_tables())
+
+
+def heads(table):
+    return [column.heading for column in table.columns]
 
 
 def test_it_is_told_in_german_too(ours):

@@ -276,6 +276,15 @@ def test_life_until_a_limit_is_where_its_safety_comes_to_what_is_asked_and_to_on
             assert value == pytest.approx(least, rel=1e-9), row
 
 
+def test_hours_beyond_all_counting_are_not_written_out():
+    found = spectral((60, 700, 1e200))
+    assert "of 1e+200 asked" in found.brief()
+    every = (*found.brief().split(), *(cell for t in found.tables() for r in t.rows for cell in r))
+    assert max(len(word) for text in every for word in str(text).split()) < 60
+    # What a person counts is written with its thousands.
+    assert "h of 5,000 asked" in spectral(*BINS).brief()
+
+
 def test_life_ends_at_the_root_where_wear_leaves_it_too_thin():
     # Of the gearset whose root holds by three hundredths.
     case = read_case("gearset-3")

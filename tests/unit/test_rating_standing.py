@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from asperity.rating.changes import says_less
 from asperity.rating.iso14521.limits import PLAUSIBLE, VALIDITY
 from asperity.rating.standing import WIDTH, Standing, efficiency_outside
 
@@ -43,3 +44,22 @@ def test_an_efficiency_is_marked_by_what_it_rests_on_alone(key):
     sentence = LIMITS[key].violation(2.0 * LIMITS[key].upper + 1.0)
     marked = efficiency_outside(SimpleNamespace(violations=(sentence,)))
     assert len(marked) == (key in OF_EFFICIENCY)
+
+
+ORDER = "does not hold", "no answer", "undecided", "holds"
+
+
+@pytest.mark.parametrize("before", ORDER)
+@pytest.mark.parametrize("after", ORDER)
+def test_a_standard_says_less_of_another_part_where_its_word_is_worth_less(before, after):
+    def rated(**words):
+        standing = [SimpleNamespace(standard=name, word=word) for name, word in words.items()]
+        return SimpleNamespace(verdict=SimpleNamespace(standing=standing))
+
+    one, other = rated(bs721=before, agma6034="holds"), rated(bs721=after, agma6034="holds")
+    assert says_less(one, other) == (ORDER.index(after) < ORDER.index(before))
+    # What one standard gains makes up for nothing.
+    lost = rated(bs721="holds", agma6034="no answer")
+    assert says_less(one, lost)
+    # A standard that was not asked says neither.
+    assert not says_less(rated(agma6034="holds"), rated(agma6034="holds", bs721=after))

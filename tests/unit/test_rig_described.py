@@ -1,5 +1,6 @@
 """Supplies and generators that are described by what is said to them, on fakes by their manuals."""
 
+import itertools
 import os
 import re
 import textwrap
@@ -18,7 +19,7 @@ from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.tribometer.guardian.devices import deadline_of
 from asperity.tribometer.guardian.guard import Guard
-from asperity.tribometer.instruments import off
+from asperity.tribometer.instruments import lines, off
 from asperity.tribometer.instruments.described import descriptions
 from asperity.tribometer.instruments.described_supply import open_described
 from asperity.tribometer.instruments.lines import opened_line
@@ -119,6 +120,32 @@ def test_a_supply_that_is_silent_as_it_gets_its_limit_refuses_nothing(plugged):
     with pytest.raises(InstrumentError, match="did not answer") as told:
         steel.set(1.0)
     assert told.value.kind == "no answer"
+
+
+def test_commands_are_as_far_apart_as_the_device_needs(plugged, monkeypatch):
+    device, clock, heard = by_the_manual.Korad(), Clock(), []
+    monkeypatch.setattr(lines, "time", clock)
+    steel = opened(plugged(device).port, instrument="korad", steel="1")["steel"]
+    written = lines.SerialLine._waited
+    monkeypatch.setattr(
+        lines.SerialLine, "_waited", lambda one: (written(one), heard.append(clock.now))
+    )
+    steel.set(2.0)
+    steel.on()
+    assert len(heard) >= 3
+    assert min(b - a for a, b in itertools.pairwise(heard)) >= 0.05 * (1.0 - 1e-12)
+
+
+class Clock:
+    """A clock that only sleeping moves."""
+
+    now = 0.0
+
+    def monotonic(self):
+        return self.now
+
+    def sleep(self, seconds):
+        self.now += seconds
 
 
 @pytest.mark.parametrize("name", ["tti-pl", "rs-hmp", "korad"])
@@ -419,6 +446,8 @@ def test_a_guardian_switches_described_instruments_and_reads_them_back(guarded):
         guard.ask(key, "on")
     assert guard.ask("steel", "reading") == [3.0, 1.5]
     assert guard.ask("bronze", "output") is True
+    # It answers no command: whoever looks at it without asking may be there before it has acted.
+    assert guard.ask("amplifier", "output") is True
     assert guard.ask("vibration", "vibrates") is True
     assert (two.outputs[1].limit, one.outputs[1].limit) == (2.0, 3.0)
     assert one.outputs[1].on

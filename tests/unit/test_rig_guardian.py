@@ -1,6 +1,7 @@
 """The guardian switches off in order, reads back, names what is not proven, waits for nobody."""
 
 import concurrent.futures as cf
+import itertools
 import json
 import os
 import queue
@@ -8,21 +9,22 @@ import re
 import select
 import threading
 import time
+from types import SimpleNamespace
 
 import pytest
 
 from asperity.errors import InputError, StorageError
+from asperity.tribometer.guardian import backends, stop, switching, verdicts
 from asperity.tribometer.guardian import guard as guards
 from asperity.tribometer.guardian import guardian as guardians
-from asperity.tribometer.guardian import stop, switching, verdicts
 from asperity.tribometer.guardian.guardian import Guardian
 from asperity.tribometer.guardian.journal import Journal
 from asperity.tribometer.guardian.owned import LISTENER, Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
 from asperity.tribometer.guardian.wire import Wire
 from asperity.tribometer.guardian.writing import Writing
-from asperity.tribometer.instruments import off
-from asperity.tribometer.instruments.parameters import Guard
+from asperity.tribometer.instruments import off, serial_vibration
+from asperity.tribometer.instruments.parameters import Controller, Guard
 from asperity.tribometer.instruments.protocols import InstrumentError, Reading
 from asperity.tribometer.journal_lines import NAME
 
@@ -91,7 +93,7 @@ class Made:
         self.wire = Wire(os.fdopen(self._hears, "rb", 0), os.fdopen(self._tells, "wb", 0))
         wire = Wire(os.fdopen(hears, "rb", 0), os.fdopen(tells, "wb", 0))
         self.guardian = Guardian(
-            [self._device(key, key in absent) for key in self.fakes], by_hand, wire,
+            [self._device(key, absent) for key in self.fakes], by_hand, wire,
             patience=patience, deadline=deadline, say=self.said.append, relay=relay,
             folder=folder,
         )  # fmt: skip
@@ -105,7 +107,7 @@ class Made:
 
     def _device(self, key, absent):
         def opened():
-            if absent:
+            if key in absent:
                 raise InstrumentError(f"{key} is not there")
             return {key: self.fakes[key]}
 
@@ -187,6 +189,53 @@ def test_an_absent_instrument_keeps_no_other_on_and_is_named(made):
     assert "NOT READ BACK TO BE OFF: steel" in one.said[0] if one.said else True
     one.ask("guardian", "goodbye")
     assert one.leave() == 4
+
+
+def test_what_was_absent_is_opened_when_it_is_plugged_in(made, monkeypatch):
+    monkeypatch.setattr(guardians, "_AGAIN", 0.05)
+    absent = ["steel", LISTENER]
+    one = made(absent=absent)
+    assert one.begin()["gave"]["still_on"] == ["steel: steel is not there"]
+    one.guardian.signal(2)
+    assert one.hears("tripped")["still_on"] == ["steel: steel is not there"]
+    absent.clear()
+    until(lambda: any("at last" in line for line in one.said))
+    assert not one.fakes["steel"].on_
+
+
+def test_what_is_absent_is_not_waited_for():
+    def absent():
+        raise InstrumentError("steel is not there")
+
+    seconds = itertools.count()
+    one = switching.Switching(
+        [Device("steel", {"steel": "steel"}, absent)], limit=1e3, now=lambda: float(next(seconds))
+    )
+    found = one.off("start", 0.0, listen=False)
+    assert found.still_on == ["steel: steel is not there"]
+    # By a clock that goes on by a second with every look, it was looked a few times.
+    assert found.seconds < 300.0
+
+
+def test_a_controller_that_garbles_is_named_with_what_it_answered(monkeypatch):
+    answers = iter(["x?NO", "NO", "YES"])
+    line = SimpleNamespace(ask=lambda _: next(answers))
+    monkeypatch.setattr(serial_vibration, "opened_line", lambda *_: line)
+    words = {
+        "port": "/dev/ttyACM0", "start": "GO", "stop": "END", "ask_output": "ON?",
+        "set_waveform": "WAVE {waveform}", "set_frequency": "FREQ {frequency}",
+    }  # fmt: skip
+    drive = serial_vibration.SerialVibration(
+        Controller.model_validate(words | {"output_off": "NO"})
+    )
+    found = off.drive_off("drive", off.drive_state(drive), None)
+    assert (found.proven, found.on) == (False, True)
+    assert found.evidence == "it is taken to be on: it answered 'ON?' with 'x?NO', not 'NO'"
+    assert off.drive_off("drive", off.drive_state(drive), None).proven
+    drive = serial_vibration.SerialVibration(
+        Controller.model_validate(words | {"output_off": "NO", "output_on": "YES"})
+    )
+    assert off.drive_off("drive", off.drive_state(drive), None).evidence == "its state is on"
 
 
 def written(folder):
@@ -284,6 +333,7 @@ def test_where_all_is_read_back_at_a_start_nothing_is_said_or_written(made, tmp_
     assert (one.said, written(tmp_path)) == ([], [])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["signal", "stop", "the button", "killed"])
 def test_a_start_that_tries_on_ends_at_once_when_it_is_to(made, tmp_path, monkeypatch, way):
     monkeypatch.setattr(guardians, "_ATTEMPTS", 0)
@@ -335,6 +385,37 @@ def test_what_is_found_when_the_journal_is_closed_already_is_in_it(tmp_path):
         writing.verdict(Verdict("the end", 0.0, 0.1, found))
     writing.all_written().result(60.0)
     assert [line.get("still_on", []) for line in written(tmp_path)] == [[str(stuck)], []]
+
+
+def test_a_journal_that_was_open_takes_that_all_is_off_and_none_is_begun_for_that(tmp_path):
+    for folder, lines in ((tmp_path / "open", 1), (tmp_path / "never", 0)):
+        folder.mkdir()
+        writing = Writing(lambda _: None, folder)
+        if lines:
+            asked = {"to": "journal", "do": "open", "with": [str(folder)]}
+            writing.asked(asked).result(60.0)
+            writing.asked({"to": "journal", "do": "close", "with": [False]}).result(60.0)
+        writing.verdict(Verdict("the end", 0.0, 0.1, ()))
+        writing.all_written().result(60.0)
+        assert len(written(folder)) == lines
+
+
+def test_a_work_that_hangs_is_told_of_for_as_long_as_a_disk_may_take(monkeypatch):
+    assert backends._WORKING == 5.0  # s, as the docs have it
+    monkeypatch.setattr(backends, "_WORKING", 0.2)
+    told = []
+
+    def hangs():
+        for _ in range(50):
+            before = len(told)
+            time.sleep(0.35)
+            if len(told) == before:
+                return "nobody is told any more"
+        return "told for ever"
+
+    bench = SimpleNamespace(guard=SimpleNamespace(here=lambda: told.append(True)))
+    assert backends.GuardedBench.work(bench, hangs) == "nobody is told any more"
+    assert told
 
 
 @pytest.mark.parametrize("way", ["signal", "end", "hangs", "another's fault", "fault of ours"])
@@ -450,7 +531,7 @@ def test_the_time_that_is_said_is_from_the_first_event_to_the_last_answer(made, 
     until(lambda: not one.guardian._verdicts.last.still_on)
     line = one.guardian._verdicts.last.line()
     assert mended - begun <= line["off_s"]["steel"] <= line["took_s"] <= time.monotonic() - begun
-    assert line["off_s"]["amplifier"] < 0.3 < line["off_s"]["steel"]
+    assert line["off_s"]["amplifier"] < line["off_s"]["steel"]
     assert one.leave() == 0
     seconds = float(one.said[-1].partition("within ")[2].partition(" s")[0])
     assert seconds == pytest.approx(line["took_s"], rel=0.06)

@@ -58,6 +58,13 @@ TOLD = {
     "zeros of torque and speed off": "zero of torque_steel: 0.0",
     "zero of the speed far off": "zero of speed_steel",
     "current told half as large": "current_steel does not fit its torque",
+    "current told 1.7 times as large": "current_steel does not fit its torque",
+    "speed told half as large again": "speed_steel does not fit its supply",
+    "speed of the bronze disc told twice as large": "speed_bronze does not fit its supply",
+    "both torques told half as large again": "current_steel does not fit its torque",
+    "supply of 3 V told as 5.5 V": "speed_steel does not fit its supply",
+    "drive picked up by both torques": "current_steel does not fit its torque",
+    "drive picked up by both torques, a little": "current_steel does not fit its torque",
 }
 
 

@@ -285,14 +285,85 @@ def test_a_bearing_that_cannot_sit_where_it_stands_is_told(setting, said):
     from asperity.shafts import study
 
     case = read_case("actuator-shafts", case_tables(), [setting])
-    assert said in study.answer(study.prepare(case), Run()).notes
+    found = study.answer(study.prepare(case), Run())
+    assert said in found.notes
+    assert [one.end for one in found.found["worm_shaft"].model.misseated] == [said.split()[2]]
     rated = study.beside_rating(case)(rate_case(case), Run())
     assert said in rated.notes
+    lives = {row.name[-1]: row.value for row in rated.rows if row.name.startswith("worm bearing")}
+    assert {end for end, life in lives.items() if life == 0.0} == {said.split()[2]}
     said = " ".join(rated.brief().split())
     assert "cannot sit there" in said
     # What cannot be mounted lives for no time, and does not hold.
     assert "0 h of" in said
     assert "FAILS" in said
+
+
+def moved(at, *more):
+    """Return the case with the worm's second bearing at another place, m."""
+    places = [f"{{at='30 mm'}}, {{at='{at} mm', carries='both'}}"]
+    return read_case("actuator-shafts", case_tables(), [f"worm_shaft.bearing=[{places[0]}]", *more])
+
+
+@pytest.mark.parametrize("at", [150, 185])
+def test_the_span_of_the_standards_is_that_of_the_shaft(at):
+    plain = read_case("actuator-duty", case_tables(), [f"operation.bearing_span={at - 30} mm"])
+    found = rate_case(moved(at))
+    assert found.given.bearing_span == at - 30
+    assert "operation.bearing_span" not in found.assumed
+    # The same by the sized gearset's own way, and by the forces of the standard.
+    assert found.iso14521["delta_m_mm"] == rate_case(plain).iso14521["delta_m_mm"]
+    assert [one.to_json() for one in found.forces] == [
+        one.to_json() for one in rate_case(plain).forces
+    ]
+    same = moved(at, f"operation.bearing_span={at - 30} mm")
+    assert rate_case(same).iso14521["delta_m_mm"] == found.iso14521["delta_m_mm"]
+
+
+@pytest.mark.parametrize(("at", "told"), [(180, None), (150, "75 mm from bearing A, of 120 mm")])
+def test_a_mesh_that_is_not_midway_is_told_beside_the_standard(at, told):
+    from asperity.runs import Run
+    from asperity.shafts import study
+
+    case = moved(at)
+    notes = study.beside_rating(case)(rate_case(case), Run()).notes
+    off = [note for note in notes if "midway" in note]
+    assert [told in note for note in off] == ([] if told is None else [True])
+
+
+def test_another_span_than_that_of_the_shaft_is_refused():
+    words = r"operation\.bearing_span is 300 mm, and the bearings of \[worm_shaft\] stand 120 mm"
+    with pytest.raises(InputError, match=words):
+        rate_case(moved(150, "operation.bearing_span=300 mm"))
+
+
+def test_sizing_takes_the_span_of_the_shaft():
+    from asperity.start.gear import operation_of
+
+    case = moved(150)
+    assert operation_of(dict(case.raw)).bearing_span == pytest.approx(0.12, rel=1e-12)
+    with pytest.raises(InputError, match=r"leave operation\.bearing_span out"):
+        operation_of(dict(moved(150, "operation.bearing_span=300 mm").raw))
+
+
+@pytest.mark.parametrize(
+    ("length", "wide", "told"),
+    [(90, None, "90 mm of threads, and b_1 is 71.38 mm"), (90, 90, ""),
+     (60, None, "60 mm of threads, and b_1 is 71.38 mm"), (90, 40, "b_1 is 40 mm")],
+)  # fmt: skip
+def test_threads_of_another_length_than_the_gearset_has_are_told(length, wide, told):
+    from asperity.shafts.model import model_of
+
+    sections = (
+        f"worm_shaft.section=[{{length='60 mm', diameter='30 mm'}}, "
+        f"{{length='{length} mm'}}, {{length='{130 - length} mm', diameter='30 mm'}}]"
+    )
+    more = [] if wide is None else [f"gearset.worm_face_width={wide} mm"]
+    case = read_case("actuator-shafts", case_tables(), [sections, "worm_shaft.mesh=95 mm", *more])
+    model = model_of(case.require(WormShaft), case.require(Gearset).geometry)
+    assert told in model.threads
+    assert bool(told) == bool(model.threads)
+    assert (model.threads in model.notes) == bool(told)
 
 
 def test_bearings_that_sit_are_not_told_of():

@@ -1,10 +1,12 @@
 """Whether steady sliding stays, or sticks and slips."""
 
+import math
+
 import pytest
 
 from asperity.casefile import read_case
-from asperity.slider import TABLES, Model
-from asperity.slider.steady import growth_rate
+from asperity.slider import TABLES, Model, solve
+from asperity.slider.steady import growth_rate, still_leaves, until_it_sticks
 
 
 def falling(faster):
@@ -24,3 +26,39 @@ def test_a_body_that_does_all_of_it_faster_leaves_steady_sliding_as_much_faster(
     rate = growth_rate(falling(1.0))
     assert rate > 1.0
     assert growth_rate(falling(1e8)) == pytest.approx(1e8 * rate, rel=1e-6)
+
+
+def test_a_march_beside_unstable_steady_sliding_has_not_settled_until_it_has_left():
+    body = falling(1.0)
+    rate = growth_rate(body)
+    half = 0.5 / rate
+    grown = math.exp(0.5)
+    assert "has not come to stick and slip" in still_leaves(body, half, (1e-4, 1e-4 * grown))
+    assert still_leaves(body, half, (1e-4, 1e-4)) == ""
+    assert still_leaves(body, half, (0.3 / grown, 0.3)) == ""
+    # Too short for its growth to be seen, what swings little may be on its way.
+    assert still_leaves(body, 0.01 / rate, (1e-4, 1e-4))
+    assert until_it_sticks(body, 1e-4) == pytest.approx(math.log(0.5 / 1e-4) / rate)
+    steady = falling(1.0).__class__(
+        body.slider, body.friction.model_copy(update={"static_mu": 0.1})
+    )
+    assert still_leaves(steady, half, (1e-4, 1e-4 * grown)) == ""
+
+
+def test_a_body_that_rings_for_ever_on_its_drive_has_settled_in_the_mean_and_says_what_it_does():
+    """It comes to its swing at once and keeps it; the mean is that of steady sliding to 1e-3."""
+    body = Model.from_case(
+        read_case(
+            "table-4.3", TABLES,
+            ["slider.drive_velocity=8.6 mm/s", "slider.normal_force=5.18 N",
+             "slider.mass=0.4866 kg", "slider.drive_stiffness=66.4 MN/m",
+             "slider.drive_damping=0 N s/m", "slider.lateral=guided", "friction.model=lugre",
+             "friction.mu=0.568", "friction.static_mu=0.7014", "friction.max_deflection=0.053 um",
+             "friction.stribeck_velocity=2.99 mm/s", "vibration.velocity_ratio=0",
+             "solve.duration=0.6 s"],
+        )
+    )  # fmt: skip
+    found = solve(body, history=False)
+    assert found.settled
+    assert any("steady sliding is unstable" in note for note in found.notes)
+    assert found.ratio == pytest.approx(1.0025, abs=1e-3)

@@ -11,6 +11,7 @@ from asperity.errors import InputError, StorageError
 from asperity.files.store import (
     harmless_cell,
     inputs_kept,
+    keep_input,
     output_folder,
     read_dataset,
     read_text,
@@ -19,6 +20,7 @@ from asperity.files.store import (
     write_dataset,
     write_text,
 )
+from asperity.files.together import written_together
 
 
 def labelled(dimensions, values, units):
@@ -101,6 +103,39 @@ def test_the_old_file_survives_a_failed_write(tmp_path, trouble):
         write_atomically(path, fail)
     assert path.read_text() == "old"
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_files_that_are_written_together_stand_all_or_not_at_all(tmp_path):
+    old = write_text(tmp_path / "one.txt", "old")
+    with written_together(tmp_path) as folder:
+        write_text(folder / "one.txt", "new")
+        write_text(folder / "two.txt", "new")
+        assert [path.read_text() for path in tmp_path.glob("*.txt")] == ["old"]
+    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {
+        "one.txt": "new", "two.txt": "new"
+    }  # fmt: skip
+
+    def full(target):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    def writing():
+        with written_together(tmp_path) as folder:
+            write_text(folder / "one.txt", "newer")
+            write_atomically(folder / "two.txt", full)
+
+    two = tmp_path / "two.txt"
+    assert refusal(writing) == f"{two} cannot be written: no space left on device"
+    assert sorted(tmp_path.iterdir()) == [old, two]
+    assert old.read_text() == "new"
+
+
+def test_what_is_read_is_not_written_over_together(tmp_path):
+    path = write_text(tmp_path / "one.txt", "old")
+    with inputs_kept():
+        keep_input(path)
+        with pytest.raises(InputError, match="is read here"), written_together(tmp_path) as folder:
+            write_text(folder / "one.txt", "new")
+    assert (list(tmp_path.iterdir()), path.read_text()) == ([path], "old")
 
 
 def test_a_disk_full_at_the_last_moment_is_one_line_and_leaves_nothing(tmp_path, monkeypatch):

@@ -1,5 +1,6 @@
 """An optimum and a sensitivity keep what `[requirements]` asks, as sizing does."""
 
+import math
 import random
 
 import pytest
@@ -30,6 +31,13 @@ def tip_diameter(rated):
     return g.axial_module * (g.wheel_teeth + 2.0 * g.profile_shift + 2.0)
 
 
+def reach(rated):
+    """The chord that the line of the worm's tip cuts from the wheel's outside circle."""
+    g = rated.geometry
+    outside = 0.5 * (tip_diameter(rated) + g.axial_module)
+    return 2.0 * math.sqrt(outside**2 - (g.centre_distance - 0.5 * g.worm_tip_diameter) ** 2)
+
+
 def breaks(case, rated):
     """What a design breaks of a case's requirements, by the rating of that design alone."""
     asked = {name: getattr(case.require(REQUIREMENTS), name) for name in REQUIREMENTS.model_fields}
@@ -43,6 +51,8 @@ def breaks(case, rated):
                 broken.append(f"{one.standard} {over}")
     if asked["wheel_diameter"] and tip_diameter(rated) > 1e3 * asked["wheel_diameter"]:
         broken.append("wheel")
+    if asked["worm_length"] and reach(rated) > 1e3 * asked["worm_length"]:
+        broken.append("worm")
     if any(s.value < asked["safety"] * s.demand.asked for s in rated.verdict.safeties):
         broken.append("safety")
     return broken
@@ -58,6 +68,7 @@ REQUIREMENTS = case_tables()["requirements"]
         (),
         ("requirements.locking_margin=1.1",),
         ("requirements.wheel_diameter=166.5 mm",),
+        ("requirements.worm_length=73 mm", "requirements.self_locking=any"),
         ("requirements.safety=1.6", "requirements.self_locking=any"),
     ],
 )

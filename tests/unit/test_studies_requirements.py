@@ -1,5 +1,6 @@
 """What sizing keeps beside the safeties, and the loads that it follows."""
 
+import math
 import tomllib
 
 import pytest
@@ -7,6 +8,7 @@ import pytest
 from asperity.cli.size import size
 from asperity.errors import InputError
 from asperity.start.gear import begun, proposals
+from asperity.studies.requirements import special_hob
 
 STEPS = [
     {"duration": "500 h", "output_torque": "250 N m"},
@@ -57,17 +59,31 @@ def test_a_margin_of_self_locking_leaves_fewer():
     assert all(one.starts / one.diameter_factor * 1.12 <= 0.0897 for one in wide.found)
 
 
-@pytest.mark.parametrize("key", ["centre_distance", "wheel_diameter"])
+@pytest.mark.parametrize("key", ["centre_distance", "wheel_diameter", "worm_length"])
 def test_room_is_kept(key):
     def size(one):
         if key == "centre_distance":
             return one.centre_distance_mm
-        return one.axial_module_mm * (one.wheel_teeth + 2.0 * one.profile_shift + 2.0)
+        throat = one.axial_module_mm * (one.wheel_teeth + 2.0 * one.profile_shift + 2.0)
+        if key == "wheel_diameter":
+            return throat
+        # The chord that the line of the worm's tip cuts from the wheel's outside circle.
+        outside = 0.5 * (throat + one.axial_module_mm)
+        gap = one.centre_distance_mm - 0.5 * one.axial_module_mm * (one.diameter_factor + 2.0)
+        return 2.0 * math.sqrt(outside**2 - gap**2)
 
     free = sorted(size(one) for one in sized(20).found)
     most = 0.5 * (free[0] + free[-1])
     kept = [size(one) for one in sized(20, requirements={key: f"{most} mm"}).found]
     assert free[0] <= max(kept) <= most < free[-1]
+
+
+def test_a_pressure_angle_of_no_series_is_told():
+    assert special_hob(math.radians(20.0)) == ()
+    (said,) = special_hob(math.radians(15.0))
+    assert said == "a pressure angle of 15 deg takes a special hob: the series is of 20 deg"
+    assert said in sized(gearset={"pressure_angle": "15 deg"}).notes
+    assert not any("special hob" in note for note in sized().notes)
 
 
 def test_safeties_are_so_many_times_what_is_asked():

@@ -3,13 +3,15 @@
 import csv
 import io
 import json
+import math
 
 import pytest
 
 from asperity import __version__
 from asperity.thesis.contents import CHAPTERS, CLAIMS, FIGURES, TABLES, chapter_of, everything
 from asperity.thesis.products import Grid
-from asperity.thesis.rating.rated import GEARSET_2, RatedGear
+from asperity.thesis.rating.printed import EFFICIENCY, efficiencies, efficiency, locks
+from asperity.thesis.rating.rated import GEARSET_2, RatedGear, quoted_methods
 from asperity.thesis.reproduce import page as report
 
 GRID = Grid(("symbol", "value"), (("m_x1", 1.0 / 3.0), ("a, b", 60), ("gone", "")), ("how",))
@@ -84,3 +86,29 @@ def test_a_gearset_knows_its_command_and_its_numbers():
     assert gear.number("iso14521", "mu_0T") == 0.055
     assert gear.number("agma6034", "pressure_angle_deg") == pytest.approx(25.0)
     assert GEARSET_2.number("iso14521", "mu_0T") == pytest.approx(0.0715, abs=5e-5)
+
+
+@pytest.mark.parametrize(
+    ("share", "percents"),
+    [
+        (1.0, (38.0, 38.0, 38.0)), (0.0550 / 0.0715, (44.4, 44.4, 44.6)),
+        (0.7, (46.7, 46.8, 47.0)), (0.5, (55.1, 55.2, 55.6)), (0.1, (86.0, 86.1, 86.4)),
+    ],
+)  # fmt: skip
+def test_one_printed_efficiency_gives_the_others_at_any_lead_angle(share, percents):
+    for lead, percent in zip((2.0, 5.29, 9.0), percents, strict=True):
+        found = efficiency(share, math.radians(lead))
+        assert round(100.0 * found, 1) == percent
+        # Equation (6), the other way round.
+        angle = math.atan(math.tan(math.radians(lead)) / found) - math.radians(lead)
+        whole = math.atan(math.tan(math.radians(lead)) / EFFICIENCY) - math.radians(lead)
+        assert math.tan(angle) == pytest.approx(share * math.tan(whole), rel=1e-12)
+
+
+def test_the_printed_frictions_unlock_what_gearset_2_is_unlocked_by():
+    study = GEARSET_2.comparison
+    for method in quoted_methods():
+        row = study[method.key]
+        assert set(locks(row)) == {row.locks}
+        low, high = sorted(efficiencies(row))
+        assert low - 0.002 < row.efficiency < high + 0.002

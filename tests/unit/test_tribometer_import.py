@@ -324,6 +324,22 @@ DATED = {
         dated(["Start,5/31/2026 12:34:56 PM"]),
         datetime.datetime(2026, 5, 31, 12, 34, 56).astimezone(UTC),
     ),
+    "evening": (
+        dated(["Start,5/31/2026 10:34:56 pm"]),
+        datetime.datetime(2026, 5, 31, 22, 34, 56).astimezone(UTC),
+    ),
+    "after midnight": (
+        dated(["Start,5/31/2026 12:34:56 AM"]),
+        datetime.datetime(2026, 5, 31, 0, 34, 56).astimezone(UTC),
+    ),
+    "a zone in the west": (
+        dated(["Start,2026-05-31 22:34:56-03:30"]),
+        datetime.datetime(2026, 6, 1, 2, 4, 56, tzinfo=UTC),
+    ),
+    "a zone in the east": (
+        dated(["Start,2026-05-31 01:34:56 +0200"]),
+        datetime.datetime(2026, 5, 30, 23, 34, 56, tzinfo=UTC),
+    ),
     "since 1970": (dated([], "1777638896000.0").replace("\n0.", "\n1777638896000."), None),
     "none": (dated([]), ""),
     "exported": (dated(["Exported on 2026-05-01 12:34:56", "calibration due 2027-01-01"]), ""),

@@ -1,6 +1,7 @@
 """A recording holds what was recorded, says what is missing, and survives being killed."""
 
 import contextlib
+import errno
 import importlib.util
 import json
 import os
@@ -222,6 +223,29 @@ def test_another_netcdf_is_refused_with_what_to_do(tmp_path):
         Recording.open(tmp_path / "run.nc")
 
 
+@pytest.mark.skipif(not hasattr(os, "posix_fallocate"), reason="asks the system for space")
+def test_space_is_asked_for_before_a_file_is_begun(tmp_path, monkeypatch):
+    path = tmp_path / "one.nc"
+    made = recorder(path)
+    made.append(counts(BLOCK), 0.1)
+    made.leave()
+    asked = []
+
+    def full(descriptor, place, size):
+        asked.append(size)
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    with monkeypatch.context() as disk:
+        disk.setattr(os, "posix_fallocate", full)
+        with pytest.raises(StorageError, match="no space left"):
+            joined(path)
+    # All of the counts, at least; what was recorded stands where it stood.
+    assert asked[0] >= 2 * 2 * BLOCK
+    assert list(tmp_path.iterdir()) == [blocks_beside(path)]
+    assert joined(path)
+    assert stored(path).shape == (BLOCK, 2)
+
+
 @pytest.mark.skipif(os.name != "posix", reason="needs limits of a process")
 def test_a_full_disk_is_a_line(tmp_path):
     limit = "import resource, signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
@@ -299,6 +323,7 @@ def check_killed(path, block, reported):
     path.unlink()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_recording_that_is_killed_lacks_its_last_block_at_most(tmp_path):

@@ -1,5 +1,7 @@
 """Where the command ``asperity`` begins, so light that Ctrl-C is heard from the first moment."""
 
+import contextlib
+import itertools
 import os
 import sys
 
@@ -14,7 +16,9 @@ if TYPE_CHECKING:
 
 def main(arguments: list[str] | None = None) -> "NoReturn":
     """Run the command line and leave with its exit code."""
-    interrupt.at_once()
+    # It switches motors: whatever ends the process is answered to its end.
+    switches = arguments is None and ("rig", "run") in itertools.pairwise(sys.argv[1:])
+    interrupt.at_once(to_the_end=switches)
     reraise_pending()
     columns = os.environ.get("COLUMNS", "")
     if columns and not columns.strip("0"):
@@ -29,4 +33,10 @@ def main(arguments: list[str] | None = None) -> "NoReturn":
         code = run(arguments)
     finally:
         interrupt.as_exception()
+    if switches:
+        # Python's own end would take a signal that comes in it for one that nobody hears.
+        for stream in (sys.stdout, sys.stderr):
+            with contextlib.suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(code)
     sys.exit(code)

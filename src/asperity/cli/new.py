@@ -58,11 +58,14 @@ def new(
             if question.path == "ratio":
                 if "requirements.ratio" not in given:
                     wanted = ratio or _asked_ratio(question)
-            elif question.path not in given:
+            elif question.path not in given and question.counts(values):
                 _follow(kind, values, given, question.path)
                 _ask(question, values)
     _follow(kind, values, given)
-    remarks = ["Every key that stands behind a # may be given as well; what it says is assumed."]
+    remarks = [
+        "Every key that stands behind a # may be given as well; what it says is assumed, or an "
+        "example where its line says so."
+    ]
     remarks += told
     if kind.case:
         remarks.append(
@@ -219,16 +222,18 @@ def _told(path: Path, kind: Kind) -> str:
 def _ask(question: Question, values: Values) -> None:
     table, _, key = question.path.partition(".")
     while True:
-        now = values[table].get(key)
+        before = dict(values.get(table, {}))
+        now = before.get(key, "left out" if question.optional else None)
         answer = _answer(f"{question.words} [{now}]: ")
         if not answer:
             return
-        before = dict(values[table])
         try:
             apply(values, f"{question.path}={answer}", case_tables())
             _try(question.path, values)
         except InputError as error:
             values[table] = before
+            if not before:
+                values.pop(table)
             show.note(str(error).removeprefix(f"--set {question.path}={answer}: "))
         else:
             return

@@ -18,6 +18,7 @@ from asperity.commands.command import Command
 from asperity.commands.shown import check_shown, shown_as
 from asperity.errors import ConvergenceError, InputError, StorageError, plain, shown
 from asperity.files.store import output_folder, reason, write_text
+from asperity.files.together import written_together
 from asperity.results.files import picture_format
 from asperity.runs import Run
 
@@ -129,19 +130,33 @@ def execute(
         if file is not None:
             teller.written(result.save(file), ())
         elif folder is not None:
-            names = result.write(folder, pictures=pictures)
-            if result.reported:
-                from asperity.results.report import Heading
-
-                heading = Heading.of(found, version)
-                write_text(folder / _REPORT, result.to_html(heading, folder))
-                names.append(_REPORT)
-            run.finished()
-            teller.written(folder, names)
+            try:
+                names = _write(result, folder, pictures, found, version)
+            except StorageError as error:
+                # What latched says more, to a person and to a script, than a disk that is full.
+                if result.failure is None:
+                    raise
+                teller.note(str(error))
+            else:
+                run.finished()
+                teller.written(folder, names)
     if shown is not None:
         raise shown
     if result.failure is not None:
         raise result.failure
+
+
+def _write(result: "Result", folder: Path, pictures: str, case: "Case", version: str) -> list[str]:
+    """Write an answer and its page; returns the names of the files."""
+    whole = written_together(folder) if result.whole else contextlib.nullcontext(folder)
+    with whole as into:
+        names = result.write(into, pictures=pictures)
+        if result.reported:
+            from asperity.results.report import Heading
+
+            write_text(into / _REPORT, result.to_html(Heading.of(case, version), into))
+            names.append(_REPORT)
+    return names
 
 
 def _check_new(file: Path, command: Command) -> None:

@@ -185,6 +185,15 @@ COMMANDS = (
         ),
     ),
     Command(
+        "crossed",
+        "Take a worm with a helical wheel in place of its own: geometry, sliding, pressure.",
+        "Such wheels are moulded of plastics; their strength is not rated. With --out also "
+        "report.html, crossed.json and crossed.nc.",
+        module="asperity.rating.crossed",
+        needs=("gearset",),
+        draws=False,
+    ),
+    Command(
         "rexs",
         "Write a worm gearset in the exchange format of gearbox programs, REXS.",
         "It is of version 1.5; asperity new gear --from reads such files, of any version.",

@@ -7,6 +7,7 @@ import os
 import platform
 import re
 import secrets
+import shutil
 from pathlib import Path
 
 _TEMPORARY = re.compile(r"\..*\.asperity-([0-9a-f]{8})-([0-9]+)-[0-9a-f]{12}(?:\.[^.]*)?")
@@ -20,7 +21,7 @@ def temporary_beside(path: Path) -> Path:
 
 
 def remove_leftovers(folder: Path) -> None:
-    """Remove temporary files of this package whose process was killed while it wrote them.
+    """Remove what processes that were killed were writing: temporary files, and folders of them.
 
     A file of a process that lives, of another machine or of another program stays.
     """
@@ -28,7 +29,10 @@ def remove_leftovers(folder: Path) -> None:
         name = _TEMPORARY.fullmatch(path.name)
         if name and name[1] == _here() and not _lives(int(name[2])):
             with contextlib.suppress(OSError):
-                path.unlink()
+                if path.is_dir() and not path.is_symlink():
+                    shutil.rmtree(path)
+                else:
+                    path.unlink()
 
 
 @functools.cache

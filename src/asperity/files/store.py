@@ -58,7 +58,8 @@ def _identity(path: str | os.PathLike[str]) -> tuple[int, int]:
     return found.st_dev, found.st_ino
 
 
-def _refuse_input(path: Path) -> None:
+def refuse_input(path: Path) -> None:
+    """Refuse to write what is read within :func:`inputs_kept`; raises InputError."""
     try:
         read = _identity(path) in (_inputs.get() or ())
     except (OSError, ValueError):  # there is none
@@ -200,7 +201,7 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
         It is what the command reads.
     """
     path = Path(path)
-    _refuse_input(path)
+    refuse_input(path)
     temporary = temporary_beside(path)
     try:
         write(temporary)
@@ -216,7 +217,7 @@ def write_atomically(path: str | os.PathLike[str], write: Callable[[Path], objec
         # After the rename there is nothing left to remove; before it, also for an interrupt.
         with contextlib.suppress(OSError):
             temporary.unlink()
-    _flush_folder(path.parent)
+    flush_folder(path.parent)
     return path
 
 
@@ -233,7 +234,8 @@ def stamp(path: Path) -> tuple[int, int, int]:
     return found.st_mtime_ns, found.st_ctime_ns, found.st_size
 
 
-def _flush_folder(folder: Path) -> None:
+def flush_folder(folder: Path) -> None:
+    """Bring what was renamed in a folder to the disk."""
     # The rename itself outlives a power cut only once the folder is on disk; some file systems
     # cannot flush a folder, and the file is complete either way.
     with contextlib.suppress(OSError):

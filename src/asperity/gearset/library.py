@@ -164,7 +164,7 @@ def _find(model: type[Sourced], name: str, stamps: _Stamps) -> Sourced:
             if kind == model.also
             for word in (other, str(entry.values.get("number", "")))
         ]
-        near = suggestion(name, (*known, *others)) or nearest(name, known)
+        near = suggestion(name, (*known, *others)) or f"{nearest(name, known)}{_where(known)}"
         raise InputError(f"no {SECTIONS[section]} of that name is known{near}")
     entry = library[section, name]
     try:
@@ -173,6 +173,13 @@ def _find(model: type[Sourced], name: str, stamps: _Stamps) -> Sourced:
         )
     except InputError as error:
         raise InputError(f'{entry.file}: [{section}."{name}"]: {error}') from None
+
+
+def _where(known: Sequence[str]) -> str:
+    """Say what to do about a name that is nowhere."""
+    if not own_files():
+        return "; where a data file of your own has it, name that as asperity --materials FILE"
+    return "" if known else "; none of the data files that are named has one"
 
 
 def add_files(paths: Sequence[str]) -> None:

@@ -7,6 +7,18 @@ import threading
 
 _SOON = 0.02
 
+MEANING = {
+    "SIGINT": "interrupted",
+    "SIGTERM": "terminated",
+    "SIGHUP": "ended with its terminal",
+    "SIGQUIT": "quit",
+    "SIGBREAK": "interrupted",
+}
+"""Signals that end a work, and what each means."""
+
+answered: list[bool] = []
+"""Holds something from when on a work that hears signals itself has done so to its end."""
+
 
 def reraise_pending() -> None:
     """Let a Ctrl-C that came where nothing can be raised be heard a moment later.

@@ -11,7 +11,7 @@ from asperity.gearset.lubricants import Lubricant
 from asperity.gearset.materials import WheelMaterial
 from asperity.gearset.parameters import Gearset
 from asperity.gearset.tolerancing.table import Tolerances
-from asperity.rating.changes import changed_words, fails_anew
+from asperity.rating.changes import changed_words, says_less
 from asperity.rating.driven import given_of
 from asperity.rating.inputs import Inputs
 from asperity.rating.levers import Alternative, alternatives, levers
@@ -65,13 +65,13 @@ def _with_changes(
 ) -> Alternative | None:
     """Return an alternative with what else it changes in the words of the verdict.
 
-    None if it does not hold by a standard any more by which the gearset holds: that is no best.
+    None if a standard says less of it than of the gearset: that is no best.
     """
     given, (table, _, key) = rated.given, other.key.partition(".")
     thing = find(Lubricant if key == "lubricant" else WheelMaterial, other.value)
     tables: dict[str, Any] = {"gearset": given.gearset, "operation": given.operation}
     tables[table] = tables[table].model_copy(update={key: thing})
     changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
-    if fails_anew(rated, changed):
+    if says_less(rated, changed):
         return None
     return other._replace(changes=changed_words(rated, changed))

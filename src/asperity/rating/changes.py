@@ -3,9 +3,11 @@
 from collections.abc import Iterator
 from typing import Any
 
-from asperity.rating.standing import NAMES, listed
+from asperity.rating.standing import NAMES, Word, listed
 
 _SHORT = {"iso14521": "ISO", "bs721": "BS", "agma6034": "AGMA"}
+# How much a verdict says for a gearset.
+_SAYS: dict[Word, int] = {"does not hold": 0, "no answer": 1, "undecided": 2, "holds": 3}
 _STATES = {"static": "at rest", "dynamic": "in motion"}
 
 Rated = Any
@@ -17,11 +19,16 @@ def changed_words(before: Rated, after: Rated) -> tuple[str, ...]:
     return (*_standing(before, after), *_locking(before, after))
 
 
-def fails_anew(before: Rated, after: Rated) -> bool:
-    """Whether a standard by which a gearset holds says that it does not hold any more."""
-    held = {one.standard for one in before.verdict.standing if one.word == "holds"}
+def says_less(before: Rated, after: Rated) -> bool:
+    """Whether a standard says less of a gearset than before: what held does not, or is not told.
+
+    What it gave no answer for may fail too, and what it fails can become no less.
+    """
+    old = {one.standard: one.word for one in before.verdict.standing}
     return any(
-        one.standard in held and one.word == "does not hold" for one in after.verdict.standing
+        _SAYS[one.word] < _SAYS[old[one.standard]]
+        for one in after.verdict.standing
+        if one.standard in old
     )
 
 

@@ -20,6 +20,7 @@ from asperity.results.words import Number, Sentence
 
 _ROOT = 1.06  # of the wear that the root of a tooth loses, as in its thickness
 _PITTING_CAP = 1.6
+_COUNTED = 1e9  # hours that are written out
 
 
 class Endurance(Quantities):
@@ -33,7 +34,7 @@ class Endurance(Quantities):
 
     def sentence(self, asked: float, key: str = "") -> Sentence:
         """Return it in words, beside the running time that is asked for, h."""
-        required = f"{asked:,.0f}" if asked >= 1000.0 else f"{asked:.4g}"
+        required = f"{asked:,.0f}" if 1000.0 <= asked < _COUNTED else f"{asked:.4g}"
         symbol = next(
             d.symbol for d in DEMANDS if (d.standard, d.name) == (self.standard, self.name)
         )
@@ -47,7 +48,7 @@ class Endurance(Quantities):
 
 
 def _hours(value: float, key: str) -> Number:
-    return Number.of(value, ",.0f" if value >= 100.0 else ".3g", key)
+    return Number.of(value, ",.0f" if 100.0 <= value < _COUNTED else ".3g", key)
 
 
 def endurance_table(rows: Sequence[Endurance]) -> Table:

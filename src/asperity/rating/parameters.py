@@ -98,7 +98,7 @@ class Operation(Table):
         Arrangement of the worm's bearings: 'fixed-floating', 'preloaded', a name of your own or a
         table with the keys of `asperity.gearset.bearings.Bearings`.
     bearing_span : float or str, optional
-        Between the worm's bearings, m. Left out: 1.5 centre distances.
+        Between the worm's bearings, m; that of ``[worm_shaft]``, else 1.5 centre distances.
     seals : int
         Lip seals on the worm shaft.
     fan : bool

@@ -27,7 +27,7 @@ from asperity.rating.levers import Alternative, Lever
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.play import play_of
 from asperity.rating.result import Rating
-from asperity.rating.rows import Row, Shafts
+from asperity.rating.rows import Row, Shafts, beside
 from asperity.rating.self_locking import SelfLocking, self_locking
 from asperity.rating.standards import PROMISED, STANDARDS, known_standards, rate_by, tables_of
 from asperity.rating.starting import Starting, starting, starting_table
@@ -230,12 +230,12 @@ class Rated(Result):
             tables.append(duty_table(self.duty_cycle))
         if self.self_locking.verdicts:
             tables.append(self.self_locking.table())
+        tables += beside(self.rows)
         if self.holding:
             tables.append(held_table(self.holding))
         if self.given.operation.steps is not None:
             tables.append(endurance_table(self.endurance))
-        if self.starting:
-            tables.append(starting_table(self.starting))
+        tables += [starting_table(self.starting)] if self.starting else []
         if self.backlash is not None:
             tables.append(self.backlash.table())
         if self.notes:

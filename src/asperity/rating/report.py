@@ -1,7 +1,6 @@
 """What the report of a rating says, from verdict to sources."""
 
 import dataclasses
-import math
 from collections.abc import Iterator
 from typing import Any
 
@@ -12,10 +11,10 @@ from asperity.rating.forces import MEANINGS
 from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
+from asperity.rating.rows import beside
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
 from asperity.rating.verdict import bar, locking_line, power_lines
-from asperity.results.language import Spoken, said
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
 from asperity.results.words import Number, Sentence, text_of
@@ -51,7 +50,7 @@ def seen(rated: Reported) -> Views:
 def sections(rated: Reported) -> Iterator[Section]:
     """Yield the sections of the report of a rating."""
     cited: dict[Source, int] = {}
-    verdict = (*_verdict(rated), *_beside(rated))
+    verdict = (*_verdict(rated), *beside(rated.rows))
     yield Section("Verdict", tuple(_come_to(rated)), tables=verdict)
     yield dataclasses.replace(drawn(seen(rated)), tables=(_geometry(rated),))
     if rated.iso14521 is not None:
@@ -157,25 +156,6 @@ def _verdict(rated: Reported) -> Iterator[Table]:
     unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
     heat = (rated.verdict.heat_assumed,) if rated.verdict.heat_assumed else ()
     yield Table(columns, tuple(rows), remarks=(said, *wear, *heat, *unrated))
-
-
-def _beside(rated: Reported) -> Iterator[Table]:
-    """Yield what shafts and bearings come to, where there are any."""
-    if not rated.rows:
-        return
-    rows = []
-    for place, row in enumerate(rated.rows):
-        key = f"verdict.rows.{place}.{'life_h' if row.unit else 'safety'}"
-        value = text_of(row.value, key=key) if math.isfinite(row.value) else "-"
-        stands = "holds" if row.holds else "FAILS"
-        name = Spoken(f"{said(row.standard)} {said(row.name)}")
-        rows.append((name, value, f"{row.asked:.4g}", row.unit, row.by,
-                     stands))  # fmt: skip
-    columns = (
-        Column("besides the standards"), Column("value", right=True), Column("asked", right=True),
-        Column("unit"), Column("by", folds=True), Column(""),
-    )  # fmt: skip
-    yield Table(columns, tuple(rows))
 
 
 def _geometry(rated: Reported) -> Table:

@@ -1,11 +1,12 @@
 """A row of the verdict that comes from outside the three standards: a shaft, a bearing."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from asperity.results.language import Spoken, said
-from asperity.results.words import Number, Sentence
+from asperity.results.table import Column, Table
+from asperity.results.words import Number, Sentence, text_of
 
 if TYPE_CHECKING:
     from asperity.gearset.drawn import Views
@@ -105,3 +106,27 @@ class Row(NamedTuple):
             "holds": self.holds,
             "by": self.by,
         }
+
+
+def beside(rows: Sequence[Row]) -> list[Table]:
+    """Return what stands besides the standards as a table; none where there is nothing.
+
+    Parameters
+    ----------
+    rows : sequence of Row
+        Of a verdict, in its order.
+    """
+    if not rows:
+        return []
+    made = []
+    for place, row in enumerate(rows):
+        key = f"verdict.rows.{place}.{'life_h' if row.unit else 'safety'}"
+        value = text_of(row.value, key=key) if math.isfinite(row.value) else "-"
+        name = Spoken(f"{said(row.standard)} {said(row.name)}")
+        stands = "holds" if row.holds else "FAILS"
+        made.append((name, value, f"{row.asked:.4g}", row.unit, row.by, stands))
+    columns = (
+        Column("besides the standards"), Column("value", right=True), Column("asked", right=True),
+        Column("unit"), Column("by", folds=True), Column(""),
+    )  # fmt: skip
+    return [Table(columns, tuple(made))]

@@ -23,6 +23,9 @@ ENGLISH = "en"
 _FOLDER = Path(__file__).with_name("languages")
 _HOLE = re.compile(r"\{([A-Za-z_]\w*)\}")
 _WORD = re.compile(r"(?<![\w.])(?:[a-z][a-z-]{2,}|[A-Z][a-z]{3,})(?![\w(=]|\.\w)")
+# Short words and loud ones, which may be symbols and units where others are.
+_SHORT_WORD = re.compile(r"(?<![\w.])(?:as|at|by|if|is|it|no|of|on|or|to|FAILS)(?![\w(=]|\.\w)")
+_OF_FORMULAS = frozenset(("else", "for", "rho", "psi", "tau"))
 # Numbers of a sentence keep their digits and keys: signs of no language stand for them meanwhile.
 _FIRST = 0xE000
 _MARK = re.compile("[\ue000-\uf8ff]")
@@ -91,7 +94,8 @@ class Catalogue:
             return text
         if not _WORD.search(text):
             # Of short words alone, as "of" and "at", only whole lines tell.
-            return self._by_line(text, whole=True) or text
+            short = _SHORT_WORD.search(text)
+            return self._by_line(text, whole=True) or (None if short else text)
         small = text[0].lower() + text[1:]
         if small in self._texts:
             begun = self._texts[small]
@@ -180,6 +184,13 @@ def _line(english: str, said: str) -> _Line:
         for place, piece in enumerate(pieces)
     )
     return _Line(re.compile(pattern, re.DOTALL), max(pieces[::2], key=len), holes, said)
+
+
+def has_words(equation: str) -> bool:
+    """Return whether an equation has words that are of a language, besides those of formulas."""
+    return any(word not in _OF_FORMULAS for word in _WORD.findall(equation)) or (
+        _SHORT_WORD.search(equation.replace("if ", "")) is not None
+    )
 
 
 class Spoken(str):

@@ -45,6 +45,8 @@ class Result(Quantities):
         What a report says below each of them.
     reported : bool
         Whether ``--out`` also leaves ``report.html``.
+    whole : bool
+        Whether of its files all stand in the folder or none: what is soon made again.
     labels : mapping
         Of dimensions: the names along them and what they are.
     notes : tuple of str
@@ -58,6 +60,7 @@ class Result(Quantities):
 
     captions: ClassVar[Mapping[str, str]] = {}
     reported: ClassVar[bool] = True
+    whole: ClassVar[bool] = False
 
     notes: tuple[str, ...] = ()
 

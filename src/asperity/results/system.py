@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal, NamedTuple
 
-from asperity.results.language import ENGLISH, language, said
+from asperity.results.language import ENGLISH, has_words, language, said
 from asperity.results.table import Bar, Column, Table
 from asperity.results.words import Number, Sentence
 
@@ -62,7 +62,8 @@ US: dict[str, Shown] = {
 _LARGE = 1e7
 _MODULE = "modul"  # in English and in languages near it
 _PITCH, _PER_INCH = "diametral pitch pi/p", "1/in"
-_KEPT = ("equation", "source", "as written", "key", "keys", "unit")
+_EQUATION = "equation"
+_KEPT = (_EQUATION, "source", "as written", "key", "keys", "unit")
 _EQUATIONS = "equations are written for the units of their standards: mm, N, N m, MPa, degC"
 # What a key of JSON ends with, the longer first. Without the metre, which "m" of others would be.
 _SUFFIXES = {
@@ -139,9 +140,11 @@ def _translated(table: Table) -> Table:
     if language() == ENGLISH:
         return table
     stays = [column.typeset or column.heading in _KEPT for column in table.columns]
+    equations = [column.heading == _EQUATION for column in table.columns]
     rows = tuple(
-        tuple(cell if kept or isinstance(cell, Bar) else said(cell)
-              for cell, kept in zip(row, stays, strict=True))
+        tuple(cell if isinstance(cell, Bar) or (kept and not (equation and has_words(cell)))
+              else said(cell)
+              for cell, kept, equation in zip(row, stays, equations, strict=True))
         for row in table.rows
     )  # fmt: skip
     columns = tuple(

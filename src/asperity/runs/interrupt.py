@@ -7,6 +7,8 @@ import threading
 import time
 from collections.abc import Iterator
 
+from asperity.processes.interrupts import MEANING, answered
+
 
 class Interrupted(KeyboardInterrupt):
     """A work was interrupted and says in its text what is kept of it.
@@ -65,7 +67,7 @@ class Signals:
     """Notes every signal that ends a work, however often it comes, and raises where it may.
 
     What is not to be heard, as Ctrl-C in the background or the end of a terminal under nohup, is
-    left so.
+    left so. Those that come after it has listened change nothing of how the process ends.
 
     Attributes
     ----------
@@ -80,7 +82,7 @@ class Signals:
 
     def _hear(self, number: int, _frame: object) -> None:
         self._number = self._number or number
-        self.heard = self.heard or _MEANING[signal.Signals(number).name]
+        self.heard = self.heard or MEANING[signal.Signals(number).name]
         if self._raises:
             self._raises = False
             raise Interrupted(self.heard)
@@ -92,13 +94,14 @@ class Signals:
             yield
             return
         before = {}
-        for name in _MEANING:
+        for name in MEANING:
             number = getattr(signal, name, None)
             if number is not None and signal.getsignal(number) not in (signal.SIG_IGN, None):
                 before[number] = signal.signal(number, self._hear)
         try:
             yield
         finally:
+            answered[:] = [True]
             for number, handler in before.items():
                 signal.signal(number, handler)
 
@@ -134,15 +137,6 @@ class Signals:
         """Raise `Interrupted` if one has come."""
         if self.heard:
             raise Interrupted(f"{self.heard}{how_far}")
-
-
-_MEANING = {
-    "SIGINT": "interrupted",
-    "SIGTERM": "terminated",
-    "SIGHUP": "ended with its terminal",
-    "SIGQUIT": "quit",
-    "SIGBREAK": "interrupted",
-}
 
 
 def stop_of(error: BaseException) -> KeyboardInterrupt | None:

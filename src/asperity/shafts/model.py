@@ -19,6 +19,22 @@ THREADS_BEND = 1.1
 
 _SAME = 1e-9
 _BORE = 1e-3  # by which a seat may differ from the bore
+_SAME_LENGTH = 1e-3
+
+
+class Misseated(NamedTuple):
+    """A bearing that cannot sit where it stands.
+
+    Attributes
+    ----------
+    end : str
+        ``"A"``, the one nearer to the end that positions start from, or ``"B"``.
+    why : str
+        In a sentence.
+    """
+
+    end: str
+    why: str
 
 
 class Model(NamedTuple):
@@ -42,8 +58,11 @@ class Model(NamedTuple):
         MPa.
     notes : tuple of str
         What is not judged, and what is not as it can be.
-    misseated : tuple of str
-        Which of them are of bearings that cannot sit where they stand.
+    misseated : tuple of Misseated
+        Bearings that cannot sit where they stand; the notes say so too.
+    threads : str
+        What is to be said of a worm whose threads are not as long as the gearset has them; the
+        notes say so too.
     """
 
     table: WormShaft | WheelShaft
@@ -54,7 +73,8 @@ class Model(NamedTuple):
     mesh: float
     modulus: float
     notes: tuple[str, ...]
-    misseated: tuple[str, ...] = ()
+    misseated: tuple[Misseated, ...] = ()
+    threads: str = ""
 
     @property
     def places(self) -> tuple[ShaftBearing, ShaftBearing]:
@@ -155,7 +175,7 @@ def model_of(table: WormShaft | WheelShaft, geometry: Geometry) -> Model:
     bearings = sorted(scaled(each.at, 1e3) for each in table.bearing)
     modulus = 206e3 if table.material is None else 1e-6 * table.material.youngs_modulus
     details, notes = _details(table, stretches, bears, max(drawn))
-    misseated = tuple(_seats(table, stretches))
+    misseated, threads = tuple(_seats(table, stretches)), _of_threads(table, geometry)
     return Model(
         table,
         tuple(stretches),
@@ -164,13 +184,26 @@ def model_of(table: WormShaft | WheelShaft, geometry: Geometry) -> Model:
         (bearings[0], bearings[1]),
         scaled(table.mesh, 1e3),
         modulus,
-        (*notes, *misseated),
+        (*notes, *(one.why for one in misseated), *([threads] if threads else [])),
         misseated,
+        threads,
     )
 
 
-def _seats(table: WormShaft | WheelShaft, stretches: Sequence[Stretch]) -> Iterator[str]:
-    """Say where a bearing cannot sit: on threads, or on another diameter than its bore."""
+def _of_threads(table: WormShaft | WheelShaft, geometry: Geometry) -> str:
+    """Say how long the threads of the sections are where the gearset has them of another length."""
+    bare = [section.length for section in table.section if section.diameter is None]
+    long, b_1 = scaled(math.fsum(bare), 1e3), float(geometry.worm_face_width)
+    if not bare or abs(long - b_1) <= _SAME_LENGTH * b_1:
+        return ""
+    return (
+        f"{table.table}: its sections have {long:.4g} mm of threads, and b_1 is {b_1:.4g} mm: give "
+        "gearset.worm_face_width where it is to be the same"
+    )
+
+
+def _seats(table: WormShaft | WheelShaft, stretches: Sequence[Stretch]) -> Iterator[Misseated]:
+    """Yield each bearing that cannot sit: on threads, or on another diameter than its bore."""
     for end, place in zip("AB", sorted(table.bearing, key=lambda each: each.at), strict=True):
         at = scaled(place.at, 1e3)
         here = [
@@ -179,16 +212,19 @@ def _seats(table: WormShaft | WheelShaft, stretches: Sequence[Stretch]) -> Itera
             if stretch.start - _SAME <= at <= stretch.end + _SAME
         ]
         if all(section.diameter is None for section in here):
-            yield f"{table.table}: bearing {end} at {at:.4g} mm stands on the threads"
+            yield Misseated(
+                end, f"{table.table}: bearing {end} at {at:.4g} mm stands on the threads"
+            )
             continue
         if place.bearing is None:
             continue
         bore = scaled(place.bearing.bore, 1e3)
         sizes = [scaled(one.diameter, 1e3) for one in here if one.diameter is not None]
         if all(abs(size - bore) > _BORE * bore for size in sizes):
-            yield (
+            yield Misseated(
+                end,
                 f"{table.table}: bearing {end} has a bore of {bore:.4g} mm and stands on a section "
-                f"of {sizes[0]:.4g} mm"
+                f"of {sizes[0]:.4g} mm",
             )
 
 

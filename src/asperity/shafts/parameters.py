@@ -322,6 +322,12 @@ class _Shaft(Table):
         return sum(each.length for each in self.section)
 
     @property
+    def bearing_span(self) -> float:
+        """Between its bearings, m."""
+        first, second = self.bearing
+        return float(f"{abs(second.at - first.at):.12g}")
+
+    @property
     def assumed(self) -> Mapping[str, str]:
         """Which keys were left out, and what was assumed for them."""
         words = {

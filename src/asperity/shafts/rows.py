@@ -44,7 +44,7 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
             torque = found.every[0][most].load.torque
             by.append(f"{torque:g} N m {100.0 * worst.damage[most]:.0f} %")
         life = worst.told
-        if any(f"bearing {end} " in note for note in found.model.misseated):
+        if any(one.end == end for one in found.model.misseated):
             by = ["cannot sit there", *by]
             # What cannot be mounted lives for no time.
             life = 0.0

@@ -93,6 +93,8 @@ class Shape(NamedTuple):
         Diameter where the gear is, mm.
     notes : tuple of str
         What is not shown, and why.
+    sections : tuple of tuple
+        Start, end and diameter of each part that is described and turned, mm; not of threads.
     """
 
     profiles: tuple[Profile, ...]
@@ -103,6 +105,7 @@ class Shape(NamedTuple):
     seats: tuple[Seat, ...]
     bore: float
     notes: tuple[str, ...] = ()
+    sections: tuple[tuple[float, float, float], ...] = ()
 
     @property
     def largest(self) -> float:
@@ -150,7 +153,12 @@ def shape_of(table: WormShaft | WheelShaft, geometry: Geometry) -> Shape:
         for number, place in enumerate(sorted(table.bearing, key=lambda one: one.at))
         if place.bearing is not None
     )
-    return Shape(profiles, ends[-1], mesh, threads, keyways, seats, sizes[here], notes)
+    sections = tuple(
+        (start, end, scaled(section.diameter, 1e3))
+        for section, start, end in zip(table.section, ends, ends[1:], strict=False)
+        if section.diameter is not None
+    )
+    return Shape(profiles, ends[-1], mesh, threads, keyways, seats, sizes[here], notes, sections)
 
 
 def _threads(

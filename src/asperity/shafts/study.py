@@ -35,6 +35,8 @@ from asperity.shafts.shaft import ShaftFound, find_shaft
 from asperity.shafts.shape import require_once, shape_of
 from asperity.shafts.statics import PointLoad
 
+_MIDWAY = 1e-3
+
 
 class Prepared(NamedTuple):
     """What is solved."""
@@ -206,6 +208,18 @@ def rows_by(case: Case) -> Callable[[Gearset], tuple[Row, ...]] | None:
     )
 
 
+def _off_centre(worm: Model) -> str:
+    """Say that the worm's mesh is not midway between its bearings, where the standard has it."""
+    first, second = worm.bearings
+    place, span = worm.mesh - first, second - first
+    if abs(place - 0.5 * span) <= _MIDWAY * span:
+        return ""
+    return (
+        f"worm_shaft: its mesh is {place:.4g} mm from bearing A, of {span:.4g} mm; forces on "
+        "bearings and deflection by ISO/TR 14521 have it midway, asperity shafts where it is"
+    )
+
+
 def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     """Return what adds shafts and bearings of a case to its rating: a row for each of them.
 
@@ -228,12 +242,15 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
 
     def add(rated: Rated, _: Run) -> Rated:
         shafts = studied(problem, rated.iso14521)
-        wrong = (note for one in shafts.found.values() for note in one.model.misseated)
+        models = [one.model for one in shafts.found.values()]
+        wrong = [seat.why for model in models for seat in model.misseated]
+        wrong += [model.threads for model in models if model.threads]
+        wrong += [_off_centre(model) for model in models if model is problem.worm]
         return dataclasses.replace(
             rated,
             rows=(*rated.rows, *shafts.rows),
             shafts=shafts,
-            notes=(*rated.notes, *wrong),
+            notes=(*rated.notes, *filter(None, wrong)),
         )
 
     return add

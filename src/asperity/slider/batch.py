@@ -19,6 +19,7 @@ from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
+from asperity.slider.chance import judged
 from asperity.slider.integrators import integrator
 from asperity.slider.longer import advice, needed
 from asperity.slider.march import marched
@@ -44,7 +45,6 @@ _STRETCH = 16384 * BLOCK
 _FEWEST = 2  # a batch of two costs no more than two single marches
 # Elastic force over the penetration: a number, and one times its root.
 _FORCES = {LINEAR: (1.0, 0.0), HERTZ: (0.0, 1.5**-1.5)}
-
 
 # Rows of what the single-body kernels carry, by its name there.
 _STATE_ROWS = {
@@ -285,17 +285,17 @@ def _answer(
     forces = pairwise([0.0, *quarters.tolist(), float(sums["drive_force"])])
     means = [(b - a) / max(to - at, 1) for (a, b), (at, to) in zip(forces, ends, strict=True)]
     standing = march_standing(model, table, residual, broke=broke, means=means)
-    error = None
     notes = march_notes(model, table, residual, broke=broke) + ringing_notes(model)
     if standing.settled:
         at_end = integrator(model, table.step)
         at_end.kept["state"][0] = _state(column, body)
-        error = error_of_march(at_end, table, float(sums["drive_force"] / sums["steps"]))
+        standing, wanders = judged(standing, at_end, table, sums)
+        notes += wanders
     try:
         answer = summarise(
             model, p, table.step, sums, start, _energies(column, body),
             standing=standing,
-            step_error=error,
+            step_error=error_of_march(at_end, table, sums) if standing.settled else None,
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,

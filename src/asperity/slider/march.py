@@ -10,9 +10,11 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
+from asperity.results.settled import Standing
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
+from asperity.slider.chance import judged
 from asperity.slider.history import History
 from asperity.slider.integrators import integrator
 from asperity.slider.longer import lasting, needed, until_settled
@@ -20,13 +22,21 @@ from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import as_it_rings, ringing_notes
 from asperity.slider.scaled import Parameters
-from asperity.slider.steady import fading_rate, two_states
+from asperity.slider.steady import (
+    fading_rate,
+    growth_rate,
+    sticks_and_slips,
+    still_leaves,
+    two_states,
+    until_it_sticks,
+)
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
 from asperity.vibration.waveform import AT_REST
 
 _RECORDS = 4000
+_SPARE = 1.2  # times what is foreseen
 # Of the window, times that disturbances of steady sliding fade in half of it for the rest to tell
 # anything; and of mu F_N, from which on friction swings.
 _SEEN, _SWINGS = 0.1, 1e-3
@@ -231,11 +241,14 @@ class March:
         breakaway = self.breakaway
         broke = breakaway is not None
         standing = march_standing(self._timed, table, residual, broke=broke, means=self._means())
-        ratio = float(sums["drive_force"] / sums["steps"])
+        leaves = self._leaves(halves)
+        if standing.settled and leaves:
+            standing = Standing(False, leaves)
+        standing, wanders = judged(standing, self._body, table, sums)
         answer = summarise(
             model, self.p, table.step, sums, start, self.energies(),
             standing=standing,
-            step_error=error_of_march(self._body, table, ratio) if standing.settled else None,
+            step_error=error_of_march(self._body, table, sums) if standing.settled else None,
             residual=residual,
             breakaway_time=breakaway,
             steps=table.steps,
@@ -244,6 +257,7 @@ class March:
             notes=(
                 *march_notes(self._timed, table, residual, broke=broke),
                 *ringing_notes(model),
+                *wanders,
                 *self._beside(halves),
             ),
             substeps=model.substeps,
@@ -251,11 +265,24 @@ class March:
         )  # fmt: skip
         if answer.settled:
             return answer, None
+        if leaves:
+            swing = float(halves[1]["friction_x_max"] - halves[1]["friction_x_min"])
+            return answer, self.duration + _SPARE * until_it_sticks(model, swing) + model.window
         return answer, needed(self._timed, table, self._means(), residual, broke=broke)
 
+    def _leaves(self, halves: tuple[np.void, np.void]) -> str:
+        """What a march lacks that is still next to steady sliding which is unstable."""
+        if self.model.vibrates:
+            return ""
+        first, second = (float(half["friction_x_max"] - half["friction_x_min"]) for half in halves)
+        half = 0.5 * self.table.window * self.table.step
+        return still_leaves(self.model, half, (first, second))
+
     def _beside(self, halves: tuple[np.void, np.void]) -> tuple[str, ...]:
-        """Return a note where a body goes on sticking and slipping beside steady sliding."""
+        """Return a note on steady sliding, where it is unstable or a body lasts beside it."""
         model, table = self.model, self.table
+        if not model.vibrates and (grows := growth_rate(model)) > 0.0:
+            return (sticks_and_slips(grows),)
         rate = None if model.vibrates or model.normal is not None else fading_rate(model)
         if rate is None:
             return ()

@@ -17,7 +17,7 @@ from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import ACCEPTED, SETTLING
 from asperity.slider.steady import growth_rate, sticks_and_slips, two_states
-from asperity.slider.step_error import error_of_state, refined
+from asperity.slider.step_error import OfState, error_of_state, refined
 from asperity.slider.summary import history_of, summarise
 
 _LEAST_STEPS = 256
@@ -165,16 +165,17 @@ def answer_of(
     if _OF_MANY in standing.settled_by:
         rest = _MARCH if cycle.q is None else _REST
         notes += (f"this periodic state is {_OF_MANY}; {rest}",)
+    error = error_of_state(cycle, model) if judged and standing.settled else OfState(None)
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
         standing=standing,
-        step_error=error_of_state(cycle, model) if judged and standing.settled else None,
+        step_error=error.error,
         residual=float(cycle.residual),
         steps=cycle.run * (len(cycle.increments) - 1) // cycle.period,
         cycles=cycle.run,
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
-        notes=notes,
+        notes=(*notes, *error.notes),
         history=_one_period(model, step, cycle) if history else None,
         period=cycle.period,
         multiplier=growth,

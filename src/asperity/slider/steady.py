@@ -18,6 +18,10 @@ import numpy as np
 from asperity.slider.model import Model
 
 _NONE = 1e-9  # of the drive's own angular frequency: rounding
+_STICKS = 0.5  # of what static friction is above the other, that friction swings by who sticks
+_SEEN, _STILL = 0.1, 0.5  # growth in half a window that is seen, and of it that counts as such
+_MOST = 30.0  # times that what grows does so e-fold
+_LEAST = 1e-12  # swing, of which the rest is rounding
 
 
 def growth_rate(model: Model) -> float:
@@ -74,6 +78,41 @@ def _falling(model: Model) -> tuple[float, float]:
     return falling, -2.0 * x * x * falling
 
 
+def still_leaves(model: Model, half: float, swings: tuple[float, float]) -> str:
+    r"""Return what a march from unstable steady sliding lacks; empty where it lacks nothing.
+
+    Nothing lacks where friction swings as a body that sticks and slips has it swing, or where the
+    swing grows no more.
+
+    Parameters
+    ----------
+    model : Model
+        A body that nothing shakes.
+    half : float
+        Half the window of the march, s.
+    swings : tuple of 2 floats
+        Of friction over :math:`\mu F_N` in either half.
+    """
+    rate = growth_rate(model)
+    first, second = swings
+    above = (model.friction.static_mu or model.friction.mu) / model.friction.mu - 1.0
+    if rate == 0.0 or second >= _STICKS * above:
+        return ""
+    grown = math.expm1(min(rate * half, _MOST))
+    if grown > _SEEN and second <= (1.0 + _STILL * grown) * first:
+        return ""
+    return (
+        f"steady sliding is unstable, a disturbance grows by {rate:.3g}/s, and the body has not "
+        "come to stick and slip"
+    )
+
+
+def until_it_sticks(model: Model, swing: float) -> float:
+    """Return the time in which a swing of friction grows to that of a body that sticks, s."""
+    above = (model.friction.static_mu or model.friction.mu) / model.friction.mu - 1.0
+    return math.log(max(above / max(swing, _LEAST), 1.0)) / growth_rate(model)
+
+
 def two_states(model: Model) -> str:
     """Say that a body sticks and slips, and that steady sliding would last as well."""
     steady = model.full_friction + _falling(model)[0]
@@ -89,5 +128,5 @@ def sticks_and_slips(growth: float) -> str:
     """Say that steady sliding is unstable."""
     return (
         f"steady sliding is unstable, a disturbance grows by {growth:.3g}/s: the body sticks and "
-        "slips"
+        "slips, or rings"
     )

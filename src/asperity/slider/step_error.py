@@ -14,15 +14,18 @@ corners, which falls by four on average only, and the two-phase scheme.
 import dataclasses
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError
+from asperity.slider.at_corners import ratio_let_down
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import close_on_twice, friction_on_twice, predicted_on_half
+from asperity.slider.orders import ORDER_ONE, ORDER_TWO, of_the_error, part_of_difference
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import close, differentiated, run_cycle
@@ -36,19 +39,13 @@ NOTED = "the step makes an error of about"
 _LEAST_RATIO = 1e-3  # what a ratio is taken as at least, for its error to be small against it
 _CLOSING = 6  # cycles at most to a state on another step
 _MOST_AGAIN = 50  # cycles at most that are run again
+_FOLLOWED = 200  # cycles on other steps from a state, where none is found there
 _LEFT = 1e-4  # of the defect, above which a state is not found
 _SHARE = 0.1  # of a march's cycles that may be run again
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 _FINEST = 16  # times finer than by the bounds
-_LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
-_LEAST_TO_FOLLOW = 0.1  # exponent, below which friction turns at once
-_ALONG = 1e-9
 _CLEAR = 0.5  # what is left of two changes, over both
 _NOTHING = 1e-3  # of an error that a step may make
-# What the difference is of the error, by the order.
-_ORDER_HALF = 0.41
-_ORDER_ONE = 1.0
-_ORDER_TWO = 3.0
 
 
 def refined(
@@ -68,7 +65,7 @@ def refined(
     answer = first if first is not None else once(model)
     while (error := answer.step_error) is not None and error > allowed(answer):
         over = error / allowed(answer)
-        if _of_the_error(model) == _ORDER_TWO:
+        if of_the_error(model) == ORDER_TWO:
             over = math.sqrt(over)
         two_phase = model.solve.scheme == "two-phase"
         if model.solve.step is not None or two_phase:
@@ -82,7 +79,7 @@ def refined(
             better = once(dataclasses.replace(model, finer=answer.model.finer * finer))
         except AsperityError:
             return _noted(answer, "nothing was found with a finer one")
-        if better.step_error is None:
+        if not better.settled:
             return _noted(answer, "what a finer one gives has not settled")
         answer = better
     return answer
@@ -105,19 +102,48 @@ def allowed_of(ratio: FloatArray) -> FloatArray:
     return found
 
 
-def error_of_state(cycle: Cycle, model: Model) -> float | None:
-    """Return the error of the ratio of a state that repeats itself; None where it is not found."""
+class OfState(NamedTuple):
+    """The error of the ratio of a state that repeats itself, and what a reader should know of it.
+
+    Attributes
+    ----------
+    error : float or None
+        None where it is not found.
+    notes : tuple of str
+        What it was found by, if not by another state.
+    """
+
+    error: float | None
+    notes: tuple[str, ...] = ()
+
+
+def error_of_state(cycle: Cycle, model: Model) -> OfState:
+    """Return the error of the ratio of a state that repeats itself."""
     if not model.vibrates:
-        return 0.0
+        return OfState(0.0)
     other = _closed_beside(cycle, cycle.jacobian, cycle.slopes)
     if other is None:
         other = _found_beside(cycle)
     if other is None:
-        return _cycles_again(cycle, _CLOSING // 2)
-    return abs(other - _ratio(cycle)) * _part_of_difference(model)
+        return _from_there(cycle)
+    error = abs(other - _ratio(cycle)) * part_of_difference(model)
+    return OfState(max(error, _hidden(cycle, cycle.jacobian, cycle.slopes)))
 
 
-def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | None:
+def _from_there(cycle: Cycle) -> OfState:
+    """Return the error by where a body goes from a state on other steps, with a note of that."""
+    beside = "half" if cycle.body.model.meets_corners else "twice"
+    lacks = f"no state that repeats itself was found on {beside} the step"
+    early = _friction_beside(cycle, _FOLLOWED // 2)
+    mean = 2.0 * _friction_beside(cycle, _FOLLOWED) - early
+    error = abs(mean - _ratio(cycle)) * part_of_difference(cycle.body.model)
+    if not math.isfinite(error):
+        return OfState(None, (f"the error of the step is not known: {lacks}",))
+    by = f"step_error is by the mean of cycles {_FOLLOWED // 2 + 1} to {_FOLLOWED} on it from here"
+    return OfState(error, (f"{lacks}: {by}, and the error may be greater",))
+
+
+def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float | None:
     """Return the error of the ratio of a march, from where it ends; None where it is not found.
 
     Parameters
@@ -126,9 +152,10 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
         At its end; left as it is.
     table : Timetable
         Its steps.
-    ratio : float
-        What it found.
+    sums : void
+        Those of its window.
     """
+    ratio = float(sums["drive_force"] / sums["steps"])
     model, step, steps = body.model, table.step, table.steps
     state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
     if model.solve.scheme == "two-phase":
@@ -136,12 +163,7 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
     cycles = steps * step * model.frequency
     if not model.vibrates:
         return _marched_again(model, step, state, springs, max(1, int(_SHARE * steps / 2.0)))
-    count = round(1.0 / (model.frequency * step))
-    if not model.meets_corners:
-        count = 2 * ((count + 1) // 2)
-    phase = model.frequency * (steps * step - model.start)
-    end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
-    put(end, step, state, springs)
+    end = at_the_end(body, table)
     unknowns = _unknowns(end)
     if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
         found = np.zeros((unknowns + 1, unknowns))
@@ -153,11 +175,31 @@ def error_of_march(body: Integrator, table: Timetable, ratio: float) -> float | 
         jacobian, slopes = found[:unknowns], found[unknowns]
         there = end.copied()
         one = _closed(there, jacobian)
-        other = _closed_beside(there, jacobian, slopes)
-        if one is not None and other is not None and abs(one - ratio) <= _AGREE:
-            return abs(other - one) * _part_of_difference(model)
+        if one is not None and abs(one - ratio) <= _AGREE:
+            other = _closed_beside(there, jacobian, slopes)
+            if other is not None:
+                error = abs(other - one) * part_of_difference(model)
+                return max(error, _hidden(there, jacobian, slopes))
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
     return _cycles_again(end, min(max(1, again), _MOST_AGAIN))
+
+
+def at_the_end(body: Integrator, table: Timetable) -> Cycle:
+    """Return the map of a body over the cycle that follows its march."""
+    model, step = body.model, table.step
+    count = round(1.0 / (model.frequency * step))
+    if not model.meets_corners:
+        count = 2 * ((count + 1) // 2)
+    phase = model.frequency * (table.steps * step - model.start)
+    end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
+    put(end, step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
+    return end
+
+
+def _hidden(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float:
+    """Return the error of a state at corners which other steps make as well; 0 where none is."""
+    let_down = ratio_let_down(cycle, jacobian, slopes)
+    return 0.0 if let_down is None else abs(let_down - _ratio(cycle))
 
 
 def _beside(model: Model) -> float:
@@ -167,55 +209,34 @@ def _beside(model: Model) -> float:
 
 def _cycles_again(start: Cycle, cycles: int) -> float | None:
     """Return the error of the mean friction of so many cycles from a start."""
-    model, kept = start.body.model, start.body.kept
-    mean = _friction(start.copied(), cycles)
-    if model.meets_corners:
-        other = _friction(_on_half(start), cycles)
-    else:
-        other = friction_on_twice(
-            kept["state"], start.springs, start.body.p, start.q, start.increments, start.rises,
-            kept["sums"], cycles,
-        )  # fmt: skip
-    error = abs(other - mean) * _part_of_difference(model)
+    apart = abs(_friction_beside(start, cycles) - _friction(start.copied(), cycles))
+    error = apart * part_of_difference(start.body.model)
     return error if math.isfinite(error) else None
+
+
+def _friction_beside(start: Cycle, cycles: int) -> float:
+    """Return the mean friction of so many cycles on other steps, from where a body is."""
+    if start.body.model.meets_corners:
+        return _friction(_on_half(start), cycles)
+    kept = start.body.kept
+    mean: float = friction_on_twice(
+        kept["state"], start.springs, start.body.p, start.q, start.increments, start.rises,
+        kept["sums"], cycles,
+    )  # fmt: skip
+    return mean
 
 
 def _friction(cycle: Cycle, cycles: int) -> float:
     """Return the mean friction of so many cycles over mu F_N."""
     total = 0.0
     for _ in range(cycles):
-        _run_once(cycle)
+        run_once(cycle)
         total += float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"])
     return total / cycles
 
 
-def _part_of_difference(model: Model) -> float:
-    """Return what the error is of the difference to the solution beside it."""
-    of_the_error = _of_the_error(model)
-    return 1.0 / of_the_error + (1.0 if model.meets_corners else 0.0)
-
-
-def _of_the_error(model: Model) -> float:
-    """Return what the difference to a solution on twice the step is of the error of the first."""
-    smooth = model.shape is None or not model.shape.cornered
-    friction = model.friction
-    if model.solve.scheme == "two-phase":
-        return _ORDER_ONE
-    if friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT:
-        # A body free sideways answers to a slip that turns; where friction turns with it at once
-        # the step makes them chatter.
-        turns = model.slider.free and abs(model.unit_direction[1]) > _ALONG
-        if turns and friction.exponent < _LEAST_TO_FOLLOW:
-            return _ORDER_HALF
-        if turns or not (smooth and friction.law == "vector"):
-            return _ORDER_ONE
-    # Where Coulomb friction stops a body after a corner, errors fall by four on average only.
-    stops = friction.model == "coulomb" and not (model.slider.rigid and not model.slider.free)
-    follows = friction.model == "lugre" or model.normal is not None
-    return _ORDER_ONE if (follows or stops) and not smooth else _ORDER_TWO
-
-
-def _run_once(cycle: Cycle) -> None:
+def run_once(cycle: Cycle) -> None:
+    """March a cycle from where its body is."""
     body = cycle.body
     run_cycle(
         body.kept["state"][0], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
@@ -231,9 +252,9 @@ def _marched_again(
     for count, length in ((2 * ((steps + 1) // 2), step), ((steps + 1) // 2, 2.0 * step)):
         cycle = Cycle(model, count, length)
         put(cycle, step, state, springs)
-        _run_once(cycle)
+        run_once(cycle)
         means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
-    error = abs(means[1] - means[0]) / _of_the_error(model)
+    error = abs(means[1] - means[0]) / of_the_error(model)
     return error if math.isfinite(error) else None
 
 
@@ -262,7 +283,7 @@ def _of_two_phases(body: Integrator, table: Timetable) -> float | None:
             begin = end + stretch * steps * again.rate
             again.march(begin, steps, np.empty((3, 1, 0)), record=False)
         means.append(float(again.sums["friction_x"] / again.sums["steps"]))
-    error = abs(means[1] - means[0]) / _ORDER_ONE
+    error = abs(means[1] - means[0]) / ORDER_ONE
     return error if math.isfinite(error) else None
 
 
@@ -282,7 +303,7 @@ def _found_beside(cycle: Cycle) -> float | None:
     if not half.find(-1):
         return None
     # Of the difference to half the step, what stands for that to twice.
-    part = 1.0 if cycle.body.model.meets_corners else _of_the_error(cycle.body.model) + 1.0
+    part = 1.0 if cycle.body.model.meets_corners else of_the_error(cycle.body.model) + 1.0
     return _ratio(cycle) + part * (_ratio(half) - _ratio(cycle))
 
 
@@ -325,7 +346,7 @@ def _foreseen(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float |
         body.kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), body.kept["sums"],
         np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
     )  # fmt: skip
-    most = WANTED * max(abs(here), _LEAST_RATIO) / _part_of_difference(body.model)
+    most = WANTED * max(abs(here), _LEAST_RATIO) / part_of_difference(body.model)
     apart = abs(first - here) + abs(ratio - first)
     clear = abs(ratio - here) >= _CLEAR * apart or apart <= _NOTHING * most
     return ratio if apart <= most and clear else None

@@ -15,6 +15,8 @@ from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.spectrum import Spectrum
+from asperity.rating.tables import spanned
+from asperity.shafts.parameters import WormShaft
 from asperity.start.borne import borne_by
 from asperity.start.kinds import KINDS, Values
 from asperity.studies.proposals import propose
@@ -127,14 +129,17 @@ def _ratio(given: float | None, asked: Requirements, held: Mapping[str, float]) 
 
 
 def operation_of(values: Values) -> Operation:
-    """Return how it is run, with its load spectrum and housing; raises InputError."""
+    """Return how it is run, with spectrum, housing and the bearings' span; raises InputError."""
     run: Operation = _table(Operation, values["operation"])
     tables = {
         model.table: _table(model, values[model.table])
         for model in (Spectrum, Housing)
         if model.table in values
     }
-    return run.with_tables(**tables)
+    run = run.with_tables(**tables)
+    if WormShaft.table not in values:
+        return run
+    return spanned(run, _table(WormShaft, values[WormShaft.table]).bearing_span)
 
 
 def _held(values: Mapping[str, Any]) -> dict[str, float]:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from asperity.errors import InputError, nearest
 from asperity.files import store
 from asperity.files.shipped import shipped_cases
-from asperity.tribometer.deposit import BEGUN_AUTHORS
+from asperity.tribometer.deposit import BEGUN_AUTHORS, BEGUN_TITLE
 
 Values = dict[str, dict[str, Any]]
 
@@ -22,12 +22,21 @@ class Question(NamedTuple):
     words : str
         What is asked.
     optional : bool
-        Whether "none" is an answer.
+        Whether it is left out where nothing is answered.
+    unless : str
+        A ``table.key=value`` with which it is not asked.
     """
 
     path: str
     words: str
     optional: bool = False
+    unless: str = ""
+
+    def counts(self, values: Values) -> bool:
+        """Return whether it is to be asked beside what is answered already."""
+        path, _, text = self.unless.partition("=")
+        table, _, key = path.partition(".")
+        return not self.unless or str(values.get(table, {}).get(key)) != text
 
 
 class Kind(NamedTuple):
@@ -142,6 +151,19 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 *_ASKED_OF_GEARS[1:3],
                 Question("spectrum.step", "loads of its life; more of them behind a semicolon"),
                 Question("spectrum.duty", "S1, S2 15 min or S3 15 %"),
+                Question(
+                    "housing.iron",
+                    "mass of iron and steel in the gearbox, as 12 kg: how warm it gets in its duty "
+                    "goes by that",
+                    optional=True,
+                    unless="spectrum.duty=S1",
+                ),
+                Question(
+                    "housing.aluminium",
+                    "mass of aluminium in it",
+                    optional=True,
+                    unless="spectrum.duty=S1",
+                ),
                 _ASKED_OF_GEARS[-1],
                 Question("project.units", "units that are shown: si or us"),
             ),
@@ -220,12 +242,12 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
         "rig": Kind(
             "A disc-on-disc tribometer and what is to be tested on it",
             {
-                # With these reports and packages can be made, and are seen to be begun.
+                # With these reports can be made, and packages as soon as they are replaced.
                 "conditions": {"laboratory": "(your laboratory)", "operator": "(your name)"},
                 "package": {
-                    "title": "Friction under vibration",
+                    "title": BEGUN_TITLE,
                     "authors": list(BEGUN_AUTHORS),
-                    "licence": "CC-BY-4.0",
+                    "licence": "",
                 },
             },
             (

@@ -63,6 +63,8 @@ def _left_out(key: Key, *, other: bool) -> Iterator[str]:
     written = f'"{key.default}"' if key.schema.get("type") == "string" else key.default
     value = (written if key.default not in ("", "required") else "") or key.example
     meaning = f"{key.meaning} (another form of what is given)" if other else key.meaning
+    if value and key.default in ("", "required"):
+        meaning = f"{meaning.rstrip()} For example:"
     yield from comment(meaning)
     if value:
         yield f"#{key.name} = {_tidy(value)}"

@@ -347,7 +347,9 @@ class Space:
                 f"requirements.centre_distance is {1e3 * most:g} mm, and the gearset has "
                 f"{geometry.centre_distance:.4g} mm, which stays: size proposes others"
             )
-        names = ["wheel_diameter"] if asked.wheel_diameter is not None else []
+        names = [
+            name for name in ("wheel_diameter", "worm_length") if getattr(asked, name) is not None
+        ]
         if asked.self_locking != "any":
             names += [f"self_locking.{standard}" for standard in self._standards]
         return tuple(_REQUIRED + name for name in names)

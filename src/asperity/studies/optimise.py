@@ -36,7 +36,7 @@ from asperity.studies.gears import Gears
 from asperity.studies.layout import points
 from asperity.studies.limits import TORQUES, Limit, limits_of, number_of
 from asperity.studies.quantities import varied_quantity
-from asperity.studies.requirements import Requirements
+from asperity.studies.requirements import Requirements, special_hob
 from asperity.studies.rounding import rounded
 from asperity.studies.search import bounds_of, known_safeties, least_safeties
 from asperity.studies.shafted import with_shafts
@@ -289,6 +289,7 @@ def optimise(
         made=made,
         notes=(
             *_notes(before, bounds),
+            *special_hob((made or after).gearset.pressure_angle),
             *space.kept,
             *(falls(before, made or after) if least else ()),
         ),

@@ -25,7 +25,7 @@ from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import Variants, variants
 from asperity.studies.chosen import Borne, Chosen, Judges, choose, undominated, weakest
 from asperity.studies.proposed import MOST, Proposal, Proposals, gearset_keys
-from asperity.studies.requirements import Requirements
+from asperity.studies.requirements import Requirements, special_hob
 from asperity.studies.series import grid
 from asperity.units.standards import FROM_SI
 
@@ -209,6 +209,7 @@ def propose(
         notes.append(f"held as it is set: {named}")
     if keeps.said:
         notes.append(f"kept as [requirements] has it: {keeps.said}")
+    notes += special_hob(gearset.pressure_angle)
     if operation.wear_assumed:
         notes.append(operation.wear_assumed)
     notes += _told_of_shafts(chosen)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray, Real
 from asperity.casefile import Table
 from asperity.formulas import masking
+from asperity.gearset.relations import worm_reach
 from asperity.rating.demands import DEMANDS
 from asperity.rating.self_locking import locking_margins
 from asperity.units import Quantity
@@ -25,6 +26,7 @@ RATIO_OFF = 0.03
 HOBS = {"standard": "hobs of DIN 3976's pairs (from memory)", "own": "hobs of the shelf"}
 
 _SAME = 1e-12
+_OF_HOBS = 20.0  # deg; 14.5, 15, 25 and 30 are made by some
 
 Length = Annotated[float, Quantity("m", what="a length", example="125 mm", gt=0)]
 
@@ -49,6 +51,8 @@ class Requirements(Table):
         At most, m.
     wheel_diameter : float or str, optional
         Tip diameter of the wheel, d_a2 with an addendum of one module, at most, m.
+    worm_length : float or str, optional
+        Length of the worm that such a wheel can touch, b_1 where it is left out, at most, m.
     hobs : {'any', 'standard', 'own'}
         What the wheel is cut with: any hob, one for a pair of module and diameter of DIN 3976, or
         one that a data file has (``asperity hobs``).
@@ -71,6 +75,7 @@ class Requirements(Table):
     )
     centre_distance: Length | None = None
     wheel_diameter: Length | None = None
+    worm_length: Length | None = None
     hobs: Literal["any", "standard", "own"] = "any"
     bearings: Literal["given", "own"] = "given"
     safety: Annotated[float, Quantity("", what="a factor", example="1.2", ge=1, le=100)] = 1.0
@@ -97,9 +102,13 @@ class Requirements(Table):
             room["ratio"] = self.ratio_tolerance * (1.0 + _SAME) + _SAME - off
         if self.centre_distance is not None:
             room["centre_distance"] = _below(given.centre_distance, self.centre_distance)
+        throat = given.axial_module * (given.wheel_teeth + 2.0 * given.profile_shift + 2.0)
         if self.wheel_diameter is not None:
-            teeth = given.wheel_teeth + 2.0 * given.profile_shift + 2.0
-            room["wheel_diameter"] = _below(given.axial_module * teeth, self.wheel_diameter)
+            room["wheel_diameter"] = _below(throat, self.wheel_diameter)
+        if self.worm_length is not None:
+            outside = throat + given.axial_module
+            reach = worm_reach(outside, given.centre_distance, given.worm_tip_diameter)
+            room["worm_length"] = _below(reach, self.worm_length)
         for name, margin in at_rest.items() if self.self_locking != "any" else ():
             says = np.isfinite(margin)
             ratio = np.where(says, margin, 0.0) + 1.0
@@ -129,6 +138,8 @@ class Requirements(Table):
             parts.append(f"centre distance at most {1e3 * self.centre_distance:g} mm")
         if self.wheel_diameter is not None:
             parts.append(f"wheel at most {1e3 * self.wheel_diameter:g} mm")
+        if self.worm_length is not None:
+            parts.append(f"worm at most {1e3 * self.worm_length:g} mm")
         if self.hobs != "any":
             parts.append(HOBS[self.hobs])
         if self.safety != 1.0:
@@ -137,6 +148,23 @@ class Requirements(Table):
             of = "" if self.ratio is None else f" {self.ratio:g}"
             parts.append(f"ratio{of} within {100.0 * self.ratio_tolerance:g} %")
         return ", ".join(parts)
+
+
+def special_hob(pressure_angle: float) -> tuple[str, ...]:
+    """Return what is to be said of a pressure angle, rad, that hobs do not have by standard.
+
+    Parameters
+    ----------
+    pressure_angle : float
+        Normal, rad.
+    """
+    degrees = math.degrees(pressure_angle)
+    if math.isclose(degrees, _OF_HOBS, rel_tol=1e-6):
+        return ()
+    return (
+        f"a pressure angle of {degrees:.4g} deg takes a special hob: the series is of "
+        f"{_OF_HOBS:g} deg",
+    )
 
 
 def _below(size: Any, most: float) -> Any:

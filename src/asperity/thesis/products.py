@@ -28,11 +28,18 @@ REPRODUCED, DIFFERS, FITTED, ARITHMETIC, NOT_TESTABLE = get_args(Verdict)
 VERDICTS: Mapping[str, tuple[str, str]] = {
     REPRODUCED: ("✓", "computed from what the claim does not contain, and it could have failed"),
     DIFFERS: ("≠", "a sentence of the thesis does not hold here; which one is quoted"),
-    FITTED: ("≈", "an input of ours was made from it, so that it tests nothing"),
-    ARITHMETIC: ("=", "it follows from printed numbers or equations alone"),
+    FITTED: (
+        "≈",
+        "an input of ours was made from it, or from what fixes it, so that it tests nothing",
+    ),
+    ARITHMETIC: (
+        "=",
+        "it follows from printed numbers or equations alone, and could hardly be otherwise",
+    ),
     NOT_TESTABLE: (
         "?",
-        "what it is about is lost, or too little of it is told; what we get stands beside",
+        "what it is about is lost, too little of it is told, or what decides is ours; what we get "
+        "stands beside",
     ),
 }
 """Each kind of verdict: its mark, and what it means."""

@@ -19,7 +19,9 @@ _LICENCES = (
     "GPL-2.0-only", "GPL-2.0-or-later", "GPL-3.0-only", "GPL-3.0-or-later", "LGPL-3.0-only",
     "LGPL-3.0-or-later", "AGPL-3.0-only", "AGPL-3.0-or-later", "Unlicense",
 )  # fmt: skip
-BEGUN_AUTHORS = ("Doe, Jane",)  #: That `asperity new` writes, until somebody replaces them.
+# What `asperity new` writes until somebody replaces it; a licence it leaves open, for who chooses.
+BEGUN_TITLE = "(title of these data)"
+BEGUN_AUTHORS = ("Doe, Jane",)
 _DOI = re.compile(r"10\.\d{4,9}/\S+")
 _AUTHOR = '"Doe, Jane; 0000-0002-1825-0097; University of Somewhere"'
 
@@ -157,11 +159,27 @@ class Package(Table):
             "licence": '"CC-BY-4.0"',
         }  # fmt: skip
         missing = [name for name in wanted if not getattr(self, name)]
-        if missing:
-            *others, last = (f"package.{name}" for name in missing)
-            keys = f"{', '.join(others)} and {last} are" if others else f"{last} is"
-            told = ", ".join(f"{name} = {wanted[name]}" for name in missing)
-            raise InputError(
-                f"{keys} missing, without which no repository takes data; give them in a case by "
-                f"--config, as in {told}"
+        begun = []
+        if self.title == BEGUN_TITLE:
+            begun.append("title")
+        if set(self.authors) & set(BEGUN_AUTHORS):
+            begun.append("authors")
+        if missing or begun:
+            said = []
+            if begun:
+                said.append(f"{_keys(begun)} what asperity new wrote for an example")
+            if missing:
+                said.append(f"{_keys(missing)} missing")
+            told = ", ".join(
+                f"{name} = {wanted[name]}" for name in wanted if name in begun + missing
             )
+            raise InputError(
+                f"{', and '.join(said)}, without which no repository takes data; give them in a "
+                f"case by --config, as in {told}"
+            )
+
+
+def _keys(names: list[str]) -> str:
+    """Return keys as the beginning of a sentence, with its verb."""
+    *others, last = (f"package.{name}" for name in names)
+    return f"{', '.join(others)} and {last} are" if others else f"{last} is"

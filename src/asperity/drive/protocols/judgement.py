@@ -40,6 +40,8 @@ class Judgement:
     nearer : float
         Time until it would have settled if it came nearer as it last did, s; infinite where it did
         not, NaN where it was too short to tell, 0 where that was not asked.
+    waited : float
+        Time that it was waited for, s.
     """
 
     settled: bool
@@ -50,6 +52,7 @@ class Judgement:
     turned: float
     cycles: int
     nearer: float = 0.0
+    waited: float = 0.0
 
     @property
     def off(self) -> float:
@@ -89,10 +92,11 @@ class Judgement:
             how = "slower" if self.turned < 0.0 else "faster"
             missing.append(f"the wheel turns {_percent(abs(self.turned))} {how} than with the worm")
         if math.isfinite(self.nearer) and self.nearer > 0.0:
-            missing.append(f"a solve.duration longer by {1e3 * self.nearer:.2g} ms would do")
+            missing.append(f"a solve.duration of {_least(self.waited + self.nearer)} would do")
         elif math.isnan(self.nearer):
             missing.append(
-                "too short to tell whether it comes nearer: give a longer solve.duration"
+                "too short to tell whether it comes nearer: leave solve.duration out, and it is "
+                "marched for as long as it does"
             )
         elif self.nearer > 0.0:
             missing.append("it came no nearer on its way: a longer solve.duration may not do")
@@ -112,6 +116,12 @@ def steady_speed(rolled: FloatArray, time: FloatArray) -> float:
     """
     weights = np.sin(math.pi * (np.arange(time.size) + 0.5) / time.size) ** 2
     return float((weights @ rolled) / (weights @ time))
+
+
+def _least(seconds: float) -> str:
+    """Return a time as it is asked for, rounded up."""
+    digit = 10.0 ** (math.floor(math.log10(1e3 * seconds)) - 2)
+    return f"{digit * math.ceil(1e3 * seconds / digit):.3g} ms"
 
 
 def _percent(share: float) -> str:

@@ -243,15 +243,20 @@ class March:
         self, asked: tuple[int, str, float, float, float | None], end: int, ramp: int
     ) -> Judgement:
         """Judge the blocks before an end, and how they came nearer to a periodic state."""
-        block = asked[0]
-        found = self.judged(*asked, end=end)
-        apart = block * max(1, (end - ramp) // (2 * block))
-        if found.settled or end - apart - _BLOCKS * block < ramp:
-            return dataclasses.replace(found, nearer=0.0 if found.settled else math.nan)
-        before = self.judged(*asked, end=end - apart)
-        nearer = math.inf
-        if found.off < _NEARER * before.off:
-            nearer = apart * self.cycle * math.log(found.off) / math.log(before.off / found.off)
+        block, rest = asked[0], asked[1:]
+        found = dataclasses.replace(self.judged(*asked, end=end), waited=(end - ramp) * self.cycle)
+        if found.settled:
+            return found
+        apart, now, none = block * max(1, (end - ramp) // (2 * block)), found, math.inf
+        if end - apart - _BLOCKS * block < ramp:
+            # Blocks half as long, of which there are twice as many.
+            block = max(1, (end - ramp) // (2 * _BLOCKS))
+            apart, none = _BLOCKS * block, math.nan
+            now = self.judged(block, *rest, end=end)
+        before = self.judged(block, *rest, end=end - apart)
+        nearer = none
+        if now.off < _NEARER * before.off:
+            nearer = apart * self.cycle * math.log(found.off) / math.log(before.off / now.off)
         return dataclasses.replace(found, nearer=nearer)
 
     def judged(

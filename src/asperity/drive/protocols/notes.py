@@ -43,7 +43,14 @@ def notes_of(
             f"{100.0 * judged.balance:.2g} %: no state that lasts"
         )
     elif not judged.settled:
-        notes.append(f"aperiodic: {judged.said(_what(problem))}")
+        how = "aperiodic" if judged.nearer == math.inf else "not periodic yet"
+        notes.append(f"{how}: {judged.said(_what(problem))}")
+    marched, asked = judged.cycles / problem.vibrated[1].frequency, problem.solve.duration
+    if asked is not None and marched > (1.0 + 1e-9) * asked and problem.drive.protocol != "window":
+        notes.append(
+            f"marched for {1e3 * marched:.3g} ms where solve.duration asks for {1e3 * asked:.3g}: "
+            f"a state is judged by three blocks of {judged.cycles // 3} cycles at least"
+        )
     if rest.marched and problem.drive.protocol == "held-wheel":
         notes.append(
             f"the ratio refers to the held wheel without vibration, {rest.wheel_torque:.4g} N m: "

@@ -140,7 +140,7 @@ def on_drawing(datum: Datum) -> str:
     """Thousandths of a mm and of a degree, ten thousandths of an inch."""
     digits = 4 if datum.unit == "in" else 3
     return (
-        f"{datum.value + 0.0:.{digits}f}"
+        f"{round(datum.value, digits) + 0.0:.{digits}f}"
         if isinstance(datum.value, float)
         else text_of(datum.value)
     )

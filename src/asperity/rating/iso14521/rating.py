@@ -54,6 +54,8 @@ _HOTTEST_GIVEN = 100.0
 
 def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     found: dict[str, None] = {}
+    # It goes with the speed.
+    slides = float(values["sliding_velocity_m_s"]) / float(given.worm_speed)
     for speed in given.speeds:
         sentences = violations(
             centre_distance=given.centre_distance,
@@ -62,6 +64,7 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
             ratio=given.gear_ratio,
             geometry_factor=values["Y_G"] if given.friction is None else None,
             sump_by_formula=given.oil_temperature is None,
+            sliding_velocity=slides * float(speed),
         )
         found |= dict.fromkeys(sentences)
     own = tuple(found)

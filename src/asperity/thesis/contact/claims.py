@@ -88,6 +88,8 @@ def _equal_ratios() -> Finding:
             block,
             body,
         ],
+        assumed=f"The yardsticks: {_WITHIN}. Finite elements of ours, condensed to the contact, "
+        "for Abaqus's.",
     )
 
 

@@ -7,8 +7,8 @@ import numpy as np
 from asperity.drive.motor import PRICE_PER_MASS, Motor, Service, lightest, scaled
 from asperity.drive.point import MeshPoint
 from asperity.gearset.geometry import Geometry
-from asperity.thesis.drive.sets import AMPLITUDE, FREQUENCY, LOAD, RATIO, SHAKEN, SPEED, UNSHAKEN
-from asperity.thesis.drive.simulations import BASE, of_set
+from asperity.thesis.drive.sets import AMPLITUDE, FREQUENCY, LOAD, SHAKEN, SPEED, UNSHAKEN
+from asperity.thesis.drive.simulations import BASE, of_set, varied
 from asperity.thesis.exhibits import claim
 from asperity.thesis.flanks.meshing import Gear
 from asperity.thesis.products import ARITHMETIC, NOT_TESTABLE, Finding
@@ -54,22 +54,15 @@ def assumed() -> str:
     )
 
 
+def _lower_first(text: str) -> str:
+    return text[:1].lower() + text[1:]
+
+
 def band() -> tuple[float, float, float]:
     """Worm torques with friction reversed, without, and as it is, N m; the wheel in balance."""
     point = MeshPoint.of(geometry(), RADIUS)
     low, none, high = (point.worm_torque(LOAD, mu) for mu in (-FRICTION, 0.0, FRICTION))
     return low, none, high
-
-
-_BALANCE = (
-    "With the wheel in balance and one flank bearing, the worm's mean torque lies between "
-    "{low:.1f} N m, friction all reversed, and {high:.1f} N m; the {shaken:g} N m of the thesis "
-    "lie "
-    "outside. Without friction it is {none:.1f} N m, and the advantage the ratio, {ratio}: above "
-    "it the wheel would give more power than the worm takes, which the thesis itself calls "
-    "incorrect as an efficiency. Hammering on both flanks passes the bound, at great forces; so "
-    "does a mean that is read while the wheel still coasts."
-)
 
 
 @claim("7.4")
@@ -78,14 +71,19 @@ def _advantage() -> Finding:
     still, most = LOAD / high, LOAD / low
     return Finding.judged(
         {
-            "10.8 without vibration": abs(still - LOAD / UNSHAKEN) < 0.3,
             "its own torques give 10.8 and 49.5": (
                 round(LOAD / UNSHAKEN, 1) == 10.8 and round(LOAD / SHAKEN, 1) == 49.5
             ),
-            "“to M_a = 49.5 with vibration”, in balance with the load": most >= LOAD / SHAKEN,
         },
-        f"{still:.1f} without; at most {LOAD / none:.0f} without friction, {most:.1f} reversed",
-        _BALANCE.format(low=low, none=none, high=high, shaken=SHAKEN, ratio=RATIO),
+        f"{LOAD / UNSHAKEN:.1f} and {LOAD / SHAKEN:.1f} by its own torques",
+        "Arithmetic: (144) has both from its own torques. Whether the wheel keeps its own at the "
+        "lower of the two is claim 7.11, which is where it is judged. Our teeth have "
+        f"{still:.1f} without vibration; in balance, with one flank bearing, it is "
+        f"{LOAD / none:.0f} without friction, which is the ratio, and {most:.1f} with friction "
+        "reversed all the time. "
+        "Above the ratio the wheel gives more power than the worm takes, which the thesis itself "
+        "calls incorrect as an efficiency: the rest comes from what shakes the worm, or from the "
+        "wheel's speed.",
         {
             "advantage_static": still,
             "advantage_without_friction": LOAD / none,
@@ -95,8 +93,9 @@ def _advantage() -> Finding:
             "torque_static_Nm": high,
         },
         [f"{_TORQUE}(366.0, friction) of gearset-3b, friction -0.1344, 0, 0.1344"],
-        assumed=f"The contact at one radius of the worm, {1e3 * RADIUS:g} mm, that of its loaded "
-        f"teeth; friction of {FRICTION:g}.",
+        verdict=ARITHMETIC,
+        assumed=f"For what is ours: the contact at one radius of the worm, {1e3 * RADIUS:g} mm, "
+        f"that of its loaded teeth; friction of {FRICTION:g}.",
     )
 
 
@@ -104,29 +103,44 @@ def _advantage() -> Finding:
 def _savings() -> Finding:
     low, _, high = band()
     saved, gain = 1.0 - SHAKEN / UNSHAKEN, UNSHAKEN / SHAKEN
-    most = 1.0 - low / high
+    floor = low / high
+    last = of_set(3)[-1]
+    others = varied()
+    found, *changed = [run.shaken() for run in (last, *others)]
+    marched = sorted(one.ratio for one in (found, *changed) if one.settled)
+    least = min(floor, *marched)
     return Finding.judged(
         {
             "rounded, that is what its own 33.8 and 7.4 N m give": (
                 round(saved, 1) == 0.8 and round(gain) == 5
             ),
-            "“enables an 80% reduction of input torque to generate the same output torque”": most
-            >= saved,
+            "“reduces worm torque by up to 80% to achieve the same wheel output torque”": (
+                1.0 - least >= saved
+            ),
         },
-        f"its own numbers: -{saved:.1%} and {gain:.2f}; in balance at most -{most:.0%} and "
-        f"{high / low:.2f} with one flank bearing",
-        "Its own two torques give it, rounded; claims 7.3 and 7.4 say why a wheel in balance does "
-        "not. The bound is that of friction reversed all the time with one flank bearing; "
-        "hammering on both flanks passes it.",
+        f"its own numbers: -{saved:.1%} and {gain:.2f}; with the wheel in balance at most "
+        f"-{1.0 - floor:.0%} and {1.0 / floor:.2f} with one flank bearing, "
+        f"-{1.0 - found.ratio:.0%} marched",
+        "At “the same wheel output torque” no reading of it comes near. While one flank bears, as "
+        f"it must in a static step, the worm has at least {low:.1f} of {high:.1f} N m, with "
+        f"friction reversed all the time, {floor:.2f} for the thesis's {SHAKEN / UNSHAKEN:.2f}; "
+        "where both flanks hammer that bound does not hold, and our march in balance leaves "
+        f"{marched[0]:.2f} to {marched[-1]:.2f}, the inertias, damping and backlash each a third "
+        f"and three times ours ({len(marched)} of {1 + len(changed)} settled). A mean that is read "
+        "while the wheel still coasts can be as low (claim 7.3), but the mesh does not give the "
+        "wheel its torque then. The saving itself, by its own two torques, is right, rounded.",
         {
             "saved_by_its_numbers": saved,
             "gain_by_its_numbers": gain,
-            "saved_at_most": most,
-            "gain_at_most": high / low,
+            "saved_at_most": 1.0 - floor,
+            "gain_at_most": 1.0 / floor,
+            "ratio_marched": found.ratio,
+            "ratio_marched_least": marched[0],
+            "ratio_marched_most": marched[-1],
         },
-        [f"{_TORQUE}(366.0, friction) of gearset-3b"],
-        assumed=f"The contact at one radius of the worm, {1e3 * RADIUS:g} mm; friction of "
-        f"{FRICTION:g}.",
+        [f"{_TORQUE}(366.0, friction) of gearset-3b", last, *others],
+        assumed=f"For the bound, the contact at one radius of the worm, {1e3 * RADIUS:g} mm, and "
+        f"friction of {FRICTION:g}. {assumed()}",
     )
 
 
@@ -195,18 +209,17 @@ def _motor() -> Finding:
     return Finding.judged(
         {
             "the four numbers belong together at its own ratio": bool(shapes),
-            "“could potentially be downsized ... with mass reduction of 6 kg”, in balance": max(
-                balanced.values()
-            )
-            >= 0.9 * _SAVED_MASS,
         },
-        f"{balanced[most]:.1f} to {balanced[least]:.1f} kg at the settled ratios of set 3 below "
-        f"1, {most:.2f} to {least:.2f}",
-        "Torque, and mass, as diameter squared times length: what the thesis saves at its ratio of "
-        f"{ratio:.2f} are those of a motor of {mass:.1f} kg, some {1e3 * min(diameters):.0f} to "
-        f"{1e3 * max(diameters):.0f} mm thick: one for short duty, where {UNSHAKEN:g} N m all the "
+        f"a motor of {mass:.1f} kg, some {1e3 * min(diameters):.0f} to {1e3 * max(diameters):.0f} "
+        f"mm thick, saves all four at {ratio:.2f} of the torque",
+        "Arithmetic: with torque, and mass, as diameter squared times length, the four numbers "
+        f"follow from its own ratio of {ratio:.2f}, of one motor. Whether the torque falls to that "
+        "is claims 7.3 and 7.11. The motor would be "
+        f"one for short duty, where {UNSHAKEN:g} N m all the "
         f"time take {before.mass:g} kg (frame {before.name}) and {SHAKEN:g} N m {after.mass:g} kg "
-        f"({after.name}). At {least:.2f} the same motor would be {1e3 * less.diameter:.0f} mm "
+        f"({after.name}). At the settled ratios of our set 3 that are below one, {least:.2f} to "
+        f"{most:.2f}, it would save {balanced[most]:.1f} to {balanced[least]:.1f} kg; at "
+        f"{least:.2f} it would be {1e3 * less.diameter:.0f} mm "
         f"thinner and {less.mass * PRICE_PER_MASS:.0f} GBP cheaper, before the actuator and its "
         "generator are paid and carried.",
         {
@@ -220,7 +233,8 @@ def _motor() -> Finding:
             "continuous_after_kg": after.mass,
         },
         [*runs, "asperity.drive.motor.scaled", "asperity.drive.motor.lightest"],
-        assumed=assumed(),
+        verdict=ARITHMETIC,
+        assumed=f"For what stands beside: {_lower_first(assumed())}",
     )
 
 

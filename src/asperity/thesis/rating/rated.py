@@ -1,5 +1,6 @@
 """Shipped gearsets, their ratings, and the studies of these."""
 
+import math
 from functools import cached_property
 from typing import Any
 
@@ -71,9 +72,15 @@ class RatedGear(Shipped):
         """What becomes of some of its numbers at the optimum, as a share of each."""
         return _changes(self.optimum)
 
-    def changes_within(self, bounds: Bounds) -> dict[str, float]:
-        """The same at the optimum within other bounds."""
-        return _changes(optimise(*self.tables(), bounds))
+    @cached_property
+    def optima_elsewhere(self) -> tuple[Optimum, ...]:
+        """Its optima within other bounds."""
+        return tuple(optimise(*self.tables(), bounds) for bounds in OTHER_BOUNDS)
+
+    @property
+    def changes_elsewhere(self) -> list[dict[str, float]]:
+        """What becomes of some of its numbers there, as a share of each."""
+        return [_changes(optimum) for optimum in self.optima_elsewhere]
 
 
 def _changes(optimum: Optimum) -> dict[str, float]:
@@ -95,6 +102,19 @@ _WATCHED = {
     "M_s": ("bs721", "M_s_Nm"),
     "sigma_a": ("agma6034", "bending_stress_MPa"),
 }
+
+OTHER_BOUNDS = (
+    Bounds(module_change=(0.0, 0.0)),
+    Bounds(module_change=(-0.1, 0.1), diameter_factor=(6.0, 17.0), profile_shift=(-1.0, 1.0)),
+    Bounds(pressure_angle=(math.radians(20.0), math.radians(25.0))),
+    Bounds(profile_shift=(-0.1, 0.1)),
+)
+"""Of an optimum, beside those that are assumed; the first keep the module."""
+
+OTHERS_ARE = (
+    "the others are the module kept, all three freer, a pressure angle of less and a profile shift "
+    "near zero"
+)
 
 GEARSET_2 = RatedGear("gearset-2")
 GEARSET_3 = RatedGear("gearset-3")

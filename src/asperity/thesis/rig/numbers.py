@@ -51,7 +51,8 @@ def _gear_of_75() -> Finding:
         f"{right:.0f} for a gearbox of {stated:g}:1",
         f"The divisor is thirty times the ratio, so that the printed one means a gearbox of "
         f"{_PRINTED_RATIO_OF_960:g}:1. It stands in both halves of (75), which a slip of reading "
-        f"would hardly do; power and efficiency come out {abs(less):.1%} too low. What "
+        f"would hardly do; which of the two is wrong is open. With {stated:g}:1 power and "
+        f"efficiency come out {abs(less):.1%} too low. What "
         "was computed by it, Figures 6.40, 6.41, 6.49 and 6.50, is lost.",
         {"divisor": right, "power_change": less},
         ["30 times drives.gear_ratio of rig-final"],
@@ -100,16 +101,18 @@ def _faster() -> Finding:
     bronze = 0.5 * fast * (1.0 / ratio - 1.0)
     sliding = [2.0 * bronze * one / (1.0 - one) for one in m.SLIDE_ROLL]
     return Finding.judged(
-        {"the fastest is faster than any before": sliding[-1] > _TESTED_BEFORE},
+        {f"the fastest is faster than {1e3 * _TESTED_BEFORE:g} mm/s": sliding[-1] > _TESTED_BEFORE},
         ", ".join(
             f"{1e3 * one:.1f} mm/s at {volts:g} V"
             for one, volts in zip(sliding, m.SUPPLIES, strict=True)
         ),
         "With the slide-roll ratios of the same sentence the bronze rim moves at "
-        f"{1e3 * bronze:.2f} mm/s, and from that follow the sliding velocities. At the lowest "
-        f"supply, where the greatest reduction was found, they are not above the "
+        f"{1e3 * bronze:.2f} mm/s, and from that follow the sliding velocities, "
+        f"{1e3 * sliding[0]:.1f} mm/s for the printed {1e3 * m.SLIDING[0]:g} at the lowest supply. "
+        "There, where the greatest reduction was found, they are not above the "
         f"{1e3 * _TESTED_BEFORE:g} mm/s of the tests before, which were of planar contacts; of "
-        "sliding-rolling, lubricated ones, of which the sentence is, it names no velocity.",
+        "sliding-rolling, lubricated ones, of which the sentence is, it names no velocity, so that "
+        "“faster than any” is not judged.",
         {f"sliding_at_{volts:g}_V_m_s": one
          for one, volts in zip(sliding, m.SUPPLIES, strict=True)}
         | {"bronze_rim_m_s": bronze},

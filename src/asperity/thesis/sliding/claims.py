@@ -140,8 +140,7 @@ def _two_schemes() -> Finding:
         parts,
         f"up to k = 1 within {flat:.0e} of 1; models apart by at most {apart[worst]:.2%} "
         f"(k = {k[worst]:g})",
-        "The pre-existing model is taken as the exponential scheme, the coupled one as the "
-        "two-phase scheme. What separates them is the latter's error of first order at a step of "
+        "What separates the two is the error of first order of the latter's scheme at a step of "
         f"{1e6 * step:g} us; friction, called an exact match, peaks at "
         f"{highest[0]:.3f} and {highest[1]:.3f} N at k = 6.",
         {
@@ -151,6 +150,8 @@ def _two_schemes() -> Finding:
             "friction_x_max_two_phase_N": highest[1],
         },
         [older, coupled, *peaks],
+        assumed="The pre-existing model is taken as the exponential scheme, the coupled one as the "
+        "two-phase scheme.",
     )
 
 

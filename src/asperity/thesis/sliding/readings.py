@@ -18,6 +18,7 @@ _COARSE = 10.0  # us
 _READ = 0.02
 """Of mu F_N, that can be read off a figure with an axis from 0 to 1."""
 _EARLY, _LATE = (0.3, 0.6), (0.6, 1.0)  # s
+_TOLD = 0.01
 _ENDS = 0.5  # s, the transverse runs of Appendix A
 _END = 1e-3  # s, of the march in which it undulates
 
@@ -36,11 +37,12 @@ def _a_little_faster() -> Finding:
             "it turns where the vibration is faster": turned < 0.0,
         },
         f"{result.ratio:.3f} of mu F_N, at least {least:.2f} N",
-        "The source's other numbers are not given; those of Table 4.3 stand in. The asperities "
+        "The asperities "
         "give way before the force can turn, which rigid friction would do. At v_a = "
         f"{1e3 * faster.model.peak_velocity:g} mm/s the least is {turned:.2f} N.",
         {"ratio": result.ratio, "friction_x_min_N": least, "friction_x_min_k_6_N": turned},
         [fast, faster],
+        assumed="The source's other numbers are not given; those of Table 4.3 stand in.",
     )
 
 
@@ -109,8 +111,12 @@ def _two_directions() -> Finding:
             there[:, 0] - here[:, 0], there[:, 1] - here[:, 1], there[:, 1] + here[:, 1]
         )
     )  # fmt: skip
+    turns = [float(value) for value in (here[:, 0].min(), here[:, 0].max(), here[:, 1].min(),
+                                        here[:, 1].max())]  # fmt: skip
     return Finding.judged(
         {
+            "F_x changes only in magnitude, F_y in direction": turns[0] > 0.0
+            and turns[2] < 0.0 < turns[3],
             "F_x matches": along < _SAME * scale,
             "F_y matches, or is its mirror image": min(across, mirrored) < _SAME * scale,
         },
@@ -121,7 +127,9 @@ def _two_directions() -> Finding:
         "first, a direction of "
         f"{angles[0]:g} deg, which Appendix B gives for the same picture, then the "
         f"{angles[1]:g} deg of Table 4.4 turn the sign of F_y and nothing else; a difference of "
-        f"convention. Ratios do not tell the two apart. At k = {k:g}, periodic state.",
+        f"convention. Ratios do not tell the two apart. F_x goes from {turns[0]:.2f} to "
+        f"{turns[1]:.2f} N and keeps its sign, as it must where nothing drives the contact back; "
+        f"F_y goes from {turns[2]:.2f} to {turns[3]:.2f} N. At k = {k:g}, periodic state.",
         {"friction_x_difference_N": along, "friction_y_difference_N": across,
          "friction_y_sum_N": mirrored},
         bodies,
@@ -169,21 +177,24 @@ def _one_cycle() -> Finding:
     bodies = [Body("table-4.3", (f"{RATIO}={ratio}",)) for ratio in ratios]
     early, late = ([_off_the_mean(body, *window) for body in bodies] for window in (_EARLY, _LATE))
     return Finding.judged(
-        {f"a cycle from {_LATE[0]:g} s on tells the mean, within 1 %": max(late) < 0.01},
-        f"off by up to {', '.join(f'{share:.2%}' for share in late)} at k = {', '.join(ratios)}",
-        "The thesis does not say which cycle it takes. Between "
-        f"{_EARLY[0]:g} and {_EARLY[1]:g} s it would be off by up to "
-        f"{', '.join(f'{share:.1%}' for share in early)}: the drive rings undamped but for what "
-        "friction takes, and a cycle of vibration is a small part of its period. Here ratios are "
-        "means over at least twenty of these periods. The runs of Appendix A across the drive "
-        "end at "
-        f"{_ENDS:g} s, before that has died down.",
+        {f"a cycle from {_LATE[0]:g} s on tells the mean, within {_TOLD:.0%}": max(late) < _TOLD},
+        f"off the mean of many cycles by up to {', '.join(f'{share:.2%}' for share in late)} from "
+        f"{_LATE[0]:g} s on and {', '.join(f'{share:.1%}' for share in early)} from "
+        f"{_EARLY[0]:g} s, at k = {', '.join(ratios)}",
+        "A definition: the thesis does not claim that one cycle tells of others, nor says which it "
+        "takes. What it would be off by stands beside: the drive rings undamped but for what "
+        "friction takes, and a cycle of vibration is a small part of its period, so that it "
+        "depends on when. Here ratios are means over at least twenty of these periods. The runs "
+        f"of Appendix A across the drive end at {_ENDS:g} s, before the ringing has died down.",
         {
             f"largest_error_{name}_k_{ratio}": share
             for name, group in (("early", early), ("late", late))
             for ratio, share in zip(ratios, group, strict=True)
         },
         bodies,
+        verdict=NOT_TESTABLE,
+        assumed=f"The windows, from {_EARLY[0]:g} to {_EARLY[1]:g} s and from {_LATE[0]:g} to "
+        f"{_LATE[1]:g} s, and {_TOLD:.0%}.",
     )
 
 
@@ -205,7 +216,8 @@ def _coarse_step() -> Finding:
         {f"{name}: within {_READ:g} on an axis from 0 to 1": value < _READ
          for name, value in off.items()},
         ", ".join(f"{name} apart by {value:.3f} at most" for name, value in off.items()),
-        "On the axis from 0 to 1 that the published figures have, the error is not seen. As a "
+        "Of the finite elements only the step is tried, and on the axis from 0 to 1 that the "
+        "published figures have its error is not seen. As a "
         "share of the ratio itself it is "
         + ", ".join(f"{share:+.1%} at k = {k}" for k, share in at.items())
         + f" along the drive: a step of {_COARSE:g} us is one of {cycle / _COARSE:.0f} to a cycle, "
@@ -214,7 +226,9 @@ def _coarse_step() -> Finding:
         {f"relative_error_k_{k}": share for k, share in at.items()}
         | {f"error_{name}": value for name, value in off.items()},
         [*coarse.values(), *fine.values()],
-        assumed=f"The yardstick, {_READ:g} of mu F_N: what can be read off such a figure.",
+        assumed=f"The yardstick, {_READ:g} of mu F_N: what can be read off such a figure. No "
+        "finite elements: the rigid sliding body stands for the block, with the thesis's two-phase "
+        "scheme at their step; what an elastic block differs by is claim 5.1.",
     )  # fmt: skip
 
 

@@ -36,11 +36,12 @@ class Device:
         self._opened = opened
         self._instruments: dict[str, Any] = {}
         self._hand = Hand(name)
-        self.open()
+        self._opening = self._hand.begin(self._open)
 
-    def open(self) -> "cf.Future[Any]":
-        """Begin to open it, where it is not."""
-        return self._hand.begin(self._open)
+    def open_again(self) -> None:
+        """Begin to open it once more where that has failed; it may have been plugged in since."""
+        if self.trouble and self._opening.done():
+            self._opening = self._hand.begin(self._open)
 
     def _open(self) -> None:
         if self._instruments:

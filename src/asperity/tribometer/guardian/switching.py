@@ -92,6 +92,8 @@ class Switching:
         """
         end = self._now() + (self.limit if limit is None else limit)
         safes: dict[str, cf.Future[Any]] = {}
+        for device in self._devices:
+            device.open_again()
         for stage in STAGES:
             begun = {key: self._safe(key) for key in stage if key in self._of}
             safes |= begun
@@ -157,7 +159,7 @@ class Switching:
     def _read(self, key: str, came: dict[str, float]) -> "cf.Future[Any]":
         """Ask what proves an output to be off; notes when the answer came."""
         acts: dict[str, Callable[[Any], Any]] = {
-            "vibration": lambda one: one.vibrates(),
+            "vibration": off.drive_state,
             LISTENER: lambda one: one.moves(),
         }
         future = self._of[key].begin(key, acts.get(key, off.read_back))
@@ -191,13 +193,13 @@ class Switching:
 
     def _found(self, asked: Iterable[str], known: Mapping[str, Any], *, ear: str) -> list[Off]:
         """Judge what is known; ``ear`` as of :func:`off.drive_off`."""
-        found = {key: known.get(key, _SILENT) for key in asked}
+        found = {key: known.get(key, self._silent(key)) for key in asked}
         made: dict[str, Off] = {}
         for key in asked:
             if key not in ("vibration", LISTENER):
                 made[key] = off.supply_off(self._of[key].keys[key], found[key])
         if "vibration" in asked and "vibration" not in known:
-            made["vibration"] = Off(self._of_vibration(), False, str(_SILENT))
+            made["vibration"] = Off(self._of_vibration(), False, str(found["vibration"]))
         elif "vibration" in asked:
             moves = None if ear else found.get(LISTENER)
             made["vibration"] = off.drive_off(
@@ -205,6 +207,11 @@ class Switching:
                 moved=self._moved, ear=ear,
             )  # fmt: skip
         return [made[key] for stage in STAGES for key in stage if key in made]
+
+    def _silent(self, key: str) -> InstrumentError:
+        # What could not be opened is no less absent while that is tried again.
+        trouble = self._of[key].trouble
+        return InstrumentError(trouble, kind="line lost") if trouble else _SILENT
 
     def _hopeless(self, found: Iterable[Off]) -> bool:
         """Whether all that is not off could not even be opened."""

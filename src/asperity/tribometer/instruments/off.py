@@ -2,7 +2,7 @@
 
 import dataclasses
 from collections.abc import Callable
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from asperity.errors import AsperityError
 from asperity.tribometer.instruments.protocols import Reading, Supply
@@ -85,6 +85,12 @@ def supply_off(name: str, found: tuple[bool | None, Reading] | Exception) -> Off
     return Off(name, still, f"its output's state is off, {measured}", on=flows)
 
 
+def drive_state(drive: Any) -> bool | str | None:
+    """Ask a drive whether it is on; returns what it said where that is all that tells of it."""
+    state: bool | None = drive.vibrates()
+    return state and (getattr(drive, "unlike_off", "") or state)
+
+
 def _measured(value: float | None, unit: str) -> str:
     if value is None:
         return f"its {'voltage' if unit == 'V' else 'current'} cannot be measured"
@@ -93,7 +99,7 @@ def _measured(value: float | None, unit: str) -> str:
 
 def drive_off(
     name: str,
-    state: bool | Exception | None,
+    state: bool | str | Exception | None,
     moves: bool | Exception | None,
     amplifier: Off | None = None,
     *,
@@ -108,8 +114,9 @@ def drive_off(
     ----------
     name : str
         Of the drive.
-    state : bool or Exception, optional
-        What it answers, asked whether it is on; None: it cannot be asked.
+    state : bool, str or Exception, optional
+        What it answers, asked whether it is on; a text: it is taken to be, by an answer that is not
+        that of one which is off; None: it cannot be asked.
     moves : bool or Exception, optional
         Whether the drive signal is heard; None: nobody listens.
     amplifier : Off, optional
@@ -123,6 +130,9 @@ def drive_off(
     told = []
     if isinstance(state, Exception):
         told.append(said(state))
+    elif isinstance(state, str):
+        told.append(f"it is taken to be on: {state}")
+        state = True
     elif state is not None:
         told.append(f"its state is {'on' if state else 'off'}")
     if isinstance(moves, Exception):

@@ -53,6 +53,12 @@ class SerialVibration:
         Its line cannot be opened.
     InputError
         It is to be told levels, and there are none.
+
+    Attributes
+    ----------
+    unlike_off : str
+        What it answered last, asked whether it is on, where only the answer of one that is off is
+        known and this was another.
     """
 
     by_hand = False
@@ -65,6 +71,7 @@ class SerialVibration:
         self._levels = {} if levels is None else levels.named()
         self._line = opened_line(self.name, controller)
         self._set: dict[str, Any] = {}
+        self.unlike_off = ""
 
     def identify(self) -> str:
         """Return what it answers to ``controller.identify``, or its name where there is none."""
@@ -131,9 +138,19 @@ class SerialVibration:
             return None
         answer = self._asked("ask_output")
         try:
-            return self._says.is_on(answer)
+            on = self._says.is_on(answer)
         except ValueError:
             raise self._nonsense("ask_output", answer) from None
+        known = self._says.output_on or not self._says.output_off
+        self.unlike_off = (
+            ""
+            if known or not on
+            else (
+                f"it answered {shown(self._says.filled('ask_output'))} with {shown(answer)}, not "
+                f"{shown(self._says.output_off)}"
+            )
+        )
+        return on
 
     def close(self) -> None:
         """Let go of the line."""

@@ -12,7 +12,7 @@ from asperity.casefile.written import written
 from asperity.errors import InputError, plain
 from asperity.results.report import Heading
 from asperity.runs import Run
-from asperity.tribometer.deposit import BEGUN_AUTHORS, Package
+from asperity.tribometer.deposit import Package
 from asperity.tribometer.journal_lines import NAME
 from asperity.tribometer.package.instruments import instruments
 from asperity.tribometer.package.metadata import CRATE, DATACITE, About
@@ -114,8 +114,6 @@ def _notes(case: Case, found: Report, about: About) -> Iterator[str]:
     yield from found.notes
     yield from (f"{what} is left out: {why}" for what, why in found.refused)
     package = about.package
-    if package.authors == BEGUN_AUTHORS:
-        yield f"package.authors is {'; '.join(BEGUN_AUTHORS)}, as asperity new has it; give yours"
     if not package.publisher:
         yield "package.publisher is not told; DataCite's word for that is in its place (:unav)"
     if not package.doi:

@@ -115,6 +115,7 @@ class Machine:
             Ctrl-C was pressed; what is done is kept.
         """
         done = self._journal.done
+        self._done_cells = sum(one.act == "cell" and one.key in done for one in self._actions)
         self._forecast(done)
         try:
             self._remember(done)
@@ -122,7 +123,6 @@ class Machine:
                 for place, action in enumerate(self._actions):
                     self._signals.check(self._how_far())
                     if action.key in done:
-                        self._done_cells += action.act == "cell"
                         continue
                     following = next(map(str, self._actions[place + 1 :]), "")
                     far = self._done_cells, self._cells
@@ -193,7 +193,11 @@ class Machine:
                 error.add_note(str(full))
         if not isinstance(error, AsperityError):
             raise error
-        return StillOnError.of(reason, kind, failures) if failures else error
+        if failures:
+            return StillOnError.of(reason, kind, failures)
+        # Whatever latched ends with one status, also where it is no instrument's.
+        latched = error.exit_code == InstrumentError.exit_code
+        return error if latched else InstrumentError(reason, kind=kind)
 
     def _still_on(self, reason: str, kind: str, failures: Sequence[str]) -> AsperityError:
         """Latch, since something was not read back to be off."""

@@ -181,6 +181,7 @@ class Reduced(Result):
     title = "Recordings of a disc-on-disc rig, reduced"
     stem = "reduce"
     drawings: ClassVar[Mapping[str, str]] = {"reduce": "asperity.tribometer.plots:plot_changes"}
+    whole: ClassVar[bool] = True
 
     segments: tuple[SegmentResult, ...]
     files: tuple[FileResult, ...]

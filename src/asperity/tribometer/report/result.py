@@ -58,6 +58,7 @@ class Report(Result):
 
     title = "Tests on a disc-on-disc rig"
     stem = "report"
+    whole = True
 
     reduced: Reduced
     conditions: tuple[tuple[str, str], ...]

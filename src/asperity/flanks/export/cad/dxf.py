@@ -15,8 +15,10 @@ from asperity.flanks.export.turned import Beside, Bodies, blanks_of, worm_shape
 from asperity.flanks.measuring.drawing import Datum, on_drawing
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset.blanks import Blanks, wheel_sizes
+from asperity.results.language import said
 from asperity.results.svg import Point, Words, scale_text
 from asperity.shafts.drawing import along_with_shafts, scale_with, through_with_shafts
+from asperity.shafts.shape import Shape
 
 NAME = "gearset.dxf"
 """Of the file."""
@@ -27,6 +29,7 @@ _WEIGHTS = {
     "OUTLINE": 50, "NARROW": 25, "CENTRE": 25, "HATCH": 13, "DIMENSIONS": 25, "TEXT": 25,
 }  # fmt: skip
 _STYLE = "ASPERITY"
+_CHAIN, _LEVEL = 16.0, 8.0  # of dimensions of shafts, mm of paper
 _APART, _BLOCK, _COLUMNS = 45.0, 156.0, (0.0, 92.0, 112.0, 134.0)
 _PARTS = {"worm": "Worm", "wheel": "Worm wheel", "both": "Gearset"}
 
@@ -91,7 +94,7 @@ class Sheet:
     def dimension(self, one: Point, other: Point, at: float, words: Words) -> None:
         """Draw a dimension that measures what is between two points."""
         upright = abs(one[0] - other[0]) < 1e-9 or (abs(one[0] - other[0]) < abs(one[1] - other[1]))
-        said = str(words[0])
+        said = str(words[0]) if words else ""
         text = "%%c<>" if "\u2300" in said else "<>"
         if said.split()[:1] == ["a"] and self.deviation:
             text += f" %%p{self.deviation:.4g}"
@@ -150,11 +153,14 @@ def write_dxf(
     s = scale_with(g, worm, wheel)
     sheet = Sheet(s, deviation)
     along_with_shafts(sheet, g, s, pair.hand, worm, wheel)
+    _turned(sheet, worm, s, -s * g.centre_distance, -1.0)
     sheet.origin = (sheet.reach + _APART, 0.0)
     if wheel is not None:
         sheet.origin = (sheet.origin[0] + s * (wheel.length - wheel.mesh), 0.0)
     left = sheet.origin[0]
     through_with_shafts(sheet, g, s, wheel, blanks)
+    if wheel is not None:
+        _turned(sheet, wheel, s, 0.0, 1.0, 0.5 * g.wheel_outside_diameter)
     sizes = wheel_sizes(g, blanks)
     beyond = 0.0 if wheel is None else wheel.mesh
     wide = s * max(0.5 * g.worm_tip_diameter, 0.5 * sizes["hub_width"], beyond)
@@ -163,12 +169,42 @@ def write_dxf(
         edge = s * 0.5 * sizes["hub_width"]
         sheet.dimension((edge, -high), (edge, high), wide + 10.0 * step + 8.0, ("\u2300",))
     sheet.origin = (max(sheet.reach, left) + _APART / 2.0, 0.0)
+    if worm is not None and worm.threads is not None:
+        # The data have the threads that are drawn.
+        low, high = worm.threads
+        data = [one._replace(value=high - low) if one.symbol == "b_1" else one for one in data]
     _block(sheet, data, s * (g.centre_distance + 0.5 * g.worm_tip_diameter))
     sheet.origin = (0.0, 0.0)
-    low = s * 0.5 * g.wheel_outside_diameter + 25.0
-    sheet.text((-s * 0.5 * g.wheel_throat_diameter, low), f"{name}  {scale_text(s)}  mm", 5.0)
+    below = s * 0.5 * g.wheel_outside_diameter + 25.0
+    sheet.text((-s * 0.5 * g.wheel_throat_diameter, below), f"{name}  {scale_text(s)}  mm", 5.0)
     write_text(folder / NAME, sheet.content())
     return NAME
+
+
+def _turned(
+    sheet: Sheet, shape: Shape, s: float, axis: float, side: float, beyond: float = 0.0
+) -> None:
+    """Draw the dimensions of a shaft's sections, lengths above the axis (side -1) or below it.
+
+    Diameters stand in their sections; what is ``beyond`` the shaft, mm, is kept off.
+    """
+    if not shape.sections:
+        return
+    ends = sorted({place for start, end, _ in shape.sections for place in (start, end)})
+    high = axis + side * (s * max(0.5 * shape.largest, beyond) + _CHAIN)
+
+    def at(position: float, radius: float = 0.0) -> Point:
+        return s * (shape.mesh - position), axis + side * s * radius
+
+    for start, end, diameter in shape.sections:
+        radius = 0.5 * diameter
+        sheet.dimension(at(end, radius), at(start, radius), high, ())
+        middle, _ = at(0.5 * (start + end))
+        low, top = (middle, axis - s * radius), (middle, axis + s * radius)
+        sheet.dimension(low, top, middle, ("\u2300",))
+    if ends[0] <= 0.0 and len(shape.sections) > 1:
+        over = high + side * _LEVEL
+        sheet.dimension(at(shape.length), at(0.0), over, ())
 
 
 def _block(sheet: Sheet, data: Sequence[Datum], top: float) -> None:
@@ -176,10 +212,10 @@ def _block(sheet: Sheet, data: Sequence[Datum], top: float) -> None:
     y = {0.0: -top, _BLOCK: -top}
     for part, title in _PARTS.items():
         left = _BLOCK if part == "wheel" else 0.0
-        sheet.text((left, y[left]), title, 3.5)
+        sheet.text((left, y[left]), said(title), 3.5)
         y[left] += _LINE * _LETTERS
         for datum in (one for one in data if one.part == part):
-            cells = datum.name, datum.symbol, on_drawing(datum), datum.unit
+            cells = said(datum.name), datum.symbol, said(on_drawing(datum)), datum.unit
             for x, words in zip(_COLUMNS, cells, strict=True):
                 sheet.text((left + x, y[left]), str(words), 2.5)
             y[left] += _LINE * 2.5

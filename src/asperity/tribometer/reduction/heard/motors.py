@@ -7,20 +7,23 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.tribometer.options import Twin
-from asperity.tribometer.reduction.heard.finding import Course, Finding
+from asperity.tribometer.reduction.heard.answers import Answers, answers
+from asperity.tribometer.reduction.heard.finding import Finding
 from asperity.tribometer.reduction.heard.material import Material
 from asperity.tribometer.reduction.heard.rest import least_of
 from asperity.tribometer.signals import SIGNALS
 
 _SURE = 5.0  # standard errors
-_SLOPES = 0.7, 1.43  # of the torques' changes over that of the radii; exchanged, it is the square
+_SLOPES = 0.9, 1.11  # of the torques' changes over that of the radii; exchanged, it is the square
 _LEVELS = 0.5, 2.0  # of the torques themselves, in which bearings are
 _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vibration
-_ENOUGH = 0.2  # of a torque, by which it changes at least for a slope to be told
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
-_FASTER, _SLOWER = 1.4, 0.5  # of the supply, that back voltage and drop are together
-_CARRIES = 0.6, 1.6  # of what a motor takes for a change of the torque, by [twin]
-_PART, _LEAST_PARTS = 0.5, 8  # s over which torque and current are compared, and how many such
+# How well [twin] is taken to know a motor's constant and resistance, which warm with it, and its
+# gear's efficiency, as shares; and how well a supply is, and what falls in leads and brushes, V.
+_MOTOR, _GEAR = 0.1, 0.25
+_SUPPLY, _LEADS = 0.02, 0.1
+_BENT = 0.03  # by what share the part that a current answers by may differ from cell to cell
+_BEARS = 0.1, 0.02  # that of a torque, and of the torque itself by what its bearings may answer
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
 _FITS = 3.0  # times better do speeds fit their supplies the other way round
 _TEETH = 0.05  # of the wheel's speed, by which it may be off what the worm's has it
@@ -111,33 +114,28 @@ def _torques(of: Material) -> Iterator[Finding]:
     """Yield torques that are not as the radii: the discs push each other with equal forces."""
     if not of.has("torque_bronze"):
         return
-    steel, bronze = _levels(of, "torque_steel"), _levels(of, "torque_bronze")
-    wanted = of.pair.bronze.radius / of.pair.steel.radius
-    x, y = (one[:, [0, 2]].ravel() for one in (steel, bronze))
-    error = float(np.median(np.concatenate((steel[:, [1, 3]], bronze[:, [1, 3]]))))
-    largest = float(np.abs(x).max())
-    course = Course(x, y, "torque_steel (N m)", "torque_bronze (N m)")
     names = "torque_steel", "torque_bronze"
-    if np.ptp(x) > max(_ENOUGH * largest, 2.0 * _SURE * error):
-        middle = x - x.mean()
-        slope = float(middle @ (y - y.mean()) / (middle @ middle))
-        unsure = _SURE * error / math.sqrt(float(middle @ middle))
-        ratio = abs(slope) / wanted
-        if ratio + unsure / wanted < _NO_ANSWER:
+    wanted = of.pair.bronze.radius / of.pair.steel.radius
+    found = answers(of, *names, ("torque_steel (N m)", "torque_bronze (N m)"))
+    if found is not None:
+        slack = (_BEARS[0], _BEARS[1] * abs(_middle(of, names[1])[0]))
+        if float(found.parts(*slack)[1].min()) < _NO_ANSWER * wanted:
             yield Finding(
                 "torque_bronze does not answer the vibration",
-                f"torque_steel changes by {np.ptp(x):.2g} N m, torque_bronze by {np.ptp(y):.2g} "
-                "N m, no number rests on it",
-                "look at its sensor and at the map of [channels]", names, course, spoils=False,
+                f"torque_steel changes by {found.x.max():.2g} N m, torque_bronze by "
+                f"{found.y.max():.2g} N m, no number rests on it",
+                "look at its sensor and at the map of [channels]", names, found.course(),
+                spoils=False,
             )  # fmt: skip
-        elif not _SLOPES[0] <= ratio <= _SLOPES[1]:
+            return
+        if told := _misfit(of, found, slack, wanted, _SLOPES):
             yield Finding(
                 "torques are not as the radii",
-                f"torque_bronze changes by {abs(slope):.2f} of torque_steel, the radii give "
-                f"{wanted:.2f}",
-                "look at both calibrations and at the map of [channels]", names, course,
+                f"torque_bronze changes by {told} of torque_steel, the radii give {wanted:.2f}",
+                "look at both calibrations, at the map of [channels] and at what their cables pick "
+                "up", names, found.course(),
             )  # fmt: skip
-        return
+            return
     (one, _), (other, _) = (_middle(of, name) for name in names)
     if abs(one) < least_of("torque_steel"):
         return
@@ -146,7 +144,7 @@ def _torques(of: Material) -> Iterator[Finding]:
         yield Finding(
             "torques are not as the radii",
             f"torque_bronze is {abs(other / one):.2f} of torque_steel, the radii give {wanted:.2f}",
-            "look at both calibrations and at the map of [channels]", names, course,
+            "look at both calibrations and at the map of [channels]", names, of.course(names[1]),
         )  # fmt: skip
 
 
@@ -244,78 +242,103 @@ def _supplied(of: Material) -> Iterator[Finding]:
                 "look at the calibrations of torque, speed and current, and at the supply's volts",
                 ("torque_steel", *names), of.course("speed_steel"),
             )  # fmt: skip
-    twin = of.case.get(Twin)
-    if twin is None or volts <= 0.0:
-        return
-    for disc in ("steel",) if of.pair.geared else ("steel", "bronze"):
-        volts, name = of.supply(disc, time), f"speed_{disc}"
-        turning = abs(_middle(of, name)[0])
-        back = twin.motor_constant * turning
-        drop = 0.0
-        if of.has(f"current_{disc}"):
-            drop = twin.motor_resistance * max(_middle(of, f"current_{disc}")[0], 0.0)
-        if volts <= 0.0 or turning < least_of(name):
+    if (twin := of.case.get(Twin)) is not None:
+        for disc in ("steel",) if of.pair.geared else ("steel", "bronze"):
+            yield from _turning(of, twin, disc)
+
+
+def _turning(of: Material, twin: Twin, disc: str) -> Iterator[Finding]:
+    """Yield a motor that turns as its supply does not let it, V = k w + R i, by [twin]."""
+    name, current = f"speed_{disc}", f"current_{disc}"
+    step = 0.5 * _encoder_step(of, name) * abs(of.blocks.lines[name].gain)
+    told = []
+    for place, before, _ in of.windows:
+        volts, turns = of.supply(disc, of.segments[place].start), of.level(name, before)
+        takes = of.level(current, before) if of.has(current) else None
+        if volts <= 0.0 or not math.isfinite(turns.error) or abs(turns.value) < least_of(name):
             continue
-        if not _SLOWER * volts <= back + drop <= _FASTER * volts:
-            yield Finding(
-                f"{name} does not fit its supply",
-                f"{turning:.3g} rad/s are {back:.2g} V with twin.motor_constant, and "
-                f"{drop:.2g} V fall in the motor, of {volts:g} V",
-                "look at its scale and channel, at the supply's volts, and at twin.motor_constant",
-                (name,), of.course(name), spoils=disc == "steel" or back + drop > _FASTER * volts,
-            )  # fmt: skip
+        back, drop = twin.motor_constant * abs(turns.value), 0.0
+        known = _SUPPLY * volts + _LEADS + twin.motor_constant * (_SURE * turns.error + step)
+        if takes is not None and math.isfinite(takes.error):
+            drop = twin.motor_resistance * max(takes.value, 0.0)
+            known += twin.motor_resistance * _SURE * takes.error
+        # What falls in a motor whose current is not known leaves open how slow it is.
+        known += _MOTOR * math.hypot(back, drop)
+        least = volts - known if drop else 0.0
+        if not least <= back + drop <= volts + known:
+            told.append((place, back, drop, abs(turns.value), volts))
+    for place, back, drop, turns_at, volts in told[:1] if len(told) == len(of.windows) else told:
+        yield Finding(
+            f"{name} does not fit its supply",
+            f"{turns_at:.3g} rad/s are {back:.2g} V with twin.motor_constant, and {drop:.2g} V "
+            f"fall in the motor, of {volts:g} V",
+            "look at its scale and channel, at that of the current, at the supply's volts, and at "
+            "motor_constant and motor_resistance of [twin]",
+            (name,), of.course(name), place if len(told) < len(of.windows) else None,
+        )  # fmt: skip
 
 
 def _carried(of: Material) -> Iterator[Finding]:
     """Yield a current that answers the torque by another part than motor and gear make of it.
 
     A motor gives k i, and of a change of the disc's torque ratio and efficiency of its gear leave
-    it that part; what it drags by itself changes nothing of that.
+    it that part; what it drags by itself changes nothing of that. A gear gives no more than it
+    takes, and the part is one for all cells of a file.
     """
     twin = of.case.get(Twin)
     if twin is None or not of.has("current_steel"):
         return
-    torque = _levels(of, "torque_steel")
-    changes, error = torque[:, 2] - torque[:, 0], float(np.median(np.hypot(*torque[:, [1, 3]].T)))
-    # Of what the sensors' own noise is alone nothing is told.
-    if not math.sqrt(float(np.mean(changes**2))) > _SURE * error:
+    found = answers(
+        of, "torque_steel", "current_steel", ("torque_steel (N m)", "current_steel (A)")
+    )
+    if found is None:
         return
-    x, y = _together(of, "torque_steel", "current_steel")
-    size = float(x @ x)
-    if x.size < _LEAST_PARTS or not size > 0.0:
-        return
-    part = 1.0 / (of.pair.drives.gear_ratio * twin.gear_efficiency * twin.motor_constant)
-    slope = float(x @ y) / size
-    left = y - slope * x
-    # A sign that is wrong is told as such.
-    share = abs(slope) / part
-    unsure = _SURE * math.sqrt(float(left @ left) / ((x.size - 2) * size)) / part
-    if share + unsure >= _CARRIES[0] and share - unsure <= _CARRIES[1]:
-        return
-    yield Finding(
-        "current_steel does not fit its torque",
-        f"it answers the vibration by {share:.2g} of what motor and gear take for the torque's "
-        "answer, by [twin] and the gear's ratio",
-        "look at the calibrations of its clamp and of the torque, and at motor_constant and "
-        "gear_efficiency of [twin]",
-        ("current_steel",), Course(x, y, "torque_steel about its mean (N m)",
-                                   "current_steel about its mean (A)"),
+    told = twin.gear_efficiency
+    part = 1.0 / (of.pair.drives.gear_ratio * told * twin.motor_constant)
+    bounds = (
+        (1.0 - _MOTOR) * told / min(1.0, told * (1.0 + _GEAR)), (1.0 + _MOTOR) / (1.0 - _GEAR),
     )  # fmt: skip
+    if share := _misfit(of, found, (_BENT, 0.0), part, bounds, of_it=part):
+        yield Finding(
+            "current_steel does not fit its torque",
+            f"it answers the vibration by {share} of what motor and gear take for the torque's "
+            "answer, by [twin] and the gear's ratio",
+            "look at the calibrations of its clamp and of the torque, at what their cables pick up "
+            "of the drive, and at motor_constant and gear_efficiency of [twin]",
+            ("current_steel",), found.course(),
+        )  # fmt: skip
 
 
-def _together(of: Material, *signals: str) -> tuple[FloatArray, ...]:
-    """Return means of signals over equal parts of all windows, about those of their segment."""
-    count = of.blocks.at_least(_PART)
-    found: list[list[FloatArray]] = [[] for _ in signals]
-    for _, *both in of.windows:
-        if any(of.blocks.lost[signal][one.first : one.last].any()
-               for signal in signals for one in both):  # fmt: skip
-            continue
-        for made, signal in zip(found, signals, strict=True):
-            parts = np.concatenate([
-                of.blocks.means[signal][one.first : one.last][: one.count // count * count]
-                .reshape(-1, count).mean(axis=1)
-                for one in both
-            ])  # fmt: skip
-            made.append(parts - parts.mean() if parts.size else parts)
-    return tuple(np.concatenate(made) if made else np.zeros(0) for made in found)
+def _misfit(
+    of: Material, found: Answers, slack: tuple[float, float], wanted: float,
+    bounds: tuple[float, float], of_it: float = 1.0,
+) -> str:  # fmt: skip
+    """Return by what parts a signal answers a torque, where no one of those wanted fits all cells.
+
+    Parameters
+    ----------
+    of : Material
+        What is looked at.
+    found : Answers
+        Changes of both.
+    slack : tuple of 2 floats
+        By what share the part may differ from cell to cell, and by what else the signal changes.
+    wanted : float
+        The part it should answer by.
+    bounds : tuple of 2 floats
+        By what share of that it may.
+    of_it : float
+        What the parts are told as shares of.
+    """
+    least, most = found.parts(*slack)
+    one, other = int(least.argmax()), int(most.argmin())
+    if least[one] > most[other]:
+        shares = found.y / np.maximum(found.x, 1e-12) / of_it
+        told = sorted({one, other})
+        return ", ".join(
+            f"{shares[n]:.2g} at {of.segments[found.places[n]].start:.0f} s" for n in told
+        )
+    least, most = found.parts(0.0, slack[1])
+    if least.max() > bounds[1] * wanted or most.min() < bounds[0] * wanted:
+        return f"{found.slope / of_it:.2g}"
+    return ""

@@ -1,0 +1,85 @@
+"""Marches whose halves agree by chance, of motions that repeat themselves late or never.
+
+A body that is thrown and lands, or whose friction falls with the speed, may repeat itself after
+five cycles, of which a window has no whole number, or never; the halves of the window then agree
+now and then. How its cycles go on at the end says how far its mean may be from that of all.
+"""
+
+import math
+
+import numpy as np
+
+from asperity.results.settled import Standing
+from asperity.slider.cycle_map import Cycle
+from asperity.slider.from_rest import alike_after, ratio_of
+from asperity.slider.integrators import Integrator
+from asperity.slider.step_error import at_the_end, run_once
+from asperity.slider.timetable import FAR, Timetable
+
+_LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
+_BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
+_NOTHING = 1e-4  # of mu F_N, that a mean may be uncertain untold
+_STUDENT = 2.36  # of 7 degrees of freedom, 95 %
+
+
+def may_wander(body: Integrator, sums: np.void) -> bool:
+    """Whether a body may move without ever repeating itself, by its march's sums.
+
+    Two motions of any other only come nearer.
+    """
+    model = body.model
+    if not model.vibrates or model.solve.scheme == "two-phase":
+        return False
+    falls = (model.friction.static_mu or 0.0) > model.friction.mu
+    lands = model.normal is not None and float(sums["landings"]) > 0.0
+    return lands or (falls and model.slider.drive_stiffness is not None)
+
+
+def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, str]:
+    """Return how far the mean of a window may be from that of all cycles, over mu F_N, and why.
+
+    Parameters
+    ----------
+    body : Integrator
+        At the end of its march; left as it is.
+    table : Timetable
+        Its steps.
+    ratio : float
+        The mean of its window.
+    """
+    there = at_the_end(body, table)
+    means = _marched(there, _LOOKED_AT)
+    for period in range(1, _LOOKED_AT // 3 + 1):
+        if alike_after(np.array(means), period):
+            mean = float(np.mean(means[-period:]))
+            after = "a cycle" if period == 1 else f"{period} cycles"
+            return abs(mean - ratio), (
+                f"the motion repeats itself after {after}, whose mean ratio is {mean:.5g}"
+            )
+    cycles = max(table.cycles // _BLOCKS, _LEAST)
+    means += _marched(there, _BLOCKS * cycles - len(means))
+    blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
+    uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
+    off = max(uncertain, abs(float(np.mean(blocks)) - ratio))
+    return off, "its cycles do not repeat themselves"
+
+
+def _marched(cycle: Cycle, cycles: int) -> list[float]:
+    means = []
+    for _ in range(cycles):
+        run_once(cycle)
+        means.append(ratio_of(cycle))
+    return means
+
+
+def judged(
+    standing: Standing, body: Integrator, table: Timetable, sums: np.void
+) -> tuple[Standing, tuple[str, ...]]:
+    """Return whether what has settled by the halves of its window has not by chance, with notes."""
+    if not standing.settled or not may_wander(body, sums):
+        return standing, ()
+    off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]))
+    if off <= _NOTHING:
+        return standing, ()
+    said = f"{why}: the mean of the window is about {off:.2g} of mu F_N from that of all cycles"
+    return (Standing(False, said), ()) if off > FAR else (standing, (said,))
