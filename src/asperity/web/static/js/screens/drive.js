@@ -125,7 +125,8 @@ export function view() {
           says="A minute or several: it is marched at several amplitudes.">
         ${held.data ? html`<${Later} load=${below} part="Locking" answer=${held.data.answer} found=${holding}
           data=${creep} />` : null}<//>
-      ${standing ? html`<${Later} load=${further} part="Further" of="drive" name=${name} settings=${settings} />` : null}
+      ${standing ? html`<${Later} load=${further} part="Further" of="drive" name=${name}
+        settings=${settings} />` : null}
     </section></div>
   <//>`;
 }
