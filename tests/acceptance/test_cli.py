@@ -61,6 +61,7 @@ def test_a_periodic_slide_has_no_breakaway(asperity):
     assert answer["ratio"] == pytest.approx(0.4046, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_pictures_are_written_as_asked(asperity, tmp_path):
     out = ["--out", tmp_path / "out"]
     code, _, errors = asperity("sensitivity", "gearset-2", *out, "--format", "bmp")
@@ -222,6 +223,7 @@ def test_a_sweep_in_which_a_point_fails_hands_back_the_others_and_ends_with_3(as
     )
 
 
+@pytest.mark.slow
 def test_the_thesis_makes_one_figure_when_asked_for_one(asperity, tmp_path):
     code, output, _ = asperity("thesis", "--only", "2.7", "--out", tmp_path, "--json")
     assert code == 0

@@ -15,6 +15,7 @@ from asperity.sweep import branches
 from asperity.sweep.axes import parse_axes
 
 
+@pytest.mark.slow
 def test_the_command_names_the_loop_and_draws_it(asperity, tmp_path):
     over = "vibration.displacement_amplitude=0.2:0.5:0.1 um"
     code, output, errors = asperity(

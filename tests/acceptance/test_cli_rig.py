@@ -668,6 +668,7 @@ def test_a_fit_s_table_has_the_case_s_unit_or_the_one_it_is_given_in(
     assert row[4] == ("nm" if size == 1e9 else "um")
 
 
+@pytest.mark.slow
 def test_a_check_lists_what_is_wrong_and_draws_each(asperity, tmp_path):
     path = faulty("zero that jumps", 1, tmp_path / "run.nc", **SMALL)
     code, output, errors = asperity("rig", "check", path, "--out", tmp_path / "out", "--json")

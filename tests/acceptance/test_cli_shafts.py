@@ -35,6 +35,7 @@ def test_shafts_tells_what_each_part_comes_to(run):
     assert " 1.36e+07 h  5000 h " in done.stdout
 
 
+@pytest.mark.slow
 def test_every_number_of_the_tables_of_shafts_knows_its_place_in_the_json(run, tmp_path):
     assert run("shafts", CASE, "--out", str(tmp_path)).returncode == 0
     page = reports.Page((tmp_path / "report.html").read_text("utf-8"))
@@ -62,6 +63,7 @@ def test_every_number_of_shafts_is_one_object_of_json(run):
     assert found["worm_deflection_um"] < found["worm_deflection_with_shear_um"]
 
 
+@pytest.mark.slow
 def test_shafts_leaves_a_report_a_picture_and_files_that_are_read_back(run, tmp_path):
     from asperity.results import read
 

@@ -71,6 +71,7 @@ def test_every_proposal_has_the_verdict_of_its_rating_to_the_last_bit(asperity, 
         assert one["holds"] == (min(margins) >= 1.0)
 
 
+@pytest.mark.slow
 def test_a_bearing_too_small_for_any_fails_every_proposal_and_is_named(asperity, duty_file):
     changed(duty_file, 'dynamic_rating = "36 kN"', 'dynamic_rating = "0.2 kN"')
     folder = duty_file.parent / "out"
@@ -179,6 +180,7 @@ def of_shelf(name, kind, outside, c, c0, more="", bore=30):
     return BEARING.format(name=name, kind=kind, outside=outside, c=c, c0=c0, more=more, bore=bore)
 
 
+@pytest.mark.slow
 def test_the_smallest_bearing_of_the_shelf_that_does_stands_where_none_is_named(
     asperity, duty_file
 ):

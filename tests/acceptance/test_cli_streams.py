@@ -45,6 +45,7 @@ def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command,
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "file"),
     [

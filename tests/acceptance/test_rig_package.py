@@ -279,6 +279,7 @@ def test_a_case_that_is_begun_makes_a_package_when_its_examples_are_replaced(
     assert "(your laboratory)" in page
 
 
+@pytest.mark.slow
 def test_a_package_that_a_full_disk_does_not_take_is_left_in_no_part(
     asperity, run, tmp_path, monkeypatch
 ):

@@ -63,6 +63,7 @@ def made(tmp_path_factory):
 DRAWN = [number for number in FIGURES if number not in SLOW]
 
 
+@pytest.mark.slow
 def test_what_is_said_to_call_no_kernel_calls_none(tmp_path, monkeypatch):
     # They stand on the page while kernels are compiled.
     class CalledError(BaseException):

@@ -2,6 +2,7 @@
 
 import os
 import re
+import signal
 
 import pytest
 from apparatus.page import Served
@@ -47,6 +48,37 @@ def test_a_restart_keeps_tabs_and_bookmarks(browser, served):
     opened.goto(bookmark)
     expect(opened.locator("[data-key=ratio]").first).to_be_visible()
     expect(opened.locator("[role=alert].fault")).to_have_count(0)
+    context.close()
+
+
+NOTE_WAITS = """
+window.waits = new Set();
+const note = () => document.querySelectorAll(".wait").forEach((one) => waits.add(one.textContent));
+new MutationObserver(note).observe(document, {subtree: true, childList: true});
+"""
+"""What keeps every wait that a page tells."""
+
+
+def test_where_what_computes_has_ended_nobody_is_told_of_compiling_and_it_comes_back(
+    browser, served
+):
+    page = served()
+    context = browser.new_context()
+    context.add_init_script(NOTE_WAITS)
+    tab = context.new_page()
+    tab.goto(here(page, f"slide?case=body-shaken-across&token={page.token}"))
+    expect(tab.locator("[data-key=ratio]").first).to_be_visible()
+    ended = page.child("worker")
+    os.kill(ended, signal.SIGKILL)
+    # The next question begins it anew.
+    tab.get_by_role("slider", name="mass", exact=True).press("ArrowRight")
+    expect(tab).to_have_url(re.compile("set.slider.mass"))
+    tab.reload()
+    expect(tab.locator("[data-key=ratio]").first).to_be_visible()
+    expect(tab.locator(".wait")).to_have_count(0)
+    assert page.child("worker") != ended
+    said = tab.evaluate("[...waits]")
+    assert not [text for text in said if "compil" in text]
     context.close()
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from urllib.parse import parse_qs
 
 import pytest
-from apparatus.browser import answered, copied
+from apparatus.browser import answered, copied, settled
 from playwright.sync_api import expect
 
 DONE = re.compile(r"done after")
@@ -234,10 +234,33 @@ def test_a_job_of_a_command_without_a_screen_opens_with_its_tables_and_pictures(
 
 def test_further_studies_of_a_drive_say_what_they_need_and_tell_what_they_find(seen):
     page = seen.open("drive", case="drive-screw", **{f"set.{key}": SHORT[key] for key in SHORT})
-    page.get_by_text("further: mounting, relief, wear, control").click()
+    page.get_by_text("further: mounting, roots, relief, wear, control").click()
     control = page.get_by_role("region", name="control", exact=True)
     expect(control).to_contain_text("needs [control], which the case does not have")
     expect(control.get_by_role("button", name="run strokes")).to_be_disabled()
-    for name in ("misalign", "relief", "wear"):
+    for name in ("misalign", "roots", "relief", "wear"):
         expect(page.get_by_role("region", name=name, exact=True)).to_be_visible()
     expect(page.get_by_role("button", name="let it wear")).to_be_enabled()
+
+
+@pytest.mark.parametrize(
+    ("screen", "case", "fold", "button", "found"),
+    [
+        (
+            "gear",
+            "actuator-shafts",
+            "shafts and bearings",
+            "judge them",
+            "Shafts and bearings hold",
+        ),
+        ("slide", "table-4.3", "a pull at rest", "pull it at rest", "static friction"),
+    ],
+)
+def test_what_else_a_command_answers_is_asked_from_its_screen(
+    seen, screen, case, fold, button, found
+):
+    page = seen.open(screen, case=case)
+    settled(page)
+    page.get_by_text(f"further: {fold}").click()
+    page.get_by_role("button", name=button, exact=True).click()
+    expect(page.get_by_text(found).first).to_be_visible(timeout=120_000)

@@ -61,6 +61,7 @@ def tied_block(counter, element, elements):
     return condensed, system, whole, loads["side"].forces(mesh).ravel()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("element", ["hex8", "hex8i", "hex27"])
 @pytest.mark.parametrize("name", ["plane", "sphere"])
 def test_statics_are_exact_while_the_surface_presses_and_rubs_a_tied_block(name, element):

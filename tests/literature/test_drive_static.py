@@ -112,6 +112,7 @@ def test_the_radius_of_the_force_is_that_of_a_worm_that_gave_way():
     assert gave - rigid == pytest.approx(slid_then - slid, abs=30e-6)
 
 
+@pytest.mark.slow
 def test_teeth_and_what_they_are_reduced_to_rub_at_one_speed():
     problem = problem_of(*ONE_TOOTH, "drive.friction=iso14521")
     found = StaticModel(problem, Run(), 4).friction

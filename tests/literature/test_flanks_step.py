@@ -57,6 +57,7 @@ def screw_volume(worm, length):
     return length * worm.starts * area / worm.reduced_lead
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("flank", ["ZI", slow("ZA"), slow("ZN"), slow("ZK"), slow("ZC")])
 def test_the_worm_has_the_volume_of_a_screw(flank, tmp_path):
     made = pair(flank=flank)

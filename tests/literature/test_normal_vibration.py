@@ -471,6 +471,7 @@ def pin(*settings):
     return Model.from_case(read_case("normal-pin", TABLES, [*fixed, *settings]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("frequency", "amplitude", "period", "ratio", "multiplier"),
     [(4.3, 0.2571429, 2, 0.52595, 0.974), (2.0, 1.0428571, 4, 0.27921, 0.965)],
@@ -528,6 +529,7 @@ def test_friction_that_gives_energy_is_an_error_and_no_march_is_told_instead(mon
     assert any("friction gave 1e-06 W: with" in note for note in solve(kept).notes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("amplitude", "open_"), [(50, False), (100, True)])
 def test_springs_at_resonance_slide_fast_without_losing_friction(amplitude, open_):
     answer = solve(

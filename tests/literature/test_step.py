@@ -289,6 +289,7 @@ def test_a_body_that_slides_steadily_owes_nothing_to_its_step():
     assert solve(model, history=False).step_error == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_square_wave_up_that_is_ahead_keeps_its_corners_and_tells_its_error():
     """Its rise was put on the steps as if it began at phase 0: up to half a step off, untold."""
     settings = (

@@ -173,6 +173,7 @@ def _is_made(starts, teeth, factor, angle, shift, hob, size):
     return True
 
 
+@pytest.mark.slow
 @pytest.mark.campaign(tried_by="test_nearly_all_of_a_sample_of_gearsets_have_valid_meshes")
 @pytest.mark.parametrize("every", [61, slow(17)])
 def test_nearly_all_of_a_sample_of_gearsets_have_valid_meshes(every):

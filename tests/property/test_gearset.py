@@ -22,6 +22,7 @@ shifts = st.floats(-1.0, 1.0)
 rules = st.sampled_from(["bs721", "iso"])
 
 
+@pytest.mark.slow
 @hypothesis.given(m=modules, q=factors, z2=teeth, x2=shifts)
 def test_centre_distance_and_profile_shift_give_each_other_back(m, q, z2, x2):
     a = relations.centre_distance(m, q, z2, x2)

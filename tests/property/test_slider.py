@@ -179,6 +179,7 @@ def periodic(k, direction, law, free, case, turn=0.0):
     return solve(Model(slider, friction, vibration, Solve(method="periodic")), history=False)
 
 
+@pytest.mark.slow
 @given(periodic_bodies)
 @settings(max_examples=50)
 def test_the_periodic_state_is_the_same_for_opposite_directions(entries):
@@ -186,6 +187,7 @@ def test_the_periodic_state_is_the_same_for_opposite_directions(entries):
     assert there.ratio == pytest.approx(here.ratio, abs=1e-9)
 
 
+@pytest.mark.slow
 @given(periodic_bodies)
 @settings(max_examples=50)
 def test_the_periodic_state_is_the_same_for_mirrored_directions(entries):

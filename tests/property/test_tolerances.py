@@ -63,6 +63,7 @@ def assembled(thread, tooth, off, oversize=1.05):
     return 0.5e3 * g.wheel_mean_diameter * turn / pair.ratio + tooth
 
 
+@pytest.mark.slow
 def test_centre_distance_moves_the_exact_backlash_smoothly():
     # Between its ends a polynomial through nine distances is as good as the flanks themselves.
     plays = plays_of(1.05)

@@ -90,6 +90,7 @@ def test_a_block_pulled_at_half_its_height_leans_on_its_leading_edge():
     assert centre_of_pressure(block, state.contact.pressure)[0] == pytest.approx(lean, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("static", [0.1, 0.15])
 @pytest.mark.parametrize("shaken", [0.0, 0.2])
 def test_a_block_under_lugre_breaks_away_when_the_sliding_body_does(static, shaken):

@@ -115,6 +115,7 @@ def test_a_stroke_shaken_at_its_seats_needs_there_what_a_drive_that_is_shaken_do
     assert plain.step_error < 2e-3
 
 
+@pytest.mark.slow
 def test_without_vibration_the_motor_s_work_is_that_of_the_loads():
     found = stroke("control.failures=dead")
     dead = list(found.names).index("dead")
@@ -127,6 +128,7 @@ def test_without_vibration_the_motor_s_work_is_that_of_the_loads():
     assert found.shares_on[dead] == 0.0
 
 
+@pytest.mark.slow
 def test_a_stroke_interrupted_goes_on_with_those_that_are_done(tmp_path, monkeypatch):
     asked = study.prepare(case(*SHORT, "drive.stroke=12 deg", "control.failures=dead"))
     marched, march = [], study.march_stroke

@@ -33,6 +33,7 @@ class Pressed(Run):
         super().checkpoint(done, *args, **kwargs)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", STUDIES)
 def test_a_study_interrupted_anywhere_goes_on_from_the_marches_that_are_done(
     tmp_path, monkeypatch, name

@@ -152,6 +152,7 @@ def test_a_fast_screw_has_the_mean_of_its_kinetic_friction_and_all_of_the_viscou
     assert viscous.torque == pytest.approx(torque, rel=0.005)
 
 
+@pytest.mark.slow
 def test_it_holds_by_its_static_friction_and_creeps_at_any_amplitude():
     settings = (
         SHORT,

@@ -71,6 +71,7 @@ def test_the_answer_is_the_largest_of_its_courses_and_its_fillet(found):
     assert found.nominal_safety == pytest.approx(0.943, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_twice_the_torque_bends_a_tooth_about_twice_as_much(found):
     case = read_case(
         "drive-screw", case_tables(), ("drive.phases=2", "operation.output_torque=183 N m")

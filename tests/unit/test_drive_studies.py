@@ -117,6 +117,7 @@ def test_a_stroke_that_is_all_seats_is_refused():
         case("drive.stroke=60 deg", "drive.stroke_seat=30 deg")
 
 
+@pytest.mark.slow
 def test_a_stroke_s_files_have_the_last_cycles_and_the_stroke(tmp_path):
     run = Run(folder=tmp_path)
     found = answer(prepare(case(*ON_DEMAND, *ACTUATOR)), run)

@@ -349,6 +349,7 @@ def test_by_the_standard_s_friction_teeth_are_loaded_as_without_vibration():
     assert march.rows["worm_torque"][0] / march.rows["time"][0] == pytest.approx(-wanted, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [("vibration.mode=screw",), ("vibration.mode=torsional",)])
 def test_by_the_standard_s_friction_they_go_with_the_speed_as_those_reduced(way):
     model = model_of(

@@ -126,6 +126,7 @@ def wrong_ends(seed):
     return wrong
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 7, 46, 80])
 def test_ends_that_were_wrong_are_those_of_the_exact_profile(seed):
     # With a damping that says nothing on the way, and a saddle: what is carried along stops there.

@@ -159,6 +159,7 @@ def test_sizes_that_leave_no_room_are_refused_in_a_line(wheel, sizes, line):
         both()
 
 
+@pytest.mark.slow
 def test_a_part_that_does_not_close_costs_no_other_and_a_remedy_is_told(
     wheel, tmp_path, monkeypatch
 ):
@@ -315,6 +316,7 @@ def test_worm_and_wheel_are_drawn(wheel, tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 def test_a_mesh_is_drawn(wheel, tmp_path):
     _, share = drawn(views.mesh_view(tmp_path / "plain.png", tooth(wheel, "coarse")))
     assert 0.1 < share < 0.9

@@ -83,6 +83,7 @@ def distances(hand, side, n, worm_sign=1.0, wheel_sign=1.0):
     return worm.query(on_worm)[0].max(), teeth[side].query(on_wheel)[0].max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_contact_lines_lie_on_worm_and_wheel_turned_by_their_ratio(hand):
     header, *_ = surfaces(hand)
@@ -165,6 +166,7 @@ def test_teeth_that_bear_come_to_the_contact_ratio():
     assert flank.transmission.teeth().min() >= 1
 
 
+@pytest.mark.slow
 def test_without_a_load_there_is_neither_line_load_nor_sliding():
     gearset = read_case("gearset-3", case_tables(), ()).require(Gearset)
     header, arrays = opened(

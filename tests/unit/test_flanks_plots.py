@@ -89,6 +89,7 @@ def test_ease_off_that_is_rounding_is_said_to_be_zero():
         assert not panel.collections
 
 
+@pytest.mark.slow
 def test_contact_lines_are_drawn_where_the_worm_is_nearest_and_nowhere_else():
     phase = np.broadcast_to((RADIUS - 65.0) * 0.9, FACE.shape)
     figure = plots.contact_lines(dataset(phase=phase, reach=3.0 - FACE))

@@ -48,6 +48,7 @@ def cycle_mean_force(model, begin, end):
     return 0.5 * (edge[cycle:] + edge[:-cycle]), (total[cycle:] - total[:-cycle]) / cycle
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "speed", "allowed"),
     [
@@ -238,6 +239,7 @@ def assert_same_cycle(answer, periodic, rel):
 
 
 # The slow motion of a strongly damped drive ends after some h_d/k_d.
+@pytest.mark.slow
 @pytest.mark.parametrize(("damping", "duration"), [(0.0, 1), (1e2, 1), (1e4, 3), slow(1e6, 120)])
 @pytest.mark.parametrize("case", CASES)
 def test_with_a_damped_drive_it_ends_in_the_periodic_state(case, damping, duration):
@@ -318,6 +320,7 @@ def test_a_guided_body_shaken_askew_feels_a_mean_force_across(case, direction, l
     assert across == pytest.approx(periodic.friction_mean[1], rel=1e-3)
 
 
+@pytest.mark.slow
 def test_backwards_the_forces_are_those_of_a_vibration_turned_by_half_a_turn(tmp_path):
     turn = np.linspace(0.0, 2.0 * math.pi, 61)
     wave = np.sin(turn) + 0.4 * np.sin(2.0 * turn + 1.0)
@@ -483,6 +486,7 @@ def test_the_slope_of_the_law_is_its_derivative(settings):
         assert slope == pytest.approx((ends[1] - ends[0]) / (2.0 * step), rel=1e-3, abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "settings"),
     [

@@ -468,6 +468,7 @@ def test_ctrl_c_keeps_a_march_and_the_same_call_goes_on_from_there(tmp_path, mon
     assert np.array_equal(again.history.friction, whole.history.friction)
 
 
+@pytest.mark.slow
 def test_a_march_left_in_its_finer_step_goes_on_from_there(tmp_path, monkeypatch):
     monkeypatch.setattr("asperity.slider.march._STRETCH", 20_000)
     monkeypatch.setattr("asperity.slider.step_error.WANTED", 1e-4)

@@ -290,6 +290,7 @@ def behind(row, ndim=1):
     return [0, 1, (2, -1), 3, (4, 8), (5, -1), *range(6, 5 + 2 * ndim)]
 
 
+@pytest.mark.slow
 def test_a_part_of_an_argument_that_comes_back_is_over_its_memory():
     spec = array()
     row = signature("part", [spec], spec)
@@ -333,6 +334,7 @@ def test_memory_that_is_nobodys_is_copied():
     assert back.tolist() == [1.0, 2.0, 3.0]
 
 
+@pytest.mark.slow
 def test_memory_that_a_kernel_allocated_goes_with_the_last_array_over_it():
     allocated = (ctypes.c_double * 3)(1.0, 2.0, 3.0)
     spec = array()

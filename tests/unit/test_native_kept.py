@@ -224,6 +224,7 @@ def test_sources_that_changed_while_it_was_made_leave_nothing(entry, tmp_path, m
     assert keys.stands(entry.module)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "arguments"),
     [("friction_limit", [["d"]]), ("gone", [["d"], ["d"]]), ("friction_limit", [["d"], ["0"]])],

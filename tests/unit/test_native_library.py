@@ -149,6 +149,7 @@ def test_a_symbol_follows_from_the_entry_and_not_from_its_place(entry):
     assert link.symbol(entry) == link.symbol(moved) != link.symbol(other)
 
 
+@pytest.mark.slow
 @needs_compiler
 def test_what_cannot_be_made_is_named_and_the_rest_linked(entry, tmp_path, monkeypatch):
     other = next(one for one in listed().entries if one.name != entry.name)

@@ -78,6 +78,7 @@ with tempfile.TemporaryDirectory() as folder:
 """
 
 
+@pytest.mark.slow
 def test_an_entry_is_compiled_linked_and_called():
     done = subprocess.run(
         [sys.executable, "-c", PROGRAM],

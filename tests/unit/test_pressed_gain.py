@@ -32,6 +32,7 @@ def test_asperities_that_keep_their_deflection_give_energy_and_a_note_says_so(me
     assert gains(kept) == []
 
 
+@pytest.mark.slow
 def test_a_march_of_means_tells_what_friction_gave_in_its_window():
     settings = "friction.keeps=deflection", "solve.method=homogenised", "solve.duration=0.05 s"
     answer = solve(body(*settings), history=False)

@@ -134,6 +134,7 @@ def test_closed_forms_take_angles_with_their_unit():
     assert "k is '2'" in refusal(directed_ratio, "2", 0.0)
 
 
+@pytest.mark.slow
 def test_what_was_written_is_read(tmp_path):
     path = asperity.rate(GEARSET, OPERATION).save(tmp_path / "rate.nc")
     assert asperity.read(path).to_json()["bs721"]["M_w_Nm"] > 0.0

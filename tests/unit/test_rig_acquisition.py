@@ -296,6 +296,7 @@ class Delayed:
         return Poll(tuple(out), poll.clock, poll.overrange)
 
 
+@pytest.mark.slow
 def test_a_run_whose_samples_come_late_records_what_happened_where_it_did(tmp_path):
     case = rigs.small_case()
     bench, _ = rigs.made_bench(case)

@@ -333,6 +333,7 @@ def test_where_all_is_read_back_at_a_start_nothing_is_said_or_written(made, tmp_
     assert (one.said, written(tmp_path)) == ([], [])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", ["signal", "stop", "the button", "killed"])
 def test_a_start_that_tries_on_ends_at_once_when_it_is_to(made, tmp_path, monkeypatch, way):
     monkeypatch.setattr(guardians, "_ATTEMPTS", 0)

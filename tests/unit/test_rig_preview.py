@@ -41,6 +41,7 @@ def test_points_are_means_of_half_a_second_by_the_rigs_clock(shown):
     assert (found["state"], found["step"], found["next"]) == ("runs", "Cell 1", "Cell 2")
 
 
+@pytest.mark.slow
 def test_it_stays_small_however_long_a_run_is_and_is_written_four_times_a_second(shown):
     preview, clock, folder = shown
     writes = []

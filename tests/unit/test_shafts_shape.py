@@ -290,6 +290,8 @@ def test_a_bearing_that_cannot_sit_where_it_stands_is_told(setting, said):
     assert [one.end for one in found.found["worm_shaft"].model.misseated] == [said.split()[2]]
     rated = study.beside_rating(case)(rate_case(case), Run())
     assert said in rated.notes
+    lives = {row.name[-1]: row.value for row in rated.rows if row.name.startswith("worm bearing")}
+    assert {end for end, life in lives.items() if life == 0.0} == {said.split()[2]}
     said = " ".join(rated.brief().split())
     assert "cannot sit there" in said
     # What cannot be mounted lives for no time, and does not hold.

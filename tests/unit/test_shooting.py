@@ -8,6 +8,7 @@ from asperity.casefile import read_case
 from asperity.errors import ConvergenceError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, shooting, solve
+from asperity.slider.cycle_map import Cycle
 from asperity.slider.periodic import cycle_steps, solve_periodic
 from asperity.slider.scaled import SPRINGS
 from asperity.slider.shooting import ACCEPTED
@@ -174,6 +175,27 @@ def test_an_unstable_state_is_told():
     answer = solve(falling(stribeck_velocity=5e-3, static_mu=0.15), history=False)
     assert any("unstable" in note for note in answer.notes)
     assert solved("table-4.4").notes == ()
+
+
+@pytest.mark.parametrize(
+    ("over_64", "over_256", "grows"),
+    [
+        (1.002, 1.008, True),
+        # A corner of the map or rounding, which adds once however long it is looked at.
+        (1.002, 1.003, False),
+        (1.0005, 1.5, False),
+    ],
+)
+def test_what_hardly_grows_is_told_by_longer_times_in_which_it_does(over_64, over_256, grows):
+    told, cycles = iter((over_64, over_256)), []
+    longer = SimpleNamespace(
+        repeat=cycles.append, find=lambda settle: True, _by_differences=lambda: next(told)
+    )
+    cycle = SimpleNamespace(copied=lambda: longer)
+    assert Cycle.grows_slowly(cycle, 1.0001) is grows
+    assert cycles == [64, 4]
+    assert not Cycle.grows_slowly(cycle, 1.00001)
+    assert not Cycle.grows_slowly(cycle, 1.01)
 
 
 def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_state_that_stays():

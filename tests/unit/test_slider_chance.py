@@ -3,11 +3,14 @@
 A ball that a shaken table throws has such motions: P. J. Holmes, J. Sound Vib. 84 (1982) 173.
 """
 
+import sys
+
+import numpy as np
 import pytest
 
 from asperity.casefile import read_case
 from asperity.results.settled import Standing
-from asperity.slider import TABLES, Model
+from asperity.slider import TABLES, Model, batch, solve, solve_many
 from asperity.slider.chance import judged, scatter
 from asperity.slider.march import March
 
@@ -27,23 +30,57 @@ def at_the_end(duration, *settings):
     return march
 
 
-def test_windows_of_a_body_that_bounces_without_end_differ():
+def told_of(march, ratio):
+    sums = march.sums.copy()
+    sums["drive_force"] = ratio * sums["steps"]
+    return judged(Standing(True, "halves"), march._body, march.table, sums)
+
+
+def test_a_body_that_lands_in_five_cycles_is_told_by_their_mean():
     march = at_the_end("0.4 s", *BOUNCES)
-    ratio = float(march.sums["drive_force"] / march.sums["steps"])
-    off = scatter(march._body, march.table, ratio)
-    assert 2e-3 < off < 0.1
-    standing, notes = judged(Standing(True, "halves"), march._body, march.table, march.sums)
+    kept = march.state.copy()
+    mean = 5.0 - scatter(march._body, march.table, 5.0)[0]
+    assert march.state == kept
+    # That of any window of whole fives, which is none of the march's.
+    means = []
+    for _ in range(200):
+        march._body.clear()
+        march.to(march.done + round(1.0 / (1881.0 * march.table.step)), 4096)
+        means.append(float(march.sums["drive_force"] / march.sums["steps"]))
+    assert np.ptp(means) > 1.0
+    assert np.mean(means) == pytest.approx(mean, abs=1e-3)
+    march = at_the_end("0.4 s", *BOUNCES)
+    assert told_of(march, mean) == (Standing(True, "halves"), ())
+    standing, (note,) = told_of(march, mean + 1e-3)
+    assert standing.settled
+    assert "repeats itself after 5 cycles" in note
+    standing, notes = told_of(march, mean + 3e-3)
     assert not standing.settled
-    assert "do not repeat themselves" in standing.settled_by
+    assert "repeats itself after 5 cycles" in standing.settled_by
     assert not notes
     # What has not settled by its halves stays as it is.
     lacks = Standing(False, "halves")
     assert judged(lacks, march._body, march.table, march.sums) == (lacks, ())
 
 
-@pytest.mark.parametrize("k", [10.0, 20.0])
-def test_those_of_a_body_that_repeats_itself_do_not(k):
-    march = at_the_end("0.4 s", f"vibration.velocity_ratio={k}", "vibration.elevation=90 deg")
-    kept = march.state.copy()
-    assert scatter(march._body, march.table, 5.0) == 0.0
-    assert march.state == kept
+def test_windows_of_a_body_that_never_repeats_itself_differ():
+    march = at_the_end("0.4 s", "vibration.velocity_ratio=30", "vibration.elevation=90 deg")
+    far, why = scatter(march._body, march.table, 5.0)
+    assert why == "its cycles do not repeat themselves"
+    off, _ = scatter(march._body, march.table, 5.0 - far)
+    assert 2e-3 < off < 0.05
+
+
+def test_a_lane_and_a_march_ask_whether_it_was_by_chance(monkeypatch):
+    settings = "slider.drive_stiffness=20 MN/m", "solve.duration=0.6 s"
+    models = [
+        Model.from_case(
+            read_case("table-4.3", TABLES, (*settings, f"vibration.velocity_ratio={k}"))
+        )
+        for k in (3, 6)
+    ]
+    for room in (sys.modules[March.__module__], batch):
+        monkeypatch.setattr(room, "judged", lambda *given: (Standing(True, "luck"), ("a note",)))
+    for answer in (*solve_many(models), solve(models[0], history=False)):
+        assert answer.settled_by == "luck"
+        assert "a note" in answer.notes

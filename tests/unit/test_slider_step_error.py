@@ -194,3 +194,43 @@ def test_what_other_steps_miss_as_well_where_the_load_jumps_is_told(settings):
     # Half the step shows next to nothing of it.
     assert abs(others[2] - here) < 0.1 * true
     assert told == pytest.approx(true, rel=0.1)
+
+
+def test_at_corners_a_limit_that_falls_with_speed_is_let_down_to_as_the_march_does():
+    """What is above its limit stays so in proportion: told is the error on any steps, 1 to 10 %."""
+    _, cycle = at_its_state(
+        "slider.drive_velocity=1.48 mm/s", "slider.normal_force=9.2 N", "slider.mass=0.139 g",
+        "slider.drive_stiffness=2.01 MN/m", "slider.drive_damping=5.61 N s/m",
+        "friction.model=lugre", "friction.mu=0.39", "friction.static_mu=0.419",
+        "friction.max_deflection=0.169 um", "friction.law=unsplit",
+        "friction.stribeck_velocity=6.24 mm/s", "friction.contact_damping=14.6 N s/m",
+        "normal.law=rough", "normal.control=displacement", "normal.stiffness=936 MN/m",
+        "normal.damping_ratio=0.065", "vibration.waveform=triangle",
+        "vibration.frequency=28.7 kHz", "vibration.velocity_ratio=0.172",
+        "vibration.direction=90 deg", "vibration.elevation=133.8 deg", name="normal-pin",
+    )  # fmt: skip
+    steps, ratios, told = cycle.increments.size - 1, [], []
+    for times in (1, 4, 12):
+        other = Cycle(cycle.body.model, times * steps, cycle.step / times)
+        assert settle(other)[0]
+        ratios.append(ratio_of(other))
+        told.append(step_error.error_of_state(other, cycle.body.model).error)
+    # Of order one on the finer ones.
+    limit = 1.5 * ratios[2] - 0.5 * ratios[1]
+    true = [abs(ratio - limit) for ratio in ratios[:2]]
+    assert true[1] < 0.5 * true[0]
+    assert told[:2] == pytest.approx(true, rel=0.1)
+
+
+def test_a_march_tells_what_other_steps_miss_where_the_load_jumps_as_its_state_does():
+    settings = (
+        "vibration.waveform=triangle", "vibration.velocity_ratio=2", "vibration.elevation=75 deg",
+        "normal.control=displacement", "normal.damping_ratio=1e-3", "slider.drive_stiffness=1 MN/m",
+    )  # fmt: skip
+    model, cycle = at_its_state(*settings, name="normal-pin")
+    case = read_case("normal-pin", TABLES, [*settings, "solve.duration=0.3 s"])
+    marched = solve(Model.from_case(case), history=False)
+    told = step_error.error_of_state(cycle, model).error
+    assert marched.settled
+    assert told > 1e-5
+    assert marched.step_error == pytest.approx(told, rel=0.05)

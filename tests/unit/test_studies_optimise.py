@@ -214,6 +214,7 @@ def test_starts_must_be_a_power_of_two():
             optimise(*gearset(), starts=starts)
 
 
+@pytest.mark.slow
 def test_a_wheel_narrower_than_the_worm_reaches_does_not_hide_the_best_designs():
     subject = gearset("gearset-2", "gearset.wheel_face_width=10 mm")
     found = samples("gearset-2", "gearset.wheel_face_width=10 mm")

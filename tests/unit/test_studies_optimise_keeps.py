@@ -117,6 +117,7 @@ def test_what_is_to_be_kept_does_not_fall():
     assert kept.after.iso14521["S_W"] >= kept.before.iso14521["S_W"] * (1 - 2e-6)
 
 
+@pytest.mark.slow
 def test_a_smoother_worm_that_no_longer_locks_itself_is_told_and_not_taken_where_it_is_to(tmp_path):
     (tmp_path / "own.toml").write_text(ACTUATOR)
     case = read_case(tmp_path / "own.toml", case_tables(), ["gearset.worm_roughness=1.6 um"])
@@ -170,6 +171,7 @@ def test_an_efficiency_that_falls_by_another_standard_is_named():
     assert not any("AGMA" in said and "efficiency" in said for said in falls(after, before))
 
 
+@pytest.mark.slow
 def test_neither_the_best_design_nor_the_one_to_be_made_has_pointed_threads():
     # Looking at safeties alone, q 9.6 was to be made, whose hob has no land at its tip.
     best = found(read_case("gearset-3b", case_tables()))

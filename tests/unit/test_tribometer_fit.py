@@ -88,6 +88,7 @@ def test_intervals_are_as_wide_as_the_information_allows(tmp_path):
     assert second.relative_deviations[LIMIT] < first.relative_deviations[LIMIT] < 0.07
 
 
+@pytest.mark.slow
 def test_the_coefficient_of_friction_is_not_in_ratios_of_a_rigid_drive(tmp_path):
     text = "[slider]\ndrive_velocity='0.5 mm/s'\nnormal_force='55 N'\n[friction]\nmu=0.1\n"
     text += "max_deflection='68.75 nm'\n[vibration]\nfrequency='4 kHz'\nvelocity_ratio=6.0\n"

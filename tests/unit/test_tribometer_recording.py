@@ -323,6 +323,7 @@ def check_killed(path, block, reported):
     path.unlink()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_recording_that_is_killed_lacks_its_last_block_at_most(tmp_path):

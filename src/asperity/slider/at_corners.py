@@ -52,15 +52,18 @@ def ratio_let_down(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> fl
     read_unknowns(state[0], there.springs, p, q, before)
     nodes = np.empty(0, body.node_type)
     last, above = 0, 1.0
-    for end in sorted({*ends, *(each - 1 for each in ends if each > 1), rises.size - 1}):
+    # Only what falls with the speed is ever above its limit.
+    looked = [each - 1 for each in ends if each > 1] if p.model == LUGRE else []
+    for end in sorted({*ends, *looked, rises.size - 1}):
         march_pressed(
             state[0], there.springs, body.sums, p, q, there.increments[last : end + 1],
             rises[last : end + 1], end - last, nodes,
         )  # fmt: skip
         if end in ends:
             _let_down(there, q, end, above)
-        limit = float(friction_limit(state[0]["load"], q.load_power))
-        above = math.hypot(*state[0][["deflection_x", "deflection_y"]]) / max(limit, TINY)
+        if end in looked:
+            limit = float(friction_limit(state[0]["load"], q.load_power))
+            above = math.hypot(*state[0][["deflection_x", "deflection_y"]]) / max(limit, TINY)
         last = end
     read_unknowns(state[0], there.springs, p, q, after)
     ratio = float(body.sums["drive_force"] / body.sums["steps"])

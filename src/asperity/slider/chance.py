@@ -1,9 +1,8 @@
-"""Marches whose halves agree by chance: of a motion that never repeats itself, means scatter.
+"""Marches whose halves agree by chance, of motions that repeat themselves late or never.
 
-A body that is thrown and lands, or whose friction falls with the speed, may move so for ever, and
-the halves of its window then agree now and then. Where its cycles at the end do not repeat
-themselves it is marched for another window, which says how far the mean of one may be from that of
-all of them.
+A body that is thrown and lands, or whose friction falls with the speed, may repeat itself after
+five cycles, of which a window has no whole number, or never; the halves of the window then agree
+now and then. How its cycles go on at the end says how far its mean may be from that of all.
 """
 
 import math
@@ -12,7 +11,7 @@ import numpy as np
 
 from asperity.results.settled import Standing
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.from_rest import ratio_of, repeats_after
+from asperity.slider.from_rest import alike_after, ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.step_error import at_the_end, run_once
 from asperity.slider.timetable import FAR, Timetable
@@ -36,8 +35,8 @@ def may_wander(body: Integrator, sums: np.void) -> bool:
     return lands or (falls and model.slider.drive_stiffness is not None)
 
 
-def scatter(body: Integrator, table: Timetable, ratio: float) -> float:
-    """Return how far the mean of a window may be from that of many, over mu F_N; 0 of what repeats.
+def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, str]:
+    """Return how far the mean of a window may be from that of all cycles, over mu F_N, and why.
 
     Parameters
     ----------
@@ -50,13 +49,19 @@ def scatter(body: Integrator, table: Timetable, ratio: float) -> float:
     """
     there = at_the_end(body, table)
     means = _marched(there, _LOOKED_AT)
-    if repeats_after(np.array(means)) is not None:
-        return 0.0
+    for period in range(1, _LOOKED_AT // 3 + 1):
+        if alike_after(np.array(means), period):
+            mean = float(np.mean(means[-period:]))
+            after = "a cycle" if period == 1 else f"{period} cycles"
+            return abs(mean - ratio), (
+                f"the motion repeats itself after {after}, whose mean ratio is {mean:.5g}"
+            )
     cycles = max(table.cycles // _BLOCKS, _LEAST)
     means += _marched(there, _BLOCKS * cycles - len(means))
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
-    return max(uncertain, abs(float(np.mean(blocks)) - ratio))
+    off = max(uncertain, abs(float(np.mean(blocks)) - ratio))
+    return off, "its cycles do not repeat themselves"
 
 
 def _marched(cycle: Cycle, cycles: int) -> list[float]:
@@ -73,12 +78,8 @@ def judged(
     """Return whether what has settled by the halves of its window has not by chance, with notes."""
     if not standing.settled or not may_wander(body, sums):
         return standing, ()
-    off = scatter(body, table, float(sums["drive_force"] / sums["steps"]))
+    off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]))
     if off <= _NOTHING:
         return standing, ()
-    wanders = "its cycles do not repeat themselves"
-    if off > FAR:
-        return Standing(
-            False, f"{wanders}, and windows of them differ by about {off:.2g} of mu F_N"
-        ), ()
-    return standing, (f"{wanders}: the mean of a window is certain to {off:.2g} of mu F_N",)
+    said = f"{why}: the mean of the window is about {off:.2g} of mu F_N from that of all cycles"
+    return (Standing(False, said), ()) if off > FAR else (standing, (said,))

@@ -165,18 +165,15 @@ def _loading(model: Model) -> float:
     return _TAKEN_UP * way / slider.drive_velocity * cycles
 
 
-def repeats_after(last: FloatArray) -> int | None:
-    """Return after how many cycles the means of a march's last ones are alike; None of none."""
-    for period in _PERIODS:
-        if np.abs(last[period:] - last[:-period]).max() <= _ALIKE:
-            return period
-    return None
+def alike_after(last: FloatArray, period: int) -> bool:
+    """Whether the means of a march's last cycles come again after so many."""
+    return bool(np.abs(last[period:] - last[:-period]).max() <= _ALIKE)
 
 
 def _repeating(body: Cycle, last: FloatArray) -> Cycle | None:
     """Return the state next to where a march is, over as many cycles as its last ones repeat."""
     for period in _PERIODS:
-        if period > 1 and np.abs(last[period:] - last[:-period]).max() > _ALIKE:
+        if period > 1 and not alike_after(last, period):
             continue
         found = body.copied()
         found.repeat(period)

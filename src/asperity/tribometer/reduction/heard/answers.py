@@ -22,7 +22,7 @@ from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.heard.finding import Course
 from asperity.tribometer.reduction.heard.material import Material
 
-_PART = 1.0  # s over which means are taken, which hang together little
+_PARTS = 1.0, 0.5  # s over which means are taken: that hang together little, else of short windows
 _LEAST_FREE = 6  # degrees of freedom, below which a scatter tells nothing
 _CHANCE = 1e-5  # that a sound file's scatter lets one cell be told
 _LEAST = 1e-12  # of a change: none
@@ -82,22 +82,12 @@ def answers(of: Material, torque: str, signal: str, names: tuple[str, str]) -> A
 
     A signal of the other sign is turned round: that is told as such.
     """
-    count = of.blocks.at_least(_PART)
-    cells: list[list[Pair]] = []
-    places = []
-    for place, *both in of.windows:
-        lost = any(
-            of.blocks.lost[name][one.first : one.last].any()
-            for name in (torque, signal) for one in both
-        )  # fmt: skip
-        if not lost and min(one.count for one in both) >= count:
-            cells.append([
-                (_means(of.blocks.means[torque], one, count),
-                 _means(of.blocks.means[signal], one, count))
-                for one in both
-            ])  # fmt: skip
-            places.append(place)
-    if not cells:
+    for part in _PARTS:
+        cells, places = _cells(of, torque, signal, of.blocks.at_least(part))
+        free = [sum(both[state][0].size - 1 for both in cells) for state in (0, 1)]
+        if sum(free) >= _LEAST_FREE and min(free) > 0:
+            break
+    else:
         return None
     levels = np.array([[[one.mean() for one in pair] for pair in both] for both in cells])
     x, y = (levels[:, 1, n] - levels[:, 0, n] for n in (0, 1))
@@ -105,9 +95,6 @@ def answers(of: Material, torque: str, signal: str, names: tuple[str, str]) -> A
         return None
     slope = float(x @ y) / max(float(x @ x), _LEAST)
     left = _left(cells)
-    free = [sum(both[state].size - 1 for both in left) for state in (0, 1)]
-    if min(free) < 1 or sum(free) < _LEAST_FREE:
-        return None
     variances = [
         sum(float(np.sum((both[state] - both[state].mean()) ** 2)) for both in left) / free[state]
         for state in (0, 1)
@@ -126,6 +113,26 @@ def answers(of: Material, torque: str, signal: str, names: tuple[str, str]) -> A
     flips = np.where(x < 0.0, -1.0, 1.0)
     turned = flips * (-1.0 if slope < 0.0 else 1.0)
     return Answers(flips * x, turned * y, unsure, tuple(places), names)
+
+
+def _cells(
+    of: Material, torque: str, signal: str, count: int
+) -> tuple[list[list[Pair]], list[int]]:
+    """Return of each segment the means over so many blocks, before and with; and their places."""
+    cells, places = [], []
+    for place, *both in of.windows:
+        lost = any(
+            of.blocks.lost[name][one.first : one.last].any()
+            for name in (torque, signal) for one in both
+        )  # fmt: skip
+        if not lost and min(one.count for one in both) >= count:
+            cells.append([
+                (_means(of.blocks.means[torque], one, count),
+                 _means(of.blocks.means[signal], one, count))
+                for one in both
+            ])  # fmt: skip
+            places.append(place)
+    return cells, places
 
 
 def _left(cells: Sequence[Sequence[Pair]]) -> list[Pair]:

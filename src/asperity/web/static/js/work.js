@@ -225,6 +225,14 @@ export const WorkPanel = ({ title, name, says, label, work, children }) => html`
       <${Files} job=${work.job} /></div>
   </section>`;
 
+/** A part of the screen that is loaded once what stands above it does. */
+export function Later({ load, part, ...given }) {
+  const { found } = useAsked(part, load);
+  return found ? html`<${found[part]} ...${given} />` : null;
+}
+/** What else may be asked, of several screens. */
+export const further = () => import("./further.js");
+
 /** Several errors or none, as a screen tells one. */
 export const firstError = (...works) => works.map(({ error }) => error).find(Boolean) ?? null;
 

@@ -1,6 +1,6 @@
 /** A worm gearset under load and shaken: what the motor is spared, and what that costs. */
 import { html, useMemo } from "../../vendor/preact.js";
-import { useAsked, useLive } from "../api.js";
+import { useLive } from "../api.js";
 import { Sided, Verdict } from "../bars.js";
 import { Amplitude, Folded, Form, Slider, useValue } from "../form.js";
 import { Gears } from "../gears.js";
@@ -13,7 +13,7 @@ import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
 import { digits, inUnit } from "../units.js";
 import { amount } from "../us.js";
-import { firstError, rows, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { firstError, further, Later, rows, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -73,13 +73,7 @@ function Worth({ answer, found }) {
     <${Facts} found=${found} keys=${WORTH} />`;
 }
 
-/** A part of the screen that is loaded once what stands above it does. */
-function Later({ load, part, ...given }) {
-  const { found } = useAsked(part, load);
-  return found ? html`<${found[part]} ...${given} />` : null;
-}
 const below = () => import("../below.js");
-const further = () => import("../further.js");
 
 export function view() {
   const { name, settings } = useCase();
@@ -131,7 +125,8 @@ export function view() {
           says="A minute or several: it is marched at several amplitudes.">
         ${held.data ? html`<${Later} load=${below} part="Locking" answer=${held.data.answer} found=${holding}
           data=${creep} />` : null}<//>
-      ${standing ? html`<${Later} load=${further} part="Further" name=${name} settings=${settings} />` : null}
+      ${standing ? html`<${Later} load=${further} part="Further" of="drive" name=${name}
+        settings=${settings} />` : null}
     </section></div>
   <//>`;
 }

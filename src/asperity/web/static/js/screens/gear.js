@@ -13,6 +13,7 @@ import { printed, symbol } from "../symbols.js";
 import { Table } from "../table.js";
 import { digits, inUnit, split } from "../units.js";
 import { amount, written } from "../us.js";
+import { further, Later } from "../work.js";
 
 /** What stands side by side: a meaning, and its key by each standard. */
 const SIDE_BY_SIDE = [
@@ -255,6 +256,7 @@ export function view() {
         ${sway ? html`<${Efficiency} sway=${sway} geometry=${answer.geometry} setAll=${setAll} />` : null}
         <${Locking} locking=${answer.self_locking} />
         <${AllNumbers} entries=${data.entries} />
+        <${Later} load=${further} part="Further" of="gear" name=${name} settings=${settings} />
       </div>` : error ? null : html`<p class="wait shown">One moment.</p>`}
     </div>
   <//>`;

@@ -11,6 +11,7 @@ import { moment, Stage } from "../stage.js";
 import { route, setParam, useCase } from "../state.js";
 import { digits, inUnit } from "../units.js";
 import { readable, written } from "../us.js";
+import { further, Later } from "../work.js";
 
 const START = { "solve.method": "periodic" };
 /** How long nothing must change before a curve is asked, ms. */
@@ -86,7 +87,8 @@ export function view() {
       <section class="shown" aria-label="what comes of it">
         <${Curves} k=${answer.velocity_ratio} ratio=${answer.ratio} failed=${Boolean(point.error)} />
         ${drawn}
-        ${point.data ? html`<${AllNumbers} entries=${point.data.entries} />` : null}
+        ${point.data ? html`<${AllNumbers} entries=${point.data.entries} />
+          <${Later} load=${further} part="Further" of="slide" name=${name} settings=${settings} />` : null}
       </section>
     </div>
   <//>`;
