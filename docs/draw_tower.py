@@ -6,7 +6,7 @@ from pathlib import Path
 import grimp
 import numpy as np
 
-from asperity.results.figures import BLUE, panels
+from asperity.results.figures import BLUE, axes_grid
 
 ROOT = Path(__file__).parents[1]
 
@@ -34,7 +34,7 @@ def draw(target: Path) -> None:
             if all(names) and all(name[0] in place for name in names):
                 row, column = (place[name[0]] for name in names)
                 count[row, column] += row != column
-    figure, (axes,) = panels(width=8.0, height=8.0)
+    figure, (axes,) = axes_grid(width=8.0, height=8.0)
     rows, columns = np.nonzero(count)
     sizes = 14.0 * np.sqrt(count[rows, columns])
     axes.scatter(columns, rows, s=sizes, color=BLUE, zorder=3)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from draw_tower import floors
 
-from asperity.results.figures import BLUE, panels
+from asperity.results.figures import BLUE, axes_grid
 
 DOCS = Path(__file__).parent
 PACKAGE = DOCS.parent / "src" / "asperity"
@@ -47,7 +47,7 @@ def draw(walk: Walk, target: Path) -> None:
     order = [name for floor in floors() for name in floor]
     folders = [parted(step)[0] for step in walk.steps]
     rows = sorted(dict.fromkeys(folders), key=lambda name: order.index(name.partition(".")[0]))
-    figure, (axes,) = panels(width=9.0, height=0.9 + 0.75 * len(rows))
+    figure, (axes,) = axes_grid(width=9.0, height=0.9 + 0.75 * len(rows))
     at = [(number, rows.index(folder)) for number, folder in enumerate(folders, 1)]
     axes.plot(*zip(*at, strict=True), color=BLUE, linewidth=1.2, zorder=2)
     for (x, y), step in zip(at, walk.steps, strict=True):

@@ -10,7 +10,7 @@ from asperity.arrays import FloatArray
 from asperity.casefile import read_case
 from asperity.commands import COMMANDS, case_tables
 from asperity.files.store import write_atomically
-from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, VERMILION, axes_grid, legend
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, solve, solve_many
 from asperity.slider.closed_forms import (
@@ -36,7 +36,7 @@ MARKERS = ("o", "s", "^", "D")
 
 def shaken() -> "Figure":
     """What is left of the drive force of a body on a base that is shaken along or across."""
-    figure, (axes,) = panels(width=7.2, height=3.9)
+    figure, (axes,) = axes_grid(width=7.2, height=3.9)
     fast = np.linspace(0.0, 10.0, 401)
     shown = (
         ("along the sliding", "table-4.3", longitudinal_ratio(np.fmax(fast, 1.0)), BLUE, (3, 4)),
@@ -156,7 +156,7 @@ def plot_master_curve(
     points : mapping of float to two ndarrays
         Velocities and ratios of a model, for each swing.
     """
-    figure, (left, right) = panels(1, 2, width=9.0, height=4.0)
+    figure, (left, right) = axes_grid(1, 2, width=9.0, height=4.0)
     for index, (swing, ratio) in enumerate(curves.items()):
         colour, dashes = COLOURS[index % len(COLOURS)], DASHES[index % len(DASHES)]
         left.plot(velocity, ratio, color=colour, dashes=dashes, label=f"a = {swing:g}")
@@ -189,7 +189,7 @@ def plot_directions(elevation: FloatArray, azimuth: FloatArray, ratio: FloatArra
         rad.
     ratio : ndarray, shape (n, m)
     """
-    figure, (axes,) = panels(width=7.4, height=4.4)
+    figure, (axes,) = axes_grid(width=7.4, height=4.4)
     degrees = np.degrees(azimuth), np.degrees(elevation)
     thrust = bool(ratio.min() < 0.0)
     size = max(float(np.abs(ratio).max()), 1e-12)
@@ -227,7 +227,7 @@ def plot_two_cycles(
     static_load : float
         The load without vibration, N.
     """
-    figure, (upper, lower) = panels(2, height=5.4)
+    figure, (upper, lower) = axes_grid(2, height=5.4)
     scale, unit = (1e3, "ms") if time[-1] - time[0] > 1e-3 else (1e6, "µs")
     at = scale * (time - time[0])
     for axes in (upper, lower):
@@ -265,7 +265,7 @@ def catalogues() -> "Figure":
         [p for p in positions() if p.centre_distance == 63]
         for positions in (gear_cases.catalogue, gear_cases.selection)
     )
-    figure, (torque, efficiency) = panels(1, 2, width=8.4, height=3.9)
+    figure, (torque, efficiency) = axes_grid(1, 2, width=8.4, height=3.9)
     shown = (
         (torque, "torque", one, "a maker", "s"),
         (torque, "torque", other, "another maker", "^"),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, panels
+from asperity.results.figures import BLACK, BLUE, axes_grid
 from asperity.results.panels import Panel, drawn, level, line
 from asperity.slider.plots import unsettled
 
@@ -37,7 +37,9 @@ def plot_pressure(dataset: "xr.Dataset") -> "Figure":
     # The face fills the room beside the bar, whatever its shape, and leaves some for the title.
     aspect = float(np.ptp(x) / np.ptp(y))
     width = min(max(5.0, 2.1 + 4.0 * aspect), 9.0)
-    figure, (axes,) = panels(width=width, height=min(max(2.6, 1.2 + (width - 2.1) / aspect), 5.0))
+    figure, (axes,) = axes_grid(
+        width=width, height=min(max(2.6, 1.2 + (width - 2.1) / aspect), 5.0)
+    )
     triangles = Triangulation(x, y, face_triangles(dataset["faces"].values))
     spread = float(np.ptp(pressure))
     if spread > 1e-6 * float(np.abs(pressure).max()):

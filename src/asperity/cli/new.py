@@ -11,6 +11,7 @@ from asperity.commands import case_tables
 from asperity.errors import InputError, plain
 from asperity.files.store import write_text
 from asperity.rating.parameters import Operation
+from asperity.runs.asking import typed_line
 from asperity.start import bearing, plastic
 from asperity.start.duty import complete, sized
 from asperity.start.gear import MACRO, drop_begun_life, operation_of, proposals, ratio_of
@@ -265,8 +266,6 @@ def _asked_ratio(question: Question) -> str:
 
 
 def _answer(prompt: str) -> str:
-    print(prompt, end="", file=sys.stderr, flush=True)
-    line = sys.stdin.readline()
-    if not line:
+    if (line := typed_line(prompt)) is None:
         raise KeyboardInterrupt("interrupted; nothing is written")
-    return line.strip()
+    return line

@@ -17,8 +17,8 @@ from asperity.results.figures import (
     PURPLE,
     SKY,
     VERMILION,
+    axes_grid,
     draw,
-    panels,
 )
 from asperity.results.panels import BELOW, Mark, Panel, band, drawn, level, line, points, shade
 
@@ -101,7 +101,7 @@ def _last_cycles(dataset: "xr.Dataset") -> Panel:
 
 def plot_powers(dataset: "xr.Dataset") -> "Figure":
     """Draw the power ledger: what is put in to the right of zero, and where it goes."""
-    figure, (axes,) = panels(height=3.4)
+    figure, (axes,) = axes_grid(height=3.4)
     values = [float(dataset[name]) for name, _, _ in _POWERS]
     bars = axes.barh(
         [name for _, name, _ in _POWERS], values, color=[colour for *_, colour in _POWERS],
@@ -122,7 +122,7 @@ def plot_powers(dataset: "xr.Dataset") -> "Figure":
 
 def plot_directions(dataset: "xr.Dataset") -> "Figure":
     """Draw each way of shaking: ratio, what it saves per watt, the greatest force."""
-    figure, panel_rows = panels(2, 2, width=10.0, height=6.0)
+    figure, panel_rows = axes_grid(2, 2, width=10.0, height=6.0)
     modes = [str(mode) for mode in dataset["mode"].values]
     settled = dataset["settled"].values.astype(bool)
     balance = dataset["torque_balance"].values

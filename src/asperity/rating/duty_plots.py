@@ -7,7 +7,7 @@ import numpy as np
 
 from asperity.rating.duty import DutyPart
 from asperity.rating.warming import Warming
-from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, VERMILION, axes_grid, legend
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -28,7 +28,7 @@ def plot_duty(parts: Sequence[DutyPart], limit: float, warming: Warming | None) 
     warming : Warming or None
         Of the housing from cold.
     """
-    figure, axes = panels(1, 2, width=9.0, height=3.6)
+    figure, axes = axes_grid(1, 2, width=9.0, height=3.6)
     ends = np.cumsum([0.0, *(part.hours for part in parts)])
     losses, oil = axes[0], axes[1]
     values = [part.loss for part in parts]

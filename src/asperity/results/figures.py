@@ -35,7 +35,7 @@ DOTS_PER_INCH = 150
 _MOST_COLUMNS = 5
 
 
-def panels(
+def axes_grid(
     rows: int = 1, columns: int = 1, *, width: float = 7.0, height: float = 4.2
 ) -> "tuple[Figure, list[Axes]]":
     """Return a figure of the house's style and its axes, without touching matplotlib's state."""
@@ -92,7 +92,7 @@ def _curves(dataset: "xr.Dataset", curves: Any) -> "Figure":
     groups: dict[tuple[str, str], list[Any]] = {}
     for array in curves.values():
         groups.setdefault((str(array.dims[0]), array.attrs["units"]), []).append(array)
-    figure, axes = panels(len(groups), height=1.0 + 2.6 * len(groups))
+    figure, axes = axes_grid(len(groups), height=1.0 + 2.6 * len(groups))
     for panel, ((dim, unit), arrays) in zip(axes, groups.items(), strict=True):
         along = dataset[dim]
         count = 0
@@ -118,7 +118,7 @@ def _bars(numbers: Any) -> "Figure":
         groups.setdefault(array.attrs["units"], []).append(array)
     count = max(len(groups), 1)
     height = 1.0 + 0.6 * count + 0.3 * len(numbers)
-    figure, axes = panels(count, height=height)
+    figure, axes = axes_grid(count, height=height)
     for panel, (unit, arrays) in zip(axes, groups.items(), strict=False):
         names = [array.attrs["long_name"] for array in arrays]
         panel.barh(names, [float(array) for array in arrays], color=BLUE, height=0.6)

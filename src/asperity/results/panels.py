@@ -9,7 +9,7 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from asperity.results.figures import BLACK, COLOURS, DASHES, legend, panels
+from asperity.results.figures import BLACK, COLOURS, DASHES, axes_grid, legend
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -136,7 +136,7 @@ def drawn(
     shown: Sequence[Panel], *, columns: int = 1, width: float = 7.0, height: float = 4.2
 ) -> "Figure":
     """Draw panels, row by row."""
-    figure, axes = panels(-(-len(shown) // columns), columns, width=width, height=height)
+    figure, axes = axes_grid(-(-len(shown) // columns), columns, width=width, height=height)
     for place, panel in zip(axes, shown, strict=False):
         panel.put(place)
     return figure

@@ -1,6 +1,7 @@
 """A person is asked at a terminal on which something else is shown: that waits meanwhile."""
 
 import contextlib
+import sys
 from collections.abc import Callable, Iterator
 
 Act = Callable[[], None]
@@ -38,3 +39,14 @@ def asking() -> Iterator[None]:
             # A question that was left behind may be answered when all is over.
             if one in _SHOWN:
                 one[1]()
+
+
+def typed_line(prompt: str) -> str | None:
+    """Ask, and return the line that is typed without space at its ends; None where there is none.
+
+    The question goes to standard error, since standard output may be a file of answers.
+    """
+    with asking():
+        print(prompt, end="", file=sys.stderr, flush=True)
+        line = sys.stdin.readline()
+    return line.strip() if line else None

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, DASHES, SKY, VERMILION, panels
+from asperity.results.figures import BLACK, BLUE, DASHES, SKY, VERMILION, axes_grid
 from asperity.results.panels import Mark, Panel, line
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ _HIGH = 0.62  # of the drawing's panel, over its width
 def plot_shafts(dataset: "xr.Dataset") -> "Figure":
     """Draw each shaft in the case that bends it most: loads, moments, deflection."""
     names = [name for name in ("worm", "wheel") if f"{name}_at" in dataset]
-    figure, axes = panels(3, len(names), width=5.8 * len(names) + 0.4, height=11.4)
+    figure, axes = axes_grid(3, len(names), width=5.8 * len(names) + 0.4, height=11.4)
     for column, name in enumerate(names):
         own = axes[column :: len(names)]
         _loads(own[0], dataset, name)

@@ -12,8 +12,8 @@ from asperity.results.figures import (
     ORANGE,
     SKY,
     VERMILION,
+    axes_grid,
     legend,
-    panels,
 )
 from asperity.results.panels import MARKERS, Panel, drawn, line, points
 from asperity.studies.reported import OWN
@@ -42,7 +42,7 @@ _SYMBOLS = {
 
 def plot_sensitivity(dataset: "xr.Dataset") -> "Figure":
     """Draw the efficiency over the rise of each input; a cross is where answers end."""
-    figure, (axes,) = panels(height=4.8)
+    figure, (axes,) = axes_grid(height=4.8)
     ends = []
     rises = dataset["rise"].values
     for place, name in enumerate(dataset["input"].values):
@@ -80,7 +80,7 @@ def plot_comparison(dataset: "xr.Dataset") -> "Figure":
     counted = 100.0 * dataset["eta_z1_2_with_power"].values
     shaken = np.flatnonzero(dataset["vibration_power"].values > 0.0)
     count = len(efficiency)
-    figure, (axes,) = panels(width=8.0, height=1.2 + 0.32 * count)
+    figure, (axes,) = axes_grid(width=8.0, height=1.2 + 0.32 * count)
     # The first on top.
     places = count - 1 - np.arange(count)
     for row, place in enumerate(places):

@@ -6,7 +6,7 @@ import numpy as np
 
 from asperity.rating.demands import DEMANDS
 from asperity.rating.standing import NAMES
-from asperity.results.figures import BLACK, COLOURS, DASHES, legend, panels
+from asperity.results.figures import BLACK, COLOURS, DASHES, axes_grid, legend
 from asperity.results.panels import MARKERS
 from asperity.sweep.axis import POINT
 from asperity.sweep.maps import axis_label, plane, ticks
@@ -31,7 +31,7 @@ def plot_along(dataset: "xr.Dataset") -> "Figure":
     numeric = axis.dtype.kind in "if"
     order = np.argsort(axis.values) if numeric else np.arange(axis.size)
     places = axis.values[order] if numeric else order
-    figure, (upper, lower) = panels(2, width=9.0, height=7.6)
+    figure, (upper, lower) = axes_grid(2, width=9.0, height=7.6)
     standards = list(NAMES)
     # Neighbouring rows of a table of points need not belong together.
     apart = name == POINT
@@ -76,7 +76,7 @@ def plot_plane(dataset: "xr.Dataset") -> "Figure":
         "iso14521_eta_ges": "efficiency of the gearbox, ISO/TR 14521 (%)",
     }
     shown = {name: title for name, title in shown.items() if name in order}
-    figure, axes = panels(1, len(shown), width=1.0 + 5.0 * len(shown), height=4.8)
+    figure, axes = axes_grid(1, len(shown), width=1.0 + 5.0 * len(shown), height=4.8)
     for panel, (name, title) in zip(axes, shown.items(), strict=True):
         values = order[name].values
         if name == "margin":

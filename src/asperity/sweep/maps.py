@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
-from asperity.results.figures import BLACK, ORANGE, panels
+from asperity.results.figures import BLACK, ORANGE, axes_grid
 from asperity.units import to_si
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def plot_map(dataset: "xr.Dataset") -> "Figure":
     """Draw ratio, its closed form and power over two axes; crossed where no state is periodic."""
     down, across = _axes(dataset)
     shown = [name for name in _TITLES if name in dataset]
-    figure, axes = panels(1, len(shown), width=1.0 + 5.0 * len(shown), height=4.8)
+    figure, axes = axes_grid(1, len(shown), width=1.0 + 5.0 * len(shown), height=4.8)
     order = dataset.sortby([down, across]).transpose(down, across)
     for panel, name in zip(axes, shown, strict=True):
         # The closed form has the colours of what it stands beside, and no state of its own.

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.errors import InputError
-from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, VERMILION, axes_grid, legend
 from asperity.results.panels import MARKERS
 from asperity.sweep.axis import POINT
 from asperity.sweep.gear_plots import plot_along, plot_plane
@@ -52,7 +52,7 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
         return plot_plane(dataset)
     along = max(axes, key=lambda axis: (_is_numeric(axis), axis.size))
     curves = ratio.transpose(along.name, ...).values.reshape(along.size, -1)
-    figure, (panel,) = panels()
+    figure, (panel,) = axes_grid()
     across = next((axis for axis in axes if axis.name != along.name), None)
     if across is None or curves.shape[1] <= len(COLOURS):
         names = [""] if across is None else [_text(across, value) for value in across.values]
@@ -86,7 +86,7 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
         "open_share": ("share of the time in flight", 1.0),
     }
     drawn = {name: how for name, how in drawn.items() if np.isfinite(dataset[name]).any()}
-    figure, every = panels(len(drawn), height=2.6 * len(drawn) + 0.6)
+    figure, every = axes_grid(len(drawn), height=2.6 * len(drawn) + 0.6)
     name = dataset.attrs["axis"].partition(".")[2].replace("_", " ")
     unit = dataset.attrs["axis_unit"].replace("um", "µm")
     for panel, (variable, (label, scale)) in zip(every, drawn.items(), strict=True):

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.results.figures import BLACK, BLUE, COLOURS, ORANGE, legend, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, ORANGE, axes_grid, legend
 from asperity.results.panels import Panel, drawn, level, line, points
 from asperity.tribometer.reduction.result import REFUSED
 
@@ -58,7 +58,7 @@ def plot_run(dataset: "xr.Dataset") -> "Figure":
 def plot_columns(dataset: "xr.Dataset") -> "Figure":
     """Draw each column over time, between the least and the largest of what falls on a line."""
     count = min(dataset.sizes["column"], _MOST_COLUMNS)
-    figure, axes = panels(count, width=8.0, height=0.8 + 1.1 * count)
+    figure, axes = axes_grid(count, width=8.0, height=0.8 + 1.1 * count)
     time = dataset["time"].values
     for place, panel in enumerate(axes):
         low, high = (dataset[one].values[place] for one in ("low", "high"))
@@ -75,7 +75,7 @@ def plot_findings(dataset: "xr.Dataset") -> "Figure":
     count = min(dataset.sizes.get("finding", 0), _MOST)
     rows = max(-(-count // _ACROSS), 1)
     columns = _ACROSS if count > 1 else 1
-    figure, axes = panels(rows, columns, width=5.2 * columns, height=0.4 + 2.1 * rows)
+    figure, axes = axes_grid(rows, columns, width=5.2 * columns, height=0.4 + 2.1 * rows)
     if not count:
         axes[0].text(0.5, 0.5, "nothing found", ha="center", transform=axes[0].transAxes)
         axes[0].set_axis_off()
@@ -150,7 +150,7 @@ def changes(dataset: "xr.Dataset", name: str, label: str) -> "Figure":
     words = {key: dataset[key].values.astype(str) for key in names if key in dataset}
     kept = np.isfinite(dataset[name].values) if name in dataset else np.zeros(0, dtype=bool)
     cells = sorted({(words["mode"][n], words["lubricant"][n]) for n in np.flatnonzero(kept)})
-    figure, axes = panels(max(len(cells), 1), height=1.0 + 3.2 * max(len(cells), 1))
+    figure, axes = axes_grid(max(len(cells), 1), height=1.0 + 3.2 * max(len(cells), 1))
     for panel, (mode, lubricant) in zip(axes, cells, strict=False):
         here = kept & (words["mode"] == mode) & (words["lubricant"] == lubricant)
         _lines(panel, dataset, words["waveform"], here, name)

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from asperity.results.figures import BLACK, BLUE, ORANGE, SKY, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, ORANGE, SKY, VERMILION, axes_grid, legend
 from asperity.results.panels import BELOW, Mark, Panel, drawn, level, line
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def plot_failures(dataset: "xr.Dataset") -> "Figure":
     """Draw the motor's torque of every failure over that without, shaken times shaded."""
     names = [str(name) for name in dataset["failure"].values]
     count = max(1, -(-len(names) // _COLUMNS))
-    figure, every = panels(count, _COLUMNS, width=9.0, height=2.1 * count + 0.6)
+    figure, every = axes_grid(count, _COLUMNS, width=9.0, height=2.1 * count + 0.6)
     time = 1e3 * dataset["time"].values
     plain = dataset["torque"].isel(failure=0).values
     top = 1.08 * float(dataset["torque"].max())

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, VERMILION, axes_grid, legend
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,7 +16,7 @@ _LEVELS = 16
 def over_pitch(dataset: "xr.Dataset") -> "Figure":
     """Draw the largest tension and compression over a pitch."""
     angle = np.degrees(dataset["phase"].values)
-    figure, (panel,) = panels(1, 1, width=6.4, height=3.6)
+    figure, (panel,) = axes_grid(1, 1, width=6.4, height=3.6)
     tension = 1e-6 * dataset["tension_course"].values
     compression = -1e-6 * dataset["compression_course"].values
     panel.plot(angle, tension, "o-", color=VERMILION, label="tension, loaded side")
@@ -30,7 +30,7 @@ def over_pitch(dataset: "xr.Dataset") -> "Figure":
 
 def fillet(dataset: "xr.Dataset") -> "Figure":
     """Draw the largest tension of a pitch over the fillet and the root."""
-    figure, (panel,) = panels(1, 1, width=6.4, height=3.6)
+    figure, (panel,) = axes_grid(1, 1, width=6.4, height=3.6)
     face, way = 1e3 * dataset["fillet_face"].values, 1e3 * dataset["fillet_way"].values
     tension = 1e-6 * dataset["fillet_tension"].values
     drawn = panel.contourf(face, way, np.maximum(tension, 0.0), _LEVELS, cmap="cividis")

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, legend, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, axes_grid, legend
 from asperity.results.panels import Panel, drawn, line
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def error(dataset: "xr.Dataset") -> "Figure":
     order, loads = dataset["order"].values, dataset["error_load"].values
     amplitude = 1e6 * dataset["error_amplitude"].values
     noise = 1e6 * dataset["error_noise"].values
-    figure, (axes,) = panels(height=4.2)
+    figure, (axes,) = axes_grid(height=4.2)
     width = 0.8 / len(loads)
     for k, (torque, values) in enumerate(zip(loads, amplitude, strict=True)):
         place = order + (k - 0.5 * (len(loads) - 1)) * width
@@ -86,7 +86,7 @@ def pattern(dataset: "xr.Dataset") -> "Figure":
     # A node of the other flank lies where half a turn about the tooth takes it.
     flanks = [("pattern", 1.0, "driving flank"), ("pattern_back", -1.0, "other flank, backwards")]
     flanks = [flank for flank in flanks if flank[0] in dataset]
-    figure, axes = panels(
+    figure, axes = axes_grid(
         len(loads), len(flanks), width=1.0 + 6.0 * len(flanks), height=1.6 + 1.9 * len(loads)
     )
     z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
@@ -117,7 +117,7 @@ def stiffness(dataset: "xr.Dataset") -> "Figure":
     """Draw what gives way between motor and wheel, as turn of the wheel for its torque."""
     names = [str(name) for name in np.atleast_1d(dataset["part"].values)]
     give = 1e6 / dataset["part_stiffness"].values
-    figure, (axes,) = panels(height=1.2 + 0.5 * len(names))
+    figure, (axes,) = axes_grid(height=1.2 + 0.5 * len(names))
     axes.barh([name.replace("_", " ") for name in names], give, color=BLUE, height=0.6)
     for place, value in enumerate(give):
         axes.annotate(

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, axes_grid, legend
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +39,7 @@ def over_axes(dataset: "xr.Dataset") -> "Figure":
         ("$K_{H\\beta}$", (("", dataset["k_h_beta"].values, GREEN, "s"),)),
     )
     count = values.shape[1]
-    figure, axes = panels(
+    figure, axes = axes_grid(
         len(shown), count, width=max(6.0, 0.8 + 3.3 * count), height=0.8 + 2.1 * len(shown)
     )
     for place, panel in enumerate(axes):
@@ -75,7 +75,7 @@ def patterns(dataset: "xr.Dataset") -> "Figure":
     chosen = _chosen(dataset)
     columns = min(3, len(chosen))
     rows = -(-len(chosen) // columns)
-    figure, axes = panels(rows, columns, width=1.0 + 3.6 * columns, height=0.9 + 1.5 * rows)
+    figure, axes = axes_grid(rows, columns, width=1.0 + 3.6 * columns, height=0.9 + 1.5 * rows)
     z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
     corners = dataset["faces"].values
     halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, ORANGE, legend, panels
+from asperity.results.figures import BLACK, BLUE, ORANGE, axes_grid, legend
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def plot_on_demand(dataset: "xr.Dataset") -> "Figure":
     """Draw the motor's torque over a stroke without and with vibration at the seats."""
-    figure, (axes,) = panels(1, 1, height=4.4)
+    figure, (axes,) = axes_grid(1, 1, height=4.4)
     ends = np.degrees(np.concatenate([[0.0], dataset["part_turn"].values]))
 
     def steps(name: str) -> tuple[np.ndarray, np.ndarray]:

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, GREEN, PURPLE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, GREEN, PURPLE, VERMILION, axes_grid, legend
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,7 +18,7 @@ def designs(dataset: "xr.Dataset") -> "Figure":
     """Draw the forces on the edges, the pressures and the error of each design."""
     names = [_short(str(name)) for name in np.atleast_1d(dataset["design"].values)]
     at = np.arange(len(names))
-    figure, (force, pressure, error) = panels(3, 1, width=7.4, height=7.6)
+    figure, (force, pressure, error) = axes_grid(3, 1, width=7.4, height=7.6)
     below = np.zeros(len(names))
     for key, label, colour in _EDGES:
         values = np.nan_to_num(dataset[key].values)

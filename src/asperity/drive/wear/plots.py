@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import panels
+from asperity.results.figures import axes_grid
 from asperity.results.panels import Panel, drawn, line
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ def flank(dataset: "xr.Dataset") -> "Figure":
         (new, most, "new", "pressure (MPa)"),
         (worn, most, "worn", "pressure (MPa)"),
     )
-    figure, axes = panels(3, 1, width=7.4, height=7.2)
+    figure, axes = axes_grid(3, 1, width=7.4, height=7.2)
     for panel, (values, top, title, unit) in zip(axes, shown, strict=True):
         top = float(values.max()) if top is None else top
         filled = panel.tricontourf(

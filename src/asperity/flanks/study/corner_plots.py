@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, panels
+from asperity.results.figures import BLACK, axes_grid
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -24,7 +24,7 @@ def corners(dataset: "xr.Dataset") -> "Figure":
     names = [str(name) for name in dataset["corner"].values]
     columns = 2 if len(names) <= 4 else 4
     rows = -(-len(names) // columns)
-    figure, axes = panels(rows, columns, width=3.5 * columns, height=0.8 + 2.6 * rows)
+    figure, axes = axes_grid(rows, columns, width=3.5 * columns, height=0.8 + 2.6 * rows)
     filled = None
     for panel, name, gap in zip(axes, names, dataset["corner_gap"].values, strict=False):
         shown = np.maximum(_MICROMETRES * gap, 0.0)

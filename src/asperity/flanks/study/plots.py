@@ -11,7 +11,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.flanks.wheel.flank import RESOLVED
-from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, panels
+from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, axes_grid
 from asperity.results.panels import Panel, drawn, line
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def vibration(dataset: "xr.Dataset") -> "Figure":
     face, radius = flank["face"].values, flank["radius"].values
     parts = list(flank["part"].values)
     count = len(_SHAKEN)
-    figure, axes = panels(count, len(parts), width=8.6, height=1.75 * count + 0.6)
+    figure, axes = axes_grid(count, len(parts), width=8.6, height=1.75 * count + 0.6)
     filled: Any = None
     # An even number of levels, so that nothing has a colour of its own.
     levels = np.linspace(-1.05, 1.05, 22)
@@ -186,7 +186,7 @@ def _each(dataset: "xr.Dataset") -> "Iterator[xr.Dataset]":
 
 def _flanks(dataset: "xr.Dataset") -> "tuple[Figure, list[Axes]]":
     count = dataset.sizes["side"]
-    figure, axes = panels(1, count, width=4.6 * count, height=3.9)
+    figure, axes = axes_grid(1, count, width=4.6 * count, height=3.9)
     for place, (panel, flank) in enumerate(zip(axes, _each(dataset), strict=True)):
         edge = outline(flank["face"].values, flank["radius"].values)
         panel.fill(*edge, color=_GROUND, zorder=0)

@@ -4,7 +4,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, GREEN, ORANGE, PURPLE, VERMILION, legend, panels
+from asperity.results.figures import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    VERMILION,
+    axes_grid,
+    legend,
+)
 from asperity.thesis.drawing import DOTTED, OVER_DIRECTION, OVER_RATIO, legend_above, line, marks
 
 if TYPE_CHECKING:
@@ -23,7 +32,7 @@ _WAYS: tuple[tuple[float, ...], ...] = ((1, 0), (4, 1.5))
 
 def over_ratio(dataset: "xr.Dataset") -> "Figure":
     """Draw ratios over k above, and how far block and sliding body are apart below."""
-    figure, (upper, lower) = panels(2, height=6.8)
+    figure, (upper, lower) = axes_grid(2, height=6.8)
     shaken = [str(one) for one in dataset["shaken"].values]
     k, at = dataset["k"], dataset["k_block"]
     for index, one in enumerate(shaken):
@@ -57,7 +66,7 @@ def _apart(axes: "Axes", margin: float) -> None:
 
 def over_direction(dataset: "xr.Dataset") -> "Figure":
     """Draw a line for each k with the blocks on it above, and how far they are apart below."""
-    figure, (upper, lower) = panels(2, height=7.4)
+    figure, (upper, lower) = axes_grid(2, height=7.4)
     apart = 1e3 * (dataset["block"] - dataset["slider"])
     at = dataset["theta_block"]
     for index, k in enumerate(dataset["k"].values):
@@ -73,7 +82,7 @@ def over_direction(dataset: "xr.Dataset") -> "Figure":
 
 def pressure(dataset: "xr.Dataset") -> "Figure":
     """Draw the pressure under the cylinder above, and how deep it sinks on its way below."""
-    figure, (upper, lower) = panels(2, height=6.2)
+    figure, (upper, lower) = axes_grid(2, height=6.2)
     half = float(dataset["x"].max())
     upper.plot(1e3 * dataset["x"], 1e-6 * dataset["hertz"], color=BLACK, label="Hertz")
     for kind, name, colour, marker in (
@@ -95,7 +104,7 @@ def pressure(dataset: "xr.Dataset") -> "Figure":
 
 def normal_laws(dataset: "xr.Dataset") -> "Figure":
     """Draw pressure over overclosure above, and its slope below, scaled by the law's far end."""
-    figure, (upper, lower) = panels(2, height=5.6)
+    figure, (upper, lower) = axes_grid(2, height=5.6)
     end, stiffness = float(dataset["end"]), float(dataset["slope"].max())
     over = dataset["overclosure"].values / end
     for index, law in enumerate(str(one) for one in dataset["law"].values):

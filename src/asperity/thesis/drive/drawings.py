@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, axes_grid, legend
 from asperity.thesis.drawing import DOTTED, legend_above, limit, line, marks
 
 if TYPE_CHECKING:
@@ -35,14 +35,14 @@ def _not_settled(axes: "Axes", k: Any, values: Any, settled: Any, label: str | N
 
 def ratios(dataset: "xr.Dataset") -> "Figure":
     """Draw both readings of the ratio over k_w above, how the wheel is balanced below."""
-    figure, (upper, lower) = panels(2, height=7.2)
+    figure, (upper, lower) = axes_grid(2, height=7.2)
     _ratios(upper, lower, dataset)
     return figure
 
 
 def laws(dataset: "xr.Dataset") -> "Figure":
     """Draw both readings, the balance, and the friction that three laws give."""
-    figure, (upper, lower, last) = panels(3, height=9.6)
+    figure, (upper, lower, last) = axes_grid(3, height=9.6)
     _ratios(upper, lower, dataset)
     for index, name in enumerate(dataset["law"].values):
         own = dataset["friction"].sel(law=name)
@@ -92,7 +92,7 @@ def _of_thesis(axes: "Axes", value: float) -> None:
 
 def torque_over_time(dataset: "xr.Dataset") -> "Figure":
     """Draw the torque of the first cycles, contact lost in grey, and means so far."""
-    figure, (upper, lower) = panels(2, height=6.8)
+    figure, (upper, lower) = axes_grid(2, height=6.8)
     time = 1e3 * dataset["time"].values
     upper.fill_between(
         time, 0.0, 1.0, where=dataset["open"].values > 0.5, color=_GREY, linewidth=0,
@@ -131,7 +131,7 @@ def torque_over_time(dataset: "xr.Dataset") -> "Figure":
 
 def advantage(dataset: "xr.Dataset") -> "Figure":
     """Draw ratio, advantage and system efficiency; rigid friction beside them."""
-    figure, (left, right) = panels(1, 2, width=11.0, height=4.6)
+    figure, (left, right) = axes_grid(1, 2, width=11.0, height=4.6)
     k = dataset["k"]
     for index, (name, label) in enumerate(
         (("ratio", _RATIO), ("efficiency", r"$\eta_{sys}$ with the actuator"))

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.results.figures import BLACK, COLOURS, panels
+from asperity.results.figures import BLACK, COLOURS, axes_grid
 from asperity.thesis.flanks.drawings_solids import BRONZE, STEEL, View, paint
 from asperity.thesis.flanks.shapes import Shape
 
@@ -24,7 +24,7 @@ def _projected(view: View, points: Any) -> Any:
 
 def bore(dataset: "xr.Dataset") -> "Figure":
     """Draw the ring of teeth with its inside in green, on the centre point."""
-    figure, (axes,) = panels(1, 1, width=7.0, height=5.6)
+    figure, (axes,) = axes_grid(1, 1, width=7.0, height=5.6)
     paint(axes, Shape.read(dataset, "ring"), {0: BRONZE, 1: _GREEN}, _BORE, edges=0.1)
     centre = _projected(_BORE, dataset["centre"].values)
     for node in _projected(_BORE, dataset["linked"].values):
@@ -36,7 +36,7 @@ def bore(dataset: "xr.Dataset") -> "Figure":
 
 def model(dataset: "xr.Dataset") -> "Figure":
     """Draw the meshed wheel and the worm on its torsional spring."""
-    figure, (axes,) = panels(1, 1, width=8.0, height=6.0)
+    figure, (axes,) = axes_grid(1, 1, width=8.0, height=6.0)
     paint(axes, Shape.read(dataset, "gearset"), {0: BRONZE, 1: STEEL}, _WHOLE, edges=0.08)
     axes.plot(*_projected(_WHOLE, dataset["spring"].values).T, color=COLOURS[0], linewidth=1.6)
     ends = _projected(_WHOLE, dataset["ends"].values)
@@ -60,7 +60,7 @@ def model(dataset: "xr.Dataset") -> "Figure":
 
 def increment(dataset: "xr.Dataset") -> "Figure":
     """Draw body and root of an asperity through the two phases of an increment."""
-    figure, (axes,) = panels(1, 1, width=7.2, height=4.6)
+    figure, (axes,) = axes_grid(1, 1, width=7.2, height=4.6)
     body, root = dataset["body"].values, dataset["root"].values
     # M'2 is carried by dy, and the second phase begins there.
     stretched = ((root[0], body[0]), (root[1], body[1]), (root[3], body[2]))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.flanks.study.plots import outline
-from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, legend, panels
+from asperity.results.figures import BLACK, BLUE, STYLE, VERMILION, axes_grid, legend
 from asperity.thesis.drawing import limit
 from asperity.thesis.flanks.drawings_solids import BRONZE, DYE, FLANK_VIEW, paint
 from asperity.thesis.flanks.shapes import Shape
@@ -37,7 +37,7 @@ def pressures(dataset: "xr.Dataset") -> "Figure":
 
     designs = [(name, title) for name, title in _PRESSURES if f"{name}_pressure" in dataset]
     rows = len(designs) // 2
-    figure, axes = panels(rows, 2, width=8.6, height=0.6 + 2.9 * rows)
+    figure, axes = axes_grid(rows, 2, width=8.6, height=0.6 + 2.9 * rows)
     highest = max(float(dataset[f"{name}_pressure"].max()) for name, _ in designs)
     scale = Normalize(0.0, np.ceil(highest / 200.0) * 200.0)
     drawn: Any = None
@@ -72,7 +72,7 @@ def formation(dataset: "xr.Dataset") -> "Figure":
     import matplotlib as mpl
 
     titles = ("(a) identical hob", "(b) misaligned", "(c) oversized and tilted hob")
-    figure, axes = panels(2, 3, width=10.2, height=5.8)
+    figure, axes = axes_grid(2, 3, width=10.2, height=5.8)
     film = float(dataset["film"])
     times = dataset.sizes["time"]
     colours = mpl.colormaps["viridis"](np.linspace(0.05, 0.9, times))
@@ -116,7 +116,7 @@ def formation(dataset: "xr.Dataset") -> "Figure":
 def dye(dataset: "xr.Dataset") -> "Figure":
     """Draw teeth with the dye on them, and the gap below the dye's thickness as a map."""
     tilts = dataset["tilt"].values
-    figure, axes = panels(2, len(tilts), width=9.0, height=6.6)
+    figure, axes = axes_grid(2, len(tilts), width=9.0, height=6.6)
     grid: Any = axes[0].get_gridspec()
     grid.set_height_ratios([1.5, 1.0])
     film = float(dataset["film"])
@@ -141,7 +141,7 @@ def dye(dataset: "xr.Dataset") -> "Figure":
 
 def modified_profile(dataset: "xr.Dataset") -> "Figure":
     """Draw a thread in the axial section with the modification enlarged, and the modification."""
-    figure, (thread, amount) = panels(1, 2, width=8.6, height=4.2)
+    figure, (thread, amount) = axes_grid(1, 2, width=8.6, height=4.2)
     radius, half = dataset["radius"].values, dataset["axial"].values
     moved = dataset["relief"].values / float(dataset["normal"]) * 1e-3
     outline = dataset["outline_axial"].values, dataset["outline_radius"].values

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.results.figures import panels
+from asperity.results.figures import axes_grid
 from asperity.thesis.flanks.shapes import Shape
 
 if TYPE_CHECKING:
@@ -153,7 +153,7 @@ def densities(dataset: "xr.Dataset") -> "Figure":
 
 
 def _pictures(widths: list[float], width: float, height: float) -> "tuple[Figure, list[Any]]":
-    figure, axes = panels(1, len(widths), width=width, height=height)
+    figure, axes = axes_grid(1, len(widths), width=width, height=height)
     grid: Any = axes[0].get_gridspec()
     grid.set_width_ratios(widths)
     return figure, axes

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.results.figures import BLACK, GREEN, ORANGE, SKY, legend, panels
+from asperity.results.figures import BLACK, GREEN, ORANGE, SKY, axes_grid, legend
 from asperity.thesis.drawing import DOTTED, line, marks
 
 if TYPE_CHECKING:
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def friction(dataset: "xr.Dataset") -> "Figure":
     """Draw friction over sliding velocity, by standard and gearset."""
-    figure, (axes,) = panels(height=4.6)
+    figure, (axes,) = axes_grid(height=4.6)
     velocity = dataset["velocity"]
     for index, name in enumerate(dataset["gearset"].values):
         own = dataset.sel(gearset=name)
@@ -52,7 +52,7 @@ def torques(dataset: "xr.Dataset") -> "Figure":
 
 def _bars(dataset: "xr.Dataset", names: dict[str, str], label: str, shown: str) -> "Figure":
     gearsets, designs = (dataset[name].values for name in ("gearset", "design"))
-    figure, all_axes = panels(1, len(gearsets), height=4.2)
+    figure, all_axes = axes_grid(1, len(gearsets), height=4.2)
     places = np.arange(len(names))
     top = 1.18 * max(float(dataset[name].max()) for name in names)
     for axes, gearset in zip(all_axes, gearsets, strict=True):

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from asperity.results.figures import BLACK, BLUE, COLOURS, SKY, legend, panels
+from asperity.results.figures import BLACK, BLUE, COLOURS, SKY, axes_grid, legend
 from asperity.thesis.drawing import (
     DOTTED,
     OVER_DIRECTION,
@@ -45,7 +45,7 @@ def _histories(dataset: "xr.Dataset", variable: str) -> Iterator[tuple[str, Any,
 
 def force_over_displacement(dataset: "xr.Dataset") -> "Figure":
     """Draw a line for each exponent."""
-    figure, (axes,) = panels()
+    figure, (axes,) = axes_grid()
     share = dataset["force"] / dataset["full_force"]
     x = dataset["displacement"].values * 1e9
     for index, exponent in enumerate(dataset["exponent"].values):
@@ -58,7 +58,7 @@ def force_over_displacement(dataset: "xr.Dataset") -> "Figure":
 
 def cycle(dataset: "xr.Dataset") -> "Figure":
     """Draw the velocities above and the friction below, over one cycle."""
-    figure, (upper, lower) = panels(2, height=5.6)
+    figure, (upper, lower) = axes_grid(2, height=5.6)
     base, drive = dataset["base_velocity"], float(dataset["drive_velocity"])
     time = base[base.dims[0]].values * 1e3
     upper.plot(time, base * 1e3, color=BLUE, label="base")
@@ -86,7 +86,7 @@ def cycle(dataset: "xr.Dataset") -> "Figure":
 
 def transverse_cycle(dataset: "xr.Dataset") -> "Figure":
     """Draw the velocities and forces as vectors, and friction along and across over time."""
-    figure, (upper, left, lower, right) = panels(2, 2, width=9.6, height=6.4)
+    figure, (upper, left, lower, right) = axes_grid(2, 2, width=9.6, height=6.4)
     _vectors(left, right, dataset)
     time = 1e3 * dataset["time"].values
     upper.plot(time, 1e3 * dataset["base_velocity"], color=BLUE, label="base, across")
@@ -151,7 +151,7 @@ def _vectors(upper: "Axes", lower: "Axes", dataset: "xr.Dataset") -> None:
 def stacked(dataset: "xr.Dataset") -> "Figure":
     """Draw a panel for each body, on the same scale."""
     histories = list(_histories(dataset, "drive_force"))
-    figure, all_axes = panels(len(histories), height=1.2 + 1.5 * len(histories))
+    figure, all_axes = axes_grid(len(histories), height=1.2 + 1.5 * len(histories))
     low = min(0.0, *(float(force.min()) for _, _, force in histories))
     high = max(float(force.max()) for _, _, force in histories)
     room = 0.08 * (high - low)
@@ -166,7 +166,7 @@ def stacked(dataset: "xr.Dataset") -> "Figure":
 
 def over_ratio(dataset: "xr.Dataset") -> "Figure":
     """Draw the ratio over k: laws and closed form as lines, schemes as markers."""
-    figure, (axes,) = panels(height=4.6)
+    figure, (axes,) = axes_grid(height=4.6)
     laws = [str(law) for law in dataset["law"].values]
     for index, law in enumerate(laws):
         label = "periodic state" + (f", law {law}" if len(laws) > 1 else "")
@@ -185,7 +185,7 @@ def over_ratio(dataset: "xr.Dataset") -> "Figure":
 
 def drive_over_time(dataset: "xr.Dataset") -> "Figure":
     """Draw the whole march above and its last millisecond below."""
-    figure, (upper, lower) = panels(2, height=6.2)
+    figure, (upper, lower) = axes_grid(2, height=6.2)
     for index, (name, time, force) in enumerate(_histories(dataset, "drive_force")):
         tail = time >= time[-1] - _ZOOM
         line(upper, index, time, force, _SERIES.get(name, name))
@@ -213,7 +213,7 @@ def friction_over_cycles(dataset: "xr.Dataset") -> "Figure":
     """Draw a panel for each friction component."""
     names = {"x": "along the drive, x", "y": "across, y"}
     parts = [str(axis) for axis in dataset["axis"].values]
-    figure, all_axes = panels(len(parts), height=1.4 + 2.4 * len(parts))
+    figure, all_axes = axes_grid(len(parts), height=1.4 + 2.4 * len(parts))
     for axes, part in zip(all_axes, parts, strict=True):
         for index, (name, time, friction) in enumerate(_histories(dataset, "friction")):
             line(axes, index, time * 1e3, friction.sel(axis=part), _SERIES.get(name, name))
@@ -225,7 +225,7 @@ def friction_over_cycles(dataset: "xr.Dataset") -> "Figure":
 
 def over_direction(dataset: "xr.Dataset") -> "Figure":
     """Draw a line for each k, marched points on it, LuGre around them."""
-    figure, (axes,) = panels(height=5.0)
+    figure, (axes,) = axes_grid(height=5.0)
     for index, k in enumerate(dataset["k"].values):
         line(axes, index, dataset["theta_dense"], dataset["periodic"].sel(k=k))
         marked = dataset["dahl"].sel(k=k)
@@ -250,7 +250,7 @@ _BESIDE_ROOTS = ((-16, -4), (-26, -6), (-26, 2), (6, 4))
 
 def increment(dataset: "xr.Dataset") -> "Figure":
     """Draw body and root of an asperity through the two phases, the base moving."""
-    figure, (axes,) = panels(1, 1, width=6.4, height=5.0)
+    figure, (axes,) = axes_grid(1, 1, width=6.4, height=5.0)
     body, root = dataset["body"].values, dataset["root"].values
     base = dataset["base"].values
     stretched = ((root[0], body[0]), (root[1], body[1]), (root[3], body[1]))
@@ -300,7 +300,7 @@ def _arrow(
 
 def base(dataset: "xr.Dataset") -> "Figure":
     """Draw the displacement along the axis of vibration and its two components."""
-    figure, (axes,) = panels(1, 1, width=5.4, height=4.4)
+    figure, (axes,) = axes_grid(1, 1, width=5.4, height=4.4)
     theta, share = float(dataset["theta"]), float(dataset["share"])
     way = np.array([np.cos(theta), np.sin(theta)])
     axes.plot(*np.transpose([-way, way]), color=BLACK, dashes=(1, 1.5), linewidth=1.0)

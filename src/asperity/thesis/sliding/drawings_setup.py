@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.results.figures import BLACK, COLOURS, GREEN, ORANGE, panels
+from asperity.results.figures import BLACK, COLOURS, GREEN, ORANGE, axes_grid
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -55,7 +55,7 @@ def _arrow(
 
 def setup(dataset: "xr.Dataset") -> "Figure":
     """Draw body on its drive spring, the asperity that it bends, and the base that is shaken."""
-    figure, (axes,) = panels(1, 1, width=7.2, height=4.2)
+    figure, (axes,) = axes_grid(1, 1, width=7.2, height=4.2)
     along, across = (float(value) for value in dataset["base"].values)
     length, height = _BODY[0], _BASE[2] + _HIGH
     _box(axes, (0.0, 0.0, 0.0), _BASE, ORANGE)
@@ -91,7 +91,7 @@ def setup(dataset: "xr.Dataset") -> "Figure":
 
 def forces(dataset: "xr.Dataset") -> "Figure":
     """Draw the friction on the body from above, its components and the drive force."""
-    figure, (axes,) = panels(1, 1, width=5.4, height=4.4)
+    figure, (axes,) = axes_grid(1, 1, width=5.4, height=4.4)
     force, beta = dataset["force"].values, float(dataset["beta"])
     axes.plot([-0.2, 0.2, 0.2, -0.2, -0.2], [-0.16, -0.16, 0.16, 0.16, -0.16], color=BLACK,
               linewidth=0.9)  # fmt: skip

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, shown
-from asperity.runs.asking import asking
+from asperity.runs.asking import typed_line
 from asperity.tribometer.instruments.protocols import Person, Reading, Waveform
 from asperity.units import split_unit, to_si
 
@@ -76,13 +76,9 @@ def _read(typed: str, unit: str) -> float:
 
 
 def _typed(text: str) -> str:
-    with asking():
-        # Standard output may be a file of answers.
-        print(text, end="", file=sys.stderr, flush=True)
-        line = sys.stdin.readline()
-    if not line:
+    if (line := typed_line(text)) is None:
         raise InputError("the terminal was closed while a question stood open")
-    return line.strip()
+    return line
 
 
 class _Manual:
