@@ -304,8 +304,8 @@ class _Made:
             if symbol.error is not InputError:
                 lines += [symbol.error.__name__, f"    {symbol.symbol}: {symbol.allowed}."]
         if self.error is not None:
-            made = inspect.get_annotations(self.error, eval_str=True)["return"]
-            lines += [made.__name__, f"    {self.undefined}."]
+            says = inspect.get_annotations(self.error, eval_str=True)
+            lines += [says.get("return", InputError).__name__, f"    {self.undefined}."]
         return lines
 
     def described(self, text: str, equation: str, source: Source | None) -> str:
