@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.tri import Triangulation
 
 _LOST = "#BBBBBB"
 _BELOW = {**BELOW, "ncols": 3}
@@ -39,6 +40,16 @@ _POWERS = (
     ("power_damping", "damping", PURPLE),
     ("power_stored", "stored", SKY),
 )
+
+
+def flank_triangles(dataset: "xr.Dataset", side: float = 1.0) -> "Triangulation":
+    """Return the mesh of a wheel's flank in triangles, mm; ``side`` -1 turns it about the tooth."""
+    from matplotlib.tri import Triangulation
+
+    z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
+    corners = dataset["faces"].values
+    halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+    return Triangulation(side * z, r, halves)
 
 
 def _percent(share: float) -> str:

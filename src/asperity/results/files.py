@@ -1,7 +1,9 @@
 """The files of answers: JSON and pictures, each whole or not at all."""
 
+import csv
+import io
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +17,13 @@ if TYPE_CHECKING:
 def write_json(answer: Mapping[str, Any], path: Path) -> Path:
     """Write one JSON object."""
     return write_text(path, json.dumps(answer, indent=2, allow_nan=False) + "\n")
+
+
+def csv_text(rows: Iterable[Iterable[object]]) -> str:
+    """Return rows as CSV, numbers to the last digit."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 PICTURES = ("png", "svg", "pdf")

@@ -4,7 +4,6 @@ The law is that of `asperity.slider.cycle_mean_law`; all of it that another prog
 written: the table, the cubics between its places, and what holds beyond its ends.
 """
 
-import csv
 import io
 import textwrap
 from collections.abc import Callable, Iterator, Sequence
@@ -14,6 +13,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import plain
+from asperity.results.files import csv_text
 from asperity.slider import cycle_mean_law as hl
 from asperity.slider.cycle_mean_law import HomogenisedLaw
 from asperity.slider.friction_map import FrictionMap
@@ -34,16 +34,16 @@ _COLUMNS = (
 
 def csv_files(laws: FrictionMap, about: Sequence[str]) -> dict[str, str]:
     """Return the table as CSV, by the name of its file; lines that begin with # say what it is."""
-    text = io.StringIO()
-    text.writelines(f"# {line}\n" for line in _told(laws, about))
-    rows = csv.writer(text, lineterminator="\n")
     key = [f"{laws.key} [{laws.unit}]" if laws.unit else laws.key] if laws.key else []
-    rows.writerow([*key, "velocity [m/s]", *(f"{name} [{unit}]" for name, unit, _ in _COLUMNS)])
+    rows: list[Sequence[object]] = [
+        [*key, "velocity [m/s]", *(f"{name} [{unit}]" for name, unit, _ in _COLUMNS)]
+    ]
     for value, law in zip(laws.values, laws.laws, strict=True):
         own = [float(value)] if laws.key else []
         table = np.column_stack([law.velocity, *_columns(law).values()])
-        rows.writerows([*own, *row] for row in table.tolist())
-    return {f"{_stem(laws)}.csv": text.getvalue()}
+        rows += ([*own, *row] for row in table.tolist())
+    told = "".join(f"# {line}\n" for line in _told(laws, about))
+    return {f"{_stem(laws)}.csv": told + csv_text(rows)}
 
 
 def mat_files(laws: FrictionMap, about: Sequence[str]) -> dict[str, bytes]:

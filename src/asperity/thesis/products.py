@@ -1,8 +1,6 @@
 """What making an exhibit gives: a figure with its numbers, a table, or the finding on a claim."""
 
-import csv
 import dataclasses
-import io
 import json
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -11,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, get_args
 
 from asperity import __version__
 from asperity.files.store import write_atomically, write_dataset, write_text
+from asperity.results.files import csv_text
 from asperity.thesis.said import listed
 
 if TYPE_CHECKING:
@@ -126,9 +125,7 @@ class Grid:
 
     def to_csv(self) -> str:
         """As text, numbers to the last digit."""
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows((self.columns, *self.rows))
-        return text.getvalue()
+        return csv_text((self.columns, *self.rows))
 
     def write(self, stem: Path, words: Mapping[str, Any]) -> tuple[Plain, list[Path]]:
         """Write the table as CSV and JSON; returns what is shown, and the files."""

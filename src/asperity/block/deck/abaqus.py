@@ -34,7 +34,6 @@ _ELEMENTS = {"hex8": "C3D8", "hex8i": "C3D8I", "hex27": "C3D27"}
 # Duration of each of the two steps that bring on weight and load, s.
 SETTLE = 0.01
 _SETTLE_INCREMENT = 1e-4
-_PER_LINE = 8
 _FIELDS_A_SECOND = 400
 _RECORDS_A_CYCLE = 40
 _RECORDS = 1000
@@ -148,10 +147,7 @@ def _interaction(setup: BlockSetup, fric: FricSubroutine | None) -> Iterator[str
     if fric is None:
         yield from ("*FRICTION", numbers(setup.model.friction.mu))
     else:
-        count = len(fric.properties)
-        yield f"*FRICTION, USER, DEPVAR={fric.state_variables}, PROPERTIES={count}"
-        for start in range(0, count, _PER_LINE):
-            yield numbers(*fric.properties[start : start + _PER_LINE])
+        yield from fric.lines()
     law = setup.normal
     if law.name == "linear":
         yield from ("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR", numbers(law.stiffness))

@@ -19,10 +19,11 @@ exponential  split,      relaxation along the asperity, step with the rate at it
 
 import dataclasses
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from importlib import resources
 
 from asperity.errors import InputError
+from asperity.mesh.inp import numbers
 from asperity.slider.model import Model
 from asperity.vibration.waveform import SAMPLED, SINE
 
@@ -31,6 +32,7 @@ STATE_VARIABLES = 3
 _NEVER = 1e30
 _WIDTH = 72
 _SAMPLES_A_STATEMENT = 36
+_PER_LINE = 8  # numbers of a deck
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,6 +44,13 @@ class FricSubroutine:
     #: DEPVAR: deflection of the asperities along both slip directions, and its size, m
     state_variables: int
     moves_base: bool  #: Whether the text contains DISP, the base's motion
+
+    def lines(self) -> Iterator[str]:
+        """Yield what a deck's surface interaction says of it."""
+        count = len(self.properties)
+        yield f"*FRICTION, USER, DEPVAR={self.state_variables}, PROPERTIES={count}"
+        for start in range(0, count, _PER_LINE):
+            yield numbers(*self.properties[start : start + _PER_LINE])
 
 
 def fric_subroutine(model: Model, *, before: float = 0.0, side: int = -1) -> FricSubroutine:

@@ -24,7 +24,6 @@ from asperity.slider.model import Model
 from asperity.slider.parameters import Slider
 
 DECK = "teeth.inp"
-_PER_LINE = 8
 _INCREMENTS = (8, 4)
 
 
@@ -153,10 +152,7 @@ def model_lines(setup: TeethSetup, fric: FricSubroutine | None, deck: str) -> It
 def _interaction(setup: TeethSetup, fric: FricSubroutine | None) -> Iterator[str]:
     yield "*SURFACE INTERACTION, NAME=flanks"
     if fric is not None:
-        count = len(fric.properties)
-        yield f"*FRICTION, USER, DEPVAR={fric.state_variables}, PROPERTIES={count}"
-        for start in range(0, count, _PER_LINE):
-            yield numbers(*fric.properties[start : start + _PER_LINE])
+        yield from fric.lines()
     elif setup.model.friction > 0.0:
         yield from ("*FRICTION", numbers(setup.model.friction))
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"

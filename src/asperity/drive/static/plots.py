@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.drive.plots import flank_triangles
 from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, axes_grid, legend
 from asperity.results.panels import Panel, drawn, line
 
@@ -80,8 +81,6 @@ def error(dataset: "xr.Dataset") -> "Figure":
 
 def pattern(dataset: "xr.Dataset") -> "Figure":
     """Draw where the flanks bear over a pitch, and how hard, at three torques."""
-    from matplotlib.tri import Triangulation
-
     loads = dataset["load"].values
     # A node of the other flank lies where half a turn about the tooth takes it.
     flanks = [("pattern", 1.0, "driving flank"), ("pattern_back", -1.0, "other flank, backwards")]
@@ -89,15 +88,12 @@ def pattern(dataset: "xr.Dataset") -> "Figure":
     figure, axes = axes_grid(
         len(loads), len(flanks), width=1.0 + 6.0 * len(flanks), height=1.6 + 1.9 * len(loads)
     )
-    z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
-    corners = dataset["faces"].values
-    halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     for place, panel in enumerate(axes):
         row, column = divmod(place, len(flanks))
         name, side, words = flanks[column]
         mega = 1e-6 * dataset[name].values[row]
         drawn = panel.tricontourf(
-            Triangulation(side * z, r, halves), mega, levels=_LEVELS, cmap="cividis"
+            flank_triangles(dataset, side), mega, levels=_LEVELS, cmap="cividis"
         )
         bar = figure.colorbar(drawn, ax=panel)
         bar.set_label("pressure (MPa)")

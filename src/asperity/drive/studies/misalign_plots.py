@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.drive.plots import flank_triangles
 from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, axes_grid, legend
 
 if TYPE_CHECKING:
@@ -70,15 +71,11 @@ def over_axes(dataset: "xr.Dataset") -> "Figure":
 
 def patterns(dataset: "xr.Dataset") -> "Figure":
     """Draw where the flank bears as the case is, at the ends of each axis, and at the worst."""
-    from matplotlib.tri import Triangulation
-
     chosen = _chosen(dataset)
     columns = min(3, len(chosen))
     rows = -(-len(chosen) // columns)
     figure, axes = axes_grid(rows, columns, width=1.0 + 3.6 * columns, height=0.9 + 1.5 * rows)
-    z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
-    corners = dataset["faces"].values
-    halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
+    triangles = flank_triangles(dataset)
     mega = 1e-6 * dataset["pattern"].values
     most = float(np.nanmax(mega[chosen]))
     levels = np.linspace(0.0, _ABOVE * most, _LEVELS)
@@ -87,7 +84,7 @@ def patterns(dataset: "xr.Dataset") -> "Figure":
             panel.set_visible(False)
             continue
         point = chosen[number]
-        panel.tricontourf(Triangulation(z, r, halves), mega[point], levels=levels, cmap="cividis")
+        panel.tricontourf(triangles, mega[point], levels=levels, cmap="cividis")
         panel.set_aspect("equal")
         panel.grid(visible=False)
         panel.set_title(_title(dataset, point), fontsize=9.0)

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.drive.plots import flank_triangles
 from asperity.results.figures import axes_grid
 from asperity.results.panels import Panel, drawn, line
 
@@ -43,11 +44,7 @@ def over_life(dataset: "xr.Dataset") -> "Figure":
 def flank(dataset: "xr.Dataset") -> "Figure":
     """Draw the depth on the flank, and where it bears, new and worn."""
     from matplotlib.ticker import MaxNLocator
-    from matplotlib.tri import Triangulation
 
-    z, r = 1e3 * dataset["node_face"].values, 1e3 * dataset["node_radius"].values
-    corners = dataset["faces"].values
-    halves = np.concatenate([corners[:, [0, 1, 2]], corners[:, [0, 2, 3]]])
     new, worn = (1e-6 * dataset[name].values for name in ("pattern_new", "pattern"))
     most = float(max(new.max(), worn.max()))
     shown = (
@@ -59,7 +56,7 @@ def flank(dataset: "xr.Dataset") -> "Figure":
     for panel, (values, top, title, unit) in zip(axes, shown, strict=True):
         top = float(values.max()) if top is None else top
         filled = panel.tricontourf(
-            Triangulation(z, r, halves), values, levels=np.linspace(0.0, _ABOVE * top, _LEVELS),
+            flank_triangles(dataset), values, levels=np.linspace(0.0, _ABOVE * top, _LEVELS),
             cmap="cividis",
         )  # fmt: skip
         bar = figure.colorbar(filled, ax=panel, format="%.4g", ticks=MaxNLocator(6))

@@ -3,8 +3,6 @@
 Which data belong on a drawing is from memory of DIN 3966-3.
 """
 
-import csv
-import io
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -13,6 +11,7 @@ from asperity.flanks.measuring.measures import Measuring
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset.tolerancing.backlash import Backlash
 from asperity.gearset.tolerancing.grades import Allowed
+from asperity.results.files import csv_text
 from asperity.results.quantity import plain
 from asperity.results.unit_systems import converted
 from asperity.results.words import text_of
@@ -125,15 +124,13 @@ def _short(one: Allowed) -> str:
 
 def csv_of(data: list[Datum]) -> str:
     """Return the lines as CSV, with full digits and, beside them, as a drawing has them."""
-    text = io.StringIO()
-    rows = csv.writer(text, lineterminator="\n")
-    rows.writerow(["part", "name", "symbol", "value", "unit", "on the drawing"])
+    rows: list[Sequence[object]] = [("part", "name", "symbol", "value", "unit", "on the drawing")]
     for datum in data:
         if isinstance(datum.value, float):
             value, unit = converted(datum.value, datum.unit)
             datum = datum._replace(value=value, unit=unit)
-        rows.writerow([*datum, on_drawing(datum)])
-    return text.getvalue()
+        rows.append([*datum, on_drawing(datum)])
+    return csv_text(rows)
 
 
 def on_drawing(datum: Datum) -> str:

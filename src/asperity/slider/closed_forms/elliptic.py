@@ -7,7 +7,7 @@ import numpy as np
 from asperity.arrays import Real
 from asperity.formulas import Bounds, Symbol, formula
 from asperity.slider.closed_forms.powers import power_given
-from asperity.slider.closed_forms.ratios import directed_sine, factors, k, off_axis, theta
+from asperity.slider.closed_forms.ratios import directed_sine, factors, k, theta
 from asperity.sources import Source
 
 ELLIPSE = Source("rigid Coulomb friction over a phase", "verified", "derived; DLMF 19.21(iii)")
@@ -41,9 +41,7 @@ def elliptic_ratio(
     """
     from scipy.special import elliprj
 
-    d, r, y = factors(k, theta)
-    off = off_axis(d, y)
-    d, y = np.where(off, d, 1.0), np.where(off, y, 1.0)
+    d, r, y, off = factors(k, theta)
     cos, across = np.cos(theta), np.square(np.sin(theta))
     turned = np.where(off, 2.0 / (3.0 * np.pi) * k * cos * across * elliprj(0.0, y, d, r), 0.0)
     pushed = np.where(k > 0.0, cos / np.where(k > 0.0, k, 1.0) * power_given(k, theta), 0.0)

@@ -16,7 +16,6 @@ from asperity.slider.closed_forms.ratios import (
     factors,
     k,
     longitudinal_sine,
-    off_axis,
     theta,
 )
 
@@ -96,8 +95,6 @@ def power_given(k: Real, theta: Real) -> Any:
     """Power of the vibration, arguments checked."""
     from scipy.special import elliprd
 
-    d, _, y = factors(k, theta)
-    off = off_axis(d, y)
-    d, y = np.where(off, d, 1.0), np.where(off, y, 1.0)
+    d, _, y, off = factors(k, theta)
     across = 2.0 / (3.0 * np.pi) * np.square(k * np.sin(theta)) * elliprd(0.0, d, y)
     return np.where(off, across, 2.0 / np.pi * np.sqrt(np.maximum((k - 1.0) * (k + 1.0), 0.0)))

@@ -136,34 +136,30 @@ def longitudinal_sine(k: Real) -> Any:
     return 2.0 / np.pi * np.arcsin(1.0 / np.maximum(k, 1.0))
 
 
-def factors(k: Real, theta: Real) -> tuple[Any, Any, Any]:
-    """Return D, r and y of `directed_ratio`, each to rounding."""
+# Below this share of D the drive lies along the vibration as far as floats can tell.
+_ALONG = 1e-200
+
+
+def factors(k: Real, theta: Real) -> tuple[Any, Any, Any, BoolArray]:
+    """Return D, r and y of `directed_ratio`, each to rounding, and where the elliptic forms hold.
+
+    Elsewhere those along the drive do; D and y are 1 there.
+    """
     across = k * np.sin(theta)
     excess = (1.0 - k) * (1.0 + k)
     d = np.hypot(excess, 2.0 * across)
     half_sum = 0.5 * (np.abs(excess) + d)
     with np.errstate(divide="ignore", invalid="ignore"):
         y = np.where(excess >= 0.0, half_sum, across * across / half_sum)
-    return d, 0.5 * (1.0 + k * k + d), y
-
-
-# Below this share of D the drive lies along the vibration as far as floats can tell.
-_ALONG = 1e-200
-
-
-def off_axis(d: Real, y: Real) -> BoolArray:
-    """Where the elliptic forms hold; elsewhere those along the drive do."""
-    result: BoolArray = np.asarray((d > 0.0) & (y > _ALONG * d))
-    return result
+    off: BoolArray = np.asarray((d > 0.0) & (y > _ALONG * d))
+    return np.where(off, d, 1.0), 0.5 * (1.0 + k * k + d), np.where(off, y, 1.0), off
 
 
 def directed_sine(k: Real, theta: Real) -> Any:
     """Ratio in any direction, arguments checked."""
     from scipy.special import elliprf, elliprj
 
-    d, r, y = factors(k, theta)
-    off = off_axis(d, y)
-    d, y = np.where(off, d, 1.0), np.where(off, y, 1.0)
+    d, r, y, off = factors(k, theta)
     q = np.square(k * np.cos(theta)) / r
     share = y * d / r
     elliptic = y * elliprf(0.0, y, d) + q * share / 3.0 * elliprj(0.0, y, d, share)

@@ -1,12 +1,11 @@
 """What makes the numbers of a reduction uncertain, as tables, JSON, CSV and variables."""
 
-import csv
-import io
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from asperity.casefile import Case
+from asperity.results.files import csv_text
 from asperity.results.quantity import plain
 from asperity.results.table import Table
 from asperity.results.words import text_of
@@ -100,9 +99,7 @@ def of_segment(budgets: Budgets) -> list[dict[str, Any]]:
 
 def to_csv(rows: Sequence[Row]) -> str:
     """Return a row a contribution."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(_CSV)
+    lines: list[Sequence[object]] = [_CSV]
     for file, start, budgets in rows:
         for name, budget in budgets.items():
             head = (
@@ -113,11 +110,11 @@ def to_csv(rows: Sequence[Row]) -> str:
                 inputs = zip(one.inputs, one.uncertainties, one.sensitivities, strict=True)
                 flat: list[str | float] = [cell for three in inputs for cell in three]
                 flat += [""] * (6 - len(flat))
-                writer.writerow((
+                lines.append((
                     *head, one.name, one.kind, *flat, one.correlation, one.size,
                     100.0 * budget.share(one), _finite(one.freedom),
                 ))  # fmt: skip
-    return text.getvalue()
+    return csv_text(lines)
 
 
 def tables(rows: Sequence[Row], left_out: Sequence[str]) -> tuple[Table, ...]:

@@ -1,7 +1,5 @@
 """The answer of ``asperity rig reduce``: what vibration did in each segment."""
 
-import csv
-import io
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -9,6 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from asperity.files.store import harmless_cell, write_text
 from asperity.results import Quantities, Result, labelled, measured, quantity
 from asperity.results.dataset import along, described
+from asperity.results.files import csv_text
 from asperity.results.interval import numbers_of, value_of
 from asperity.results.quantity import CI95, plain
 from asperity.results.table import Table
@@ -346,9 +345,7 @@ class Reduced(Result):
             and one.velocity_amplitude and one.sliding_velocity_with is not None
             and one.sliding_velocity_with.value > 0.0
         ]  # fmt: skip
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows([_MEASURED, *rows])
-        return text.getvalue()
+        return csv_text([_MEASURED, *rows])
 
     def _of_drives(self) -> str:
         rows = [
@@ -358,25 +355,21 @@ class Reduced(Result):
             if one.torque_change is not None and one.deviation and one.commanded is not None
             and one.velocity_amplitude and one.worm_speed and one.wheel_torque
         ]  # fmt: skip
-        text = io.StringIO()
-        csv.writer(text, lineterminator="\n").writerows([_OF_DRIVES, *rows])
-        return text.getvalue()
+        return csv_text([_OF_DRIVES, *rows])
 
     def to_csv(self) -> str:
         """Return a row a segment; columns are named as in JSON, intervals by their ends."""
-        text = io.StringIO()
-        writer = csv.writer(text, lineterminator="\n")
         entries = [entry for entry in SegmentResult.declared() if entry.in_file]
         entries = entries if self.segments else []
         names = ([entry.key.replace(CI95, f"_{end}") for end in _ENDS] if entry.label.is_ends
                  else [entry.key] for entry in entries)  # fmt: skip
-        writer.writerow([name for one in names for name in one])
+        rows = [[name for one in names for name in one]]
         for one in self.segments:
             found = {entry.name: entry.value for entry in one.entries()}
             cells = (found[entry.name] or (None, None) if entry.label.is_ends
                      else [found[entry.name]] for entry in entries)  # fmt: skip
-            writer.writerow([_cell(one) for several in cells for one in several])
-        return text.getvalue()
+            rows.append([_cell(one) for several in cells for one in several])
+        return csv_text(rows)
 
 
 def _rounded(value: float | None, digits: int) -> float | None:
