@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.results.figures import BLACK, COLOURS, axes_grid
+from asperity.thesis.drawing import asperity
 from asperity.thesis.flanks.drawings_solids import BRONZE, STEEL, View, paint
 from asperity.thesis.flanks.shapes import Shape
 
@@ -64,19 +65,11 @@ def increment(dataset: "xr.Dataset") -> "Figure":
     body, root = dataset["body"].values, dataset["root"].values
     # M'2 is carried by dy, and the second phase begins there.
     stretched = ((root[0], body[0]), (root[1], body[1]), (root[3], body[2]))
-    for n, (one, other) in enumerate(stretched):
-        axes.plot(*zip(one, other, strict=True), color=COLOURS[n], linewidth=2.0)
-    axes.plot(*body.T, "o-", color=BLACK, linewidth=0.9, markersize=4)
-    axes.plot(*root.T, "s:", color=BLACK, linewidth=0.9, markersize=4)
+    shifts = ((-74, -2), (8, -12), (8, -12))
+    asperity(axes, body, root, stretched, dataset["deflection"].values, shifts)
     for place, names, offsets in ((body, _BODIES, _BESIDE_BODIES), (root, _ROOTS, _BESIDE_ROOTS)):
         for at, name, offset in zip(place, names, offsets, strict=True):
             axes.annotate(name, at, offset, textcoords="offset points")
-    sizes = dataset["deflection"].values
-    shifts = ((-74, -2), (8, -12), (8, -12))
-    for (one, other), name, size, shift in zip(stretched, _SIZES, sizes, shifts, strict=True):
-        axes.annotate(
-            f"{name} = {size:.2f}", 0.5 * (one + other), shift, textcoords="offset points"
-        )
     for (one, other), name, shift in zip(
         ((body[0], body[1]), (body[1], body[2])), ("Δx", "Δy"), ((0, 5), (6, 0)), strict=True
     ):
@@ -95,7 +88,6 @@ def increment(dataset: "xr.Dataset") -> "Figure":
     return figure
 
 
-_SIZES = ("s", "s'", "s₁")
 _BODIES, _BESIDE_BODIES = ("N'", "N''", "N'₁"), ((-6, 9), (8, -3), (-4, 9))
 _ROOTS, _BESIDE_ROOTS = ("M", "M'¹", "M'²", "M₁"), ((-4, -16), (-4, -16), (-24, 4), (-4, -16))
 

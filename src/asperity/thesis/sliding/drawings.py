@@ -10,6 +10,7 @@ from asperity.thesis.drawing import (
     DOTTED,
     OVER_DIRECTION,
     OVER_RATIO,
+    asperity,
     legend_above,
     limit,
     line,
@@ -243,7 +244,6 @@ def over_direction(dataset: "xr.Dataset") -> "Figure":
 
 
 _ARC = 0.14
-_SIZES = ("s", "s'", "s₁")
 _BODIES, _ROOTS = ("N'", "N'₁"), ("M", "M'¹", "M'²", "M₁")
 _BESIDE_ROOTS = ((-16, -4), (-26, -6), (-26, 2), (6, 4))
 
@@ -254,10 +254,8 @@ def increment(dataset: "xr.Dataset") -> "Figure":
     body, root = dataset["body"].values, dataset["root"].values
     base = dataset["base"].values
     stretched = ((root[0], body[0]), (root[1], body[1]), (root[3], body[1]))
-    for n, (one, other) in enumerate(stretched):
-        axes.plot(*zip(one, other, strict=True), color=COLOURS[n], linewidth=2.0)
-    axes.plot(*body.T, "o-", color=BLACK, linewidth=0.9, markersize=4)
-    axes.plot(*root.T, "s:", color=BLACK, linewidth=0.9, markersize=4)
+    shifts = ((-64, -14), (-12, 14), (6, 8))
+    asperity(axes, body, root, stretched, dataset["deflection"].values, shifts)
     for at, name, beside in zip(body, _BODIES, ((-14, -14), (8, -8)), strict=True):
         axes.annotate(name, at, beside, textcoords="offset points")
     for at, name, beside in zip(root, _ROOTS, _BESIDE_ROOTS, strict=True):
@@ -266,11 +264,6 @@ def increment(dataset: "xr.Dataset") -> "Figure":
         own = body[0] + dataset["own"].values
         axes.plot(*zip(body[0], own, strict=True), color=BLACK, linewidth=0.9, dashes=(5, 2))
         _arrow(axes, own, body[1], "$-Δx_b$", (-8, -16))
-    sizes, shifts = dataset["deflection"].values, ((-64, -14), (-12, 14), (6, 8))
-    for (one, other), name, size, shift in zip(stretched, _SIZES, sizes, shifts, strict=True):
-        axes.annotate(
-            f"{name} = {size:.2f}", 0.5 * (one + other), shift, textcoords="offset points"
-        )
     for at, angle, name, n in zip((body[1], body[1]), dataset["angle"].values, "αβ", (1, 2),
                                   strict=True):  # fmt: skip
         turn = np.linspace(0.0, angle, 30)
