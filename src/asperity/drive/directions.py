@@ -1,6 +1,5 @@
 """The command `directions`: which way of shaking a gearset gives most, and for what."""
 
-import dataclasses
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
@@ -10,13 +9,12 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.drive.driven import inputs
-from asperity.drive.lacking import require_all
 from asperity.drive.problem import PLACES, DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
 from asperity.drive.reduced.reduction import reduction
 from asperity.drive.result import DriveResult
-from asperity.drive.solve import prepare as prepare_drive
+from asperity.drive.solve import prepare_shaken
 from asperity.errors import AsperityError
 from asperity.results import Result, quantity
 from asperity.results.dataset import Labels
@@ -140,11 +138,7 @@ def _told(value: float) -> float | None:
 
 def prepare(case: Case) -> DriveProblem:
     """Return the problem of a case, with a vibration; InputError where it cannot be solved."""
-    require_all(case, must_shake=True, protocol="steady")
-    problem = prepare_drive(case)
-    _ = problem.vibrated
-    plain = problem.drive.model_copy(update={"protocol": "steady"})
-    problem = dataclasses.replace(problem, drive=plain)
+    problem = prepare_shaken(case, "steady")
     for mode in PLACES:
         problem.shaken(mode, problem.amplitude)
     return problem

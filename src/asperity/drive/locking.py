@@ -8,7 +8,6 @@ flanks creep at :math:`v_a\sin(\pi\phi/2)`. Only asperities that stick until the
 under the smallest vibration (Coulomb, Dahl's exponent 0); those of exponent 1 creep at any.
 """
 
-import dataclasses
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, NamedTuple
@@ -19,7 +18,6 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.drive.driven import inputs
-from asperity.drive.lacking import require_all
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.many import solve_many
@@ -27,7 +25,7 @@ from asperity.drive.protocols.solve import asked, least_creep
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult
-from asperity.drive.solve import prepare as prepare_drive
+from asperity.drive.solve import prepare_shaken
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.friction import Friction
 from asperity.results import Result, quantity
@@ -107,11 +105,7 @@ class Locking(Result):
 
 def prepare(case: Case) -> DriveProblem:
     """Return the problem of a case, its motor off; InputError where it cannot be solved."""
-    require_all(case, must_shake=True, protocol="back-drive")
-    problem = prepare_drive(case)
-    _ = problem.vibrated
-    plain = problem.drive.model_copy(update={"protocol": "back-drive"})
-    return dataclasses.replace(problem, drive=plain)
+    return prepare_shaken(case, "back-drive")
 
 
 def answer(problem: DriveProblem, run: Run) -> Locking:

@@ -1,6 +1,9 @@
 """The command `drive`: a gearset under load, and under vibration where there is one."""
 
+import dataclasses
+
 from asperity.casefile import Case
+from asperity.drive.lacking import require_all
 from asperity.drive.models import model_of
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.solve import check, solve_shaken
@@ -31,6 +34,15 @@ def prepare(case: Case, *, static: bool = False) -> DriveProblem:
         with in_proportion():
             check(problem, ReducedModel(problem, reduction(problem, Run())))
     return problem
+
+
+def prepare_shaken(case: Case, protocol: str) -> DriveProblem:
+    """Return the problem of a case with a vibration, under a protocol in place of its own."""
+    require_all(case, must_shake=True, protocol=protocol)
+    problem = prepare(case)
+    _ = problem.vibrated
+    drive = problem.drive.model_copy(update={"protocol": protocol})
+    return dataclasses.replace(problem, drive=drive)
 
 
 def answer(problem: DriveProblem, run: Run) -> Result:
