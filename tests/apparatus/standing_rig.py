@@ -235,9 +235,9 @@ class Procedure:
         """Number of the guardian's process."""
         return int((self.folder / "guardian").read_text())
 
-    def ended(self):
+    def ended(self, patience=PATIENT):
         """Wait for its end; returns its exit code, negative if a signal ended it."""
-        waited_for(self._gone)
+        waited_for(self._gone, patience)
         return os.waitstatus_to_exitcode(self._status)
 
     def _gone(self):
@@ -263,9 +263,9 @@ class Procedure:
             self.ended()
 
 
-def waited_for(what):
+def waited_for(what, patience=PATIENT):
     """Wait until something is so; returns what it gives."""
-    last = time.monotonic() + PATIENT
+    last = time.monotonic() + patience
     while not (found := what()):
         assert time.monotonic() < last, "nothing came"
         time.sleep(0.01)
