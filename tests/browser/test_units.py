@@ -170,3 +170,45 @@ def test_a_slider_and_a_curve_are_in_units_of_the_us(seen):
     page.get_by_label("Over a cycle as table", exact=True).click()
     table = page.get_by_role("region", name="Over a cycle, table")
     expect(table.get_by_role("columnheader", name="friction (lbf)")).to_be_visible()
+
+
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+def numbers_of(cell):
+    return [float(text) for text in NUMBER.findall(cell)]
+
+
+def bare(cell):
+    return NUMBER.sub("#", cell)
+
+
+def test_a_table_that_a_command_tells_is_that_of_the_command_line(seen):
+    from asperity import rate
+    from asperity.results.payload import as_told
+    from asperity.results.system import shown_table
+
+    result = rate("gearset-3")
+    page = seen.open("home")
+    settled(page)
+    choose(page, "us")
+    told = as_told(result)["tables"]
+    made = page.evaluate(
+        "(all) => import('/js/told.js').then(({ inUnits }) => all.map(inUnits))", told
+    )
+    differ = 0
+    with shown_in("us"):
+        for table, plain, ours in zip(result.tables(), told, made, strict=True):
+            for row, before, found in zip(
+                shown_table(table).rows, plain["rows"], ours["rows"], strict=True
+            ):
+                # Of a module the command line tells the diametral pitch.
+                if "modul" in " ".join(before):
+                    continue
+                wanted = [str(cell).replace("uin", "µin") for cell in row]
+                assert [bare(cell) for cell in found] == [bare(cell) for cell in wanted]
+                # The page has no more digits than are shown.
+                for one, other in zip(found, wanted, strict=True):
+                    assert numbers_of(one) == pytest.approx(numbers_of(other), rel=2e-3), row
+                differ += wanted != before
+    assert differ > 10

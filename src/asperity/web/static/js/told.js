@@ -32,7 +32,7 @@ const KEPT = ["equation", "source", "as written", "key", "keys"];
 const NUMBERS = /^[-+\d.eE]+(?: to [-+\d.eE]+)*$/;
 
 /** A table in the units that the reader is shown: by its column of units, or by those above numbers. */
-function inUnits({ columns, rows, title, remarks }) {
+export function inUnits({ columns, rows, title, remarks }) {
   const place = columns.findIndex(({ heading }) => heading === "unit");
   const heads = columns.map(({ heading }) => headed(heading));
   const all = headed(title);
@@ -43,7 +43,7 @@ function inUnits({ columns, rows, title, remarks }) {
     title: place < 0 ? all.head : inText(title), remarks: remarks.map(inText),
     columns: columns.map((one, at) => ({ ...one, heading: place < 0 ? heads[at].head : one.heading })),
     rows: rows.map((row) => row.map((text, at) => (at === place ? shown(0, text)[1]
-      : cell(text, place < 0 ? heads[at].unit || all.unit : row[place], columns[at])))),
+      : cell(text, place < 0 ? (to(heads[at].unit) ? heads[at] : all).unit : row[place], columns[at])))),
   };
 }
 
