@@ -186,7 +186,7 @@ def bare(cell):
 def test_a_table_that_a_command_tells_is_that_of_the_command_line(seen):
     from asperity import rate
     from asperity.results.payload import as_told
-    from asperity.results.system import shown_table
+    from asperity.results.unit_systems import shown_table
 
     result = rate("gearset-3")
     page = seen.open("home")
