@@ -23,6 +23,8 @@ _EXACT = 1e-9
 _MU, _S_MAX = 0.1, 1.0
 _SLIPS = ("128", "129")
 """Brackets that the machine lost: Appendix E has them (DDSINBDDG1, DDSINBDDG2)."""
+_SQUARED = ("113", "135")
+"""A square over ``2 s' eta* dy sin alpha`` that (113) and (135) share and that neither uses."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,8 +63,13 @@ def scheme(at: Before, x: complex, y: complex, p: complex) -> dict[str, complex]
     }  # fmt: skip
 
 
-def printed(at: Before, x: float, y: float, p: float) -> dict[str, tuple[float, float]]:
-    """Return what each printed derivative gives and what it should, by equation number."""
+def printed(
+    at: Before, x: float, y: float, p: float, *, squared: bool = True
+) -> dict[str, tuple[float, float]]:
+    """Return what each printed derivative gives and what it should, by equation number.
+
+    ``squared`` keeps the square that (113) and (135) have over ``2 s' eta* dy sin alpha``.
+    """
     q = {name: value.real for name, value in scheme(at, x, y, p).items()}
     dx, dy, dp = (
         {name: value.imag / _STEP for name, value in scheme(at, *moved).items()}
@@ -75,6 +82,9 @@ def printed(at: Before, x: float, y: float, p: float) -> dict[str, tuple[float, 
     sign_1, sign_2 = np.sign(q["v_1"]), np.sign(q["v_2"])
     left_1, left_2 = 1.0 - at.s_0 * sign_1 / _S_MAX, 1.0 - s * sign_2 / _S_MAX
     k = _MU * p / _S_MAX
+    share = 2.0 * e * step_y * dx["s sin_a"]
+    if squared:
+        share *= 2.0 * (2.0 * e * step_y * q["s sin_a"])
     found = {
         "98": (reach / mn, dx["mn"]),
         "100": (dx["mn"], dx["v_1"]),
@@ -87,7 +97,7 @@ def printed(at: Before, x: float, y: float, p: float) -> dict[str, tuple[float, 
         "111": (-2.0 * reach * off**2 / mn**4, dx["sin_a^2"]),
         "113": (
             0.5 / mn_2 * (dx["(s cos_a)^2"] + 2.0 * step_y * dx["s sin_a"] + dx["(s sin_a)^2"]
-                          - 2.0 * e * step_y * dx["s sin_a"]),
+                          - share),
             dx["mn_2"],
         ),
         "114": (
@@ -122,9 +132,7 @@ def printed(at: Before, x: float, y: float, p: float) -> dict[str, tuple[float, 
         "132": (sin_a**2 * dx["s^2"] + s**2 * dx["sin_a^2"], dx["(s sin_a)^2"]),
         "133": (2.0 * y * (sin_a * dx["s"] + s * dx["sin_a"]), 2.0 * y * dx["s sin_a"]),
         "134": (2.0 * at.n_y * (sin_a * dx["s"] + s * dx["sin_a"]), 2.0 * at.n_y * dx["s sin_a"]),
-        "135": (
-            2.0 * e * step_y * (sin_a * dx["s"] + s * dx["sin_a"]), 2.0 * e * step_y * dx["s sin_a"]
-        ),
+        "135": (2.0 * e * step_y * (sin_a * dx["s"] + s * dx["sin_a"]), share),
     }  # fmt: skip
     for axis, number, over, b in (("x", 136, dx, "cos_b"), ("x", 137, dy, "cos_b"),
                                   ("y", 139, dx, "sin_b"), ("y", 140, dy, "sin_b")):  # fmt: skip
@@ -142,8 +150,11 @@ def printed(at: Before, x: float, y: float, p: float) -> dict[str, tuple[float, 
     return found | {number: (0.0, value) for number, value in vanish.items()}
 
 
-def worst() -> dict[str, float]:
-    """Return how far each printed derivative is off at most, over many steps, by its number."""
+def worst(*, squared: bool = True) -> dict[str, float]:
+    """Return how far each printed derivative is off at most, over many steps, by its number.
+
+    ``squared`` as `printed` has it.
+    """
     random = np.random.default_rng(7)
     off: dict[str, float] = {}
     for _ in range(_TRIALS):
@@ -153,7 +164,7 @@ def worst() -> dict[str, float]:
         at = Before(m_x, m_y, n_y, s_0, random.uniform(0.1, 0.9), random.choice([1.0, 2.0]))
         x = m_x + s_0 * np.cos(angle) + random.uniform(-0.1, 0.1)
         y = n_y + random.uniform(-0.1, 0.1)
-        for number, (one, other) in printed(at, float(x), float(y), 1.0).items():
+        for number, (one, other) in printed(at, float(x), float(y), 1.0, squared=squared).items():
             off[number] = max(off.get(number, 0.0), abs(one - other) / (1.0 + abs(other)))
     return off
 
@@ -162,22 +173,31 @@ def worst() -> dict[str, float]:
 def _derivatives() -> Finding:
     off = worst()
     wrong = [number for number, error in off.items() if error > _EXACT]
-    charged = [number for number in wrong if number not in _SLIPS]
+    unsquared = worst(squared=False)
+    stray = [number for number in wrong if number in _SQUARED and unsquared[number] < _EXACT]
     read = [number for number in wrong if number in _SLIPS]
+    charged = [number for number in wrong if number not in (*stray, *read)]
     return Finding.judged(
         {f"“the sequence of equations (38)-(40), (77)-(90), (34) and (91)-(141)”: ({number})": False
          for number in charged}
         | {f"{len(off) - len(wrong)} of them as they stand": True},
         f"{len(off) - len(wrong)} of {len(off)} are; ({'), ('.join(charged)}) is not; "
-        f"({'), ('.join(read)}) are as Appendix E has them",
+        f"({'), ('.join(read)}) are as Appendix E has them, "
+        f"({'), ('.join(stray)}) but for a square",
         "(114) lacks the factor that takes the share eta* off s' sin alpha: a term that is gone, "
         "which an error of reading hardly explains; in Appendix E, where eta* is zero, it does "
         "nothing. (128) and (129) lack brackets in the text that "
         "we have, where the box of y was read as one, and (82) has lost a prime; Appendix E has "
-        "all three right, so they are charged to the reading. Differentiated by complex steps at "
-        "random steps of the scheme, each printed equation given the true values of what it is "
-        "made from, (82) put right.",
+        "all three right, so they are charged to the reading. (113) and (135) have a square over "
+        "the last of their terms, which neither uses: without it both are right. None of these is "
+        "counted among those that stand. Differentiated by complex steps at random steps of the "
+        "scheme, each printed equation given the true values of what it is made from, (82) put "
+        "right; a dropped prime is not counted.",
         {f"error_{number}": error for number, error in off.items()
          if error > _EXACT},
         ["asperity.thesis.contact.derivatives.worst()"],
+        assumed="The time step as the unit of time, as Appendix E has it, which leaves it out. "
+        "With (80) and (87) as printed, which divide by it, (100), (116) and (117) lack that "
+        "division and (102), (119) and (120) the product that takes it away again; but the second "
+        "term of (119) holds v_r2 itself, and would be off by the step.",
     )  # fmt: skip

@@ -126,8 +126,10 @@ def _savings() -> Finding:
         f"with friction reversed all the time, {floor:.2f} for the thesis's "
         f"{SHAKEN / UNSHAKEN:.2f}; where both flanks hammer that bound does not hold, and "
         "our march in balance leaves "
-        f"{marched[0]:.2f} to {marched[-1]:.2f}, the inertias, damping and backlash each a third "
-        f"and three times ours ({len(marched)} of {1 + len(changed)} settled). A mean that is read "
+        f"{marched[0]:.2f} to {marched[-1]:.2f}, at the highest k_w, the two inertias, the "
+        "contact's damping and the backlash one at a time a third and three times ours "
+        f"({len(marched)} of {1 + len(changed)} settled; the shaft's damping and the hob stayed). "
+        "A mean that is read "
         "while the wheel still coasts can be as low (claim 7.3), but the mesh does not give the "
         "wheel its torque then. The saving itself, by its own two torques, is right, rounded.",
         {
@@ -214,7 +216,8 @@ def _motor() -> Finding:
         f"a motor of {mass:.1f} kg, some {1e3 * min(diameters):.0f} to {1e3 * max(diameters):.0f} "
         f"mm thick, saves all four at {ratio:.2f} of the torque",
         "Arithmetic: with torque, and mass, as diameter squared times length, the four numbers "
-        f"follow from its own ratio of {ratio:.2f}, of one motor. Whether the torque falls to that "
+        f"agree with its own ratio of {ratio:.2f}, of one motor whose mass, diameter, length and "
+        "price are free. Whether the torque falls to that "
         "is claims 7.3 and 7.11. The motor would be "
         f"one for short duty, where {UNSHAKEN:g} N m all the "
         f"time take {before.mass:g} kg (frame {before.name}) and {SHAKEN:g} N m {after.mass:g} kg "

@@ -158,7 +158,9 @@ def _influences() -> Finding:
         },
         ", ".join(f"{i.quantity.symbol} {i.elasticity:+.2f}" for i in study.influences),
         "The numbers are relative changes of eta_z over that of the input, at gearset 2 as it is. "
-        "The ratio is varied without rounding the wheel's teeth.",
+        "The signs of U and m_x1 are no test of their own: the wheel's teeth were found by the "
+        "limits of claim 3.4, towards which the efficiency falls. The ratio is varied without "
+        "rounding these teeth.",
         {f"{name}_elasticity": slope for name, slope in slopes.items()},
         [GEARSET_2.command("sensitivity")],
         assumed=f"The yardstick of “small”: a share of {_SMALL:g}.",

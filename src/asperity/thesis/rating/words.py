@@ -269,7 +269,8 @@ def _contact_pressure() -> Finding:
         "and does not count anew. Not used to reconstruct gearset 3.",
         {"sigma_line_23_Nm_MPa": low, "sigma_line_366_Nm_MPa": high},
         gears,
-        assumed="A Hertz line contact, though the thesis does not say that it is one; sigma_Hm of "
+        assumed="A Hertz line contact, as (70) is of the discs whose pressure the gearset is to "
+        "have, though the thesis does not say so of the gearset; sigma_Hm of "
         f"ISO/TR 14521 would be {mean:.0f} N/mm2 for the second.",
     )
 

@@ -97,9 +97,9 @@ def _without_transfer() -> Finding:
         "Seen on a figure from 0 to 1 that must show; Figure 7.8 of the thesis is lost. With the "
         "transfer "
         "kept, as section 7.3 has it, the two agree: claim 7.8; along the sliding, where eta_y "
-        "does nothing (claim 4.9), they do without it. Sliding bodies, periodic; the "
-        "plastic branch of Appendix E is left out.",
+        "does nothing (claim 4.9), they do without it.",
         {f"apart_at_k_{one:g}": float(value) for one, value in zip(k, apart, strict=True)},
         [base, body],
-        assumed=f"The yardstick, {_READ:g} of mu F_N: what can be read off such a figure.",
+        assumed=f"The yardstick, {_READ:g} of mu F_N: what can be read off such a figure. Sliding "
+        "bodies for the block, in their periodic states, without the plastic branch of Appendix E.",
     )

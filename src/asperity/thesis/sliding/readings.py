@@ -156,18 +156,19 @@ def _undulating() -> Finding:
         },
         ", ".join(f"{swing:.4f} N at {theta} deg" for swing, theta in zip(printed, angles,
                                                                           strict=True)),
-        "An artefact of the printed scheme: (20) stretches the drive by the relative position of "
-        f"(42), in which the base's motion is, and twice k_d u_a is {stretch:.4f} N. With the "
-        f"body's "
-        f"own position the undulation is {converged[0]:.4f} N along the drive, most of which is "
-        f"the slow ringing of the drive. Between lowest and highest of the last {_END * 1e3:g} ms "
-        "at k = 6.",
+        "It follows from the printed scheme: (20) stretches the drive by the relative position "
+        f"of (42), in which the base's motion is, so that twice k_d u_a, {stretch:.4f} N, times "
+        "the cosine of the direction undulates, and could neither be absent nor grow towards "
+        "transverse. What is more is mostly the ringing of the drive: with the body's own "
+        f"position, which the scheme does not take, {converged[0]:.4f} N are left along the drive. "
+        f"Between lowest and highest of the last {_END * 1e3:g} ms at k = 6.",
         {
             f"{name}_{theta}deg_N": swing
             for name, group in (("two_phase", printed), ("exponential", converged))
             for theta, swing in zip(angles, group, strict=True)
         },
         [body for group in bodies.values() for body in group],
+        verdict=ARITHMETIC,
     )  # fmt: skip
 
 
