@@ -154,7 +154,7 @@ def test_the_force_across_the_flanks_gives_torque_and_efficiency(ours):
     assert round_wheel * given.wheel_mean_diameter / 2e3 == pytest.approx(10.0)
 
 
-def test_wear_adds_up_over_loads_and_the_greatest_torque_is_for_all_cycles(ours):
+def test_wear_adds_up_over_loads_and_the_rated_torque_is_for_all_cycles(ours):
     first, second = (f"{{duration='5 h', output_torque='{torque} N m'}}" for torque in (10, 5))
     both, one, half = (
         own_table.judged(*_of(f"operation.duty_cycle=[{parts}]"))
@@ -162,7 +162,14 @@ def test_wear_adds_up_over_loads_and_the_greatest_torque_is_for_all_cycles(ours)
     )
     assert both.worn == pytest.approx(one.worn + half.worn)
     assert both.cycles == pytest.approx(one.cycles + half.cycles)
-    assert both.root == one.root
+    assert both.root == one.root == half.root
+    # Above every part the rated torque is what root and flank are judged by; wear is the parts'.
+    more = own_table.judged(
+        *_of("operation.output_torque=40 N m", f"operation.duty_cycle=[{first}, {second}]")
+    )
+    assert more.root == pytest.approx(4.0 * both.root)
+    assert more.flank == pytest.approx(2.0 * both.flank)
+    assert (more.worn, more.cycles) == (both.worn, both.cycles)
 
 
 def _of(*settings):

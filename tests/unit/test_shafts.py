@@ -311,9 +311,45 @@ def test_many_loads_have_what_each_has_alone():
     for own, load in list(zip(many, loads, strict=True))[::7]:
         first = step % load
         torque = "operation.output_torque='250 N m'"
-        (alone,) = solved(torque, f"operation.duty_cycle=[{first}]").loads
+        alone, *rated = solved(torque, f"operation.duty_cycle=[{first}]").loads
+        assert len(rated) == (load[0] < 250.0)
         for key in ("tangential", "axial", "radial", "driven", "viscosity", "speed", "hours"):
             assert getattr(own, key) == pytest.approx(getattr(alone, key), rel=1e-12)
+
+
+def test_a_rated_torque_above_every_part_is_seen_by_all_but_the_lives():
+    rated, known = solved("operation.output_torque='1000 N m'"), solved()
+    # Of one torque, with the friction and the speed that the hardest part has.
+    (alone,) = {load for load in rated.loads if load.like is not None}
+    hardest = known.loads[0]
+    assert (alone.hours, alone.torque, alone.speed) == (0.0, 1000.0, hardest.speed)
+    for key in ("tangential", "axial", "radial", "driven"):
+        assert getattr(alone, key) == pytest.approx(4.0 * getattr(hardest, key), rel=1e-12)
+    assert rated.worm_deflection == pytest.approx(4.0 * known.worm_deflection, rel=1e-9)
+    for own, other in zip(rated.rows, known.rows, strict=True):
+        assert own.name == other.name
+        if own.standard == "ISO 281":
+            assert own == other
+        elif own.standard == "ISO 76":
+            assert own.value == pytest.approx(other.value / 4.0, rel=1e-9)
+        else:
+            assert own.value < 0.3 * other.value
+    # As high as a part there is no load beside them.
+    assert len(known.loads) == 3
+
+
+def test_a_rated_torque_has_each_rotation_that_a_part_has():
+    steps = (
+        "operation.duty_cycle=[{duration='1 h',output_torque='100 N m',rotation='clockwise'},"
+        "{duration='1 h',output_torque='80 N m',rotation='anticlockwise',drives='load'}]"
+    )
+    found = solved(steps)
+    rated = [load for load in found.loads if load.like is not None]
+    assert [(one.rotation, one.lets_down) for one in rated] == [
+        ("clockwise", False), ("anticlockwise", True),
+    ]  # fmt: skip
+    for case in found.found["worm_shaft"].every:
+        assert [one.condition.rotation for one in case] == ["clockwise", "anticlockwise"] * 2
 
 
 def test_a_spectrum_gives_the_loads_of_a_duty_cycle():
