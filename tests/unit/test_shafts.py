@@ -71,6 +71,14 @@ TWO = "[{at='10 mm',carries='both'},{at='90 mm'}]"
     ("setting", "said"),
     [
         ("worm_shaft.mesh='250 mm'", "worm_shaft.mesh is 250 mm; the sections end at 190 mm"),
+        (
+            "worm_shaft.mesh='20 mm'",
+            "worm_shaft.mesh is 20 mm; its threads are at 60 to 150 mm from the end, and the teeth",
+        ),
+        (
+            "worm_shaft.bearing=[{at='110 mm',carries='both'},{at='180 mm'}]",
+            "worm_shaft.mesh is 105 mm; its bearings are at 110 to 180 mm from the end, and the",
+        ),
         ("worm_shaft.mesh='250'", "worm_shaft.mesh is 250 without a unit"),
         ("worm_shaft.section=[]", "worm_shaft.section is []; it must be a list of tables"),
         ("worm_shaft.section=3", "worm_shaft.section is 3; it must be a list of tables"),
