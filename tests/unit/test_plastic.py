@@ -115,6 +115,23 @@ def test_it_is_told_in_german_too(ours):
     assert german.missing <= {"gearset 3"}
 
 
+def test_what_does_not_count_is_said_and_no_table_is_empty(ours):
+    steps = "spectrum.step=[{duration='5 h',output_torque='10 N m'}]"
+    left_out = ("operation.wheel_revolutions", "operation.through_travel_torque")
+    bare = case().replace_values(dict.fromkeys(left_out))
+    duty = bare.replace([steps, "spectrum.duty=S3 25 %", "housing.area=1 m**2"])
+    told = [note for note in rate_case(duty).notes if "does not count" in note]
+    assert [note.split(" does")[0] for note in told] == ["S3 25 %", "[housing]"]
+    rated = rate_case(bare.replace([steps]))
+    assert not [note for note in rated.notes if "does not count" in note]
+    assert all(table.rows or not table.columns for table in rated.tables())
+    german = catalogue_of("de")
+    with spoken(german):
+        german.missing.clear()
+        rate_case(duty).to_html()
+    assert german.missing <= {"gearset 3"}
+
+
 def test_stresses_are_those_that_the_standard_has_for_the_same_geometry(ours):
     # Of bronze with the moduli of the plastic; its wear leaves the root as it was.
     rated = rate_case(case())

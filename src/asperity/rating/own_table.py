@@ -7,6 +7,7 @@ over the loads.
 """
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from asperity.arrays import Real
@@ -170,4 +171,18 @@ def rows_of(given: Inputs) -> tuple[tuple[Row, ...], tuple[str, ...]]:
         f"rated torque for all cycles; teeth {100.0 * found.efficiency:.3g} % efficient by the "
         f"friction of {plastic.friction:g} that it states"
     )
-    return tuple(rows), (note,)
+    return tuple(rows), (note, *_uncounted(given))
+
+
+def _uncounted(given: Inputs) -> Iterator[str]:
+    """Say what of a case makes no difference to a wheel of plastic."""
+    spectrum = given.operation.spectrum
+    for there, what in (
+        (spectrum is not None and given.how.kind != "S1", spectrum and spectrum.duty),
+        (given.operation.housing is not None, "[housing]"),
+    ):
+        if there:
+            yield (
+                f"{what} does not count for a wheel of plastic: its teeth have "
+                "operation.oil_temperature all the time"
+            )
