@@ -33,8 +33,9 @@ BALL = {
     "kind": "deep groove", "bore": "30 mm", "series": "02", "dynamic_rating": "20 kN",
     "static_rating": "11 kN", "f0": 13.8,
 }  # fmt: skip
-ANGULAR = BALL | {"kind": "angular contact", "contact_angle": "40 deg"}
-TAPER = BALL | {"kind": "taper", "e": 0.37, "Y": 1.6, "Y0": 0.9}
+ROLLER = {key: value for key, value in BALL.items() if key != "f0"}
+ANGULAR = ROLLER | {"kind": "angular contact", "contact_angle": "40 deg"}
+TAPER = ROLLER | {"kind": "taper", "e": 0.37, "Y": 1.6, "Y0": 0.9}
 
 
 @pytest.mark.parametrize(
@@ -45,6 +46,14 @@ TAPER = BALL | {"kind": "taper", "e": 0.37, "Y": 1.6, "Y0": 0.9}
         (BALL | {"f0": None}, "bearing.f0 is missing; a deep groove bearing needs it"),
         ({k: v for k, v in BALL.items() if k != "series"}, "bearing.outside_diameter is missing"),
         (ANGULAR | {"contact_angle": "35 deg"}, "bearing.contact_angle is 35 deg; factors are"),
+        (
+            TAPER | {"contact_angle": "15 deg"},
+            "bearing.contact_angle is given, which does not count with kind = 'taper'",
+        ),
+        (
+            ANGULAR | {"f0": 13.8},
+            "bearing.f0 is given, which does not count with kind = 'angular contact'",
+        ),
         (TAPER | {"Y": None}, "bearing.Y is missing; a taper bearing needs it"),
         (BALL | {"dynamic_rating": "20"}, "bearing.dynamic_rating is '20'"),
         (BALL | {"dynamic_rating": "-20 kN"}, "bearing.dynamic_rating is '-20 kN'"),
