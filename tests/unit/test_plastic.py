@@ -111,6 +111,9 @@ def test_it_is_told_in_german_too(ours):
     with spoken(german):
         rated = rate_case(case())
         assert "hält nach eigener Tabelle" in rated.brief()
+        assert "nach eigener Tabelle, " in rated.brief()
+        steel = "gearset.worm_material=16MnCr5"
+        assert "taken for" not in rate_case(case(steel)).brief()
         rated.to_html()
     assert german.missing <= {"gearset 3"}
 
