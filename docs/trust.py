@@ -53,7 +53,7 @@ LIMITS = (
 LISTED = (
     ("tooth proportions", "gearset.proportions:RULES", "gearset.proportions:SOURCES"),
     ("discs and hobs of flanks", "flanks.parameters:SOURCES", "flanks.parameters:SOURCES"),
-    ("hobs of DIN 3976", "gearset.shelf:PAIRS", "gearset.shelf:PAIRS_SOURCE"),
+    ("hobs of DIN 3976", "gearset.hob_shelf:PAIRS", "gearset.hob_shelf:PAIRS_SOURCE"),
     ("pins and balls", "flanks.measuring.measures:SIZES",
      "flanks.measuring.measures:SOURCES.measuring pins and balls"),
     ("tolerances: series 25", "gearset.tolerancing.thickness:TOLERANCES",

@@ -45,7 +45,6 @@ _STRETCH = 16384 * BLOCK
 _FEWEST = 2  # a batch of two costs no more than two single marches
 # Elastic force over the penetration: a number, and one times its root.
 _FORCES = {LINEAR: (1.0, 0.0), HERTZ: (0.0, 1.5**-1.5)}
-
 # Rows of what the single-body kernels carry, by its name there.
 _STATE_ROWS = {
     "stretch": row.STRETCH,
