@@ -129,6 +129,11 @@ def test_cycles_follow_the_equation_of_one_mass_step_by_step():
     assert found == pytest.approx(top, rel=1e-9)
 
 
+def test_a_speed_of_measurement_without_a_loss_that_was_measured_is_refused():
+    with pytest.raises(InputError, match=r"housing\.measured_at is given without a loss"):
+        Housing(measured_at="1400 rpm")
+
+
 def test_measured_losses_take_the_place_of_the_formulas_at_every_speed():
     own = {**KELVIN, "idle_loss": "30 W", "seal_loss": "8 W", "measured_at": "1400 rpm"}
     run = Operation(**RUN | {"worm_speed": "700 rpm"}, housing=Housing(**own))

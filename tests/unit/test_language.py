@@ -2,12 +2,14 @@
 
 import re
 
+import numpy as np
 import pytest
 
 from asperity.casefile.project import Project
 from asperity.commands.listed import COMMANDS
 from asperity.commands.shown import shown_as
 from asperity.errors import InputError
+from asperity.flanks.measuring.corners import Corner, Place, Side, corner_table
 from asperity.python import size
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
@@ -160,6 +162,25 @@ def test_german_tables_of_a_designers_commands_leave_nothing_english(command, ca
             shown_text(text)
         rendered(result.tables())
     assert german.missing <= {read["gearset"].name}
+
+
+def test_german_tables_of_tolerances_by_the_exact_flanks_leave_nothing_english():
+    """Words of both tables, without the flanks that the numbers come from."""
+    names = "hob and worm", "thread", "tooth", "centre distance", "axial offset", "shaft angle"
+    told = f"on the mean circle: {'; '.join(f'{name} -1 to 1 um' for name in names)}"
+    side = Side(0.18, 1.7, 0.011, 1e-4)
+    nominal, corner = (
+        Corner(place, {1: side, -1: side}, np.zeros((1, 1)))
+        for place in (Place(), Place(0.1, -0.1, 0.1))
+    )
+    german = catalogue_of("de")
+    german.missing.clear()
+    with spoken(german):
+        for error in (1.0, 1e-9):
+            rendered((corner_table((corner,), nominal, error),))
+        for text in (told, "Backlash, by the exact flanks", "upper allowance of the tooth"):
+            shown_text(text)
+    assert not german.missing
 
 
 def test_nothing_of_short_words_is_taken_for_a_symbol(words):

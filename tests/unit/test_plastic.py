@@ -111,7 +111,27 @@ def test_it_is_told_in_german_too(ours):
     with spoken(german):
         rated = rate_case(case())
         assert "hält nach eigener Tabelle" in rated.brief()
+        assert "nach eigener Tabelle, " in rated.brief()
+        steel = "gearset.worm_material=16MnCr5"
+        assert "taken for" not in rate_case(case(steel)).brief()
         rated.to_html()
+    assert german.missing <= {"gearset 3"}
+
+
+def test_what_does_not_count_is_said_and_no_table_is_empty(ours):
+    steps = "spectrum.step=[{duration='5 h',output_torque='10 N m'}]"
+    left_out = ("operation.wheel_revolutions", "operation.through_travel_torque")
+    bare = case().replace_values(dict.fromkeys(left_out))
+    duty = bare.replace([steps, "spectrum.duty=S3 25 %", "housing.area=1 m**2"])
+    told = [note for note in rate_case(duty).notes if "does not count" in note]
+    assert [note.split(" does")[0] for note in told] == ["S3 25 %", "[housing]"]
+    rated = rate_case(bare.replace([steps]))
+    assert not [note for note in rated.notes if "does not count" in note]
+    assert all(table.rows or not table.columns for table in rated.tables())
+    german = catalogue_of("de")
+    with spoken(german):
+        german.missing.clear()
+        rate_case(duty).to_html()
     assert german.missing <= {"gearset 3"}
 
 
@@ -154,7 +174,7 @@ def test_the_force_across_the_flanks_gives_torque_and_efficiency(ours):
     assert round_wheel * given.wheel_mean_diameter / 2e3 == pytest.approx(10.0)
 
 
-def test_wear_adds_up_over_loads_and_the_greatest_torque_is_for_all_cycles(ours):
+def test_wear_adds_up_over_loads_and_the_rated_torque_is_for_all_cycles(ours):
     first, second = (f"{{duration='5 h', output_torque='{torque} N m'}}" for torque in (10, 5))
     both, one, half = (
         own_table.judged(*_of(f"operation.duty_cycle=[{parts}]"))
@@ -162,7 +182,14 @@ def test_wear_adds_up_over_loads_and_the_greatest_torque_is_for_all_cycles(ours)
     )
     assert both.worn == pytest.approx(one.worn + half.worn)
     assert both.cycles == pytest.approx(one.cycles + half.cycles)
-    assert both.root == one.root
+    assert both.root == one.root == half.root
+    # Above every part the rated torque is what root and flank are judged by; wear is the parts'.
+    more = own_table.judged(
+        *_of("operation.output_torque=40 N m", f"operation.duty_cycle=[{first}, {second}]")
+    )
+    assert more.root == pytest.approx(4.0 * both.root)
+    assert more.flank == pytest.approx(2.0 * both.flank)
+    assert (more.worn, more.cycles) == (both.worn, both.cycles)
 
 
 def _of(*settings):

@@ -33,8 +33,9 @@ BALL = {
     "kind": "deep groove", "bore": "30 mm", "series": "02", "dynamic_rating": "20 kN",
     "static_rating": "11 kN", "f0": 13.8,
 }  # fmt: skip
-ANGULAR = BALL | {"kind": "angular contact", "contact_angle": "40 deg"}
-TAPER = BALL | {"kind": "taper", "e": 0.37, "Y": 1.6, "Y0": 0.9}
+ROLLER = {key: value for key, value in BALL.items() if key != "f0"}
+ANGULAR = ROLLER | {"kind": "angular contact", "contact_angle": "40 deg"}
+TAPER = ROLLER | {"kind": "taper", "e": 0.37, "Y": 1.6, "Y0": 0.9}
 
 
 @pytest.mark.parametrize(
@@ -45,6 +46,14 @@ TAPER = BALL | {"kind": "taper", "e": 0.37, "Y": 1.6, "Y0": 0.9}
         (BALL | {"f0": None}, "bearing.f0 is missing; a deep groove bearing needs it"),
         ({k: v for k, v in BALL.items() if k != "series"}, "bearing.outside_diameter is missing"),
         (ANGULAR | {"contact_angle": "35 deg"}, "bearing.contact_angle is 35 deg; factors are"),
+        (
+            TAPER | {"contact_angle": "15 deg"},
+            "bearing.contact_angle is given, which does not count with kind = 'taper'",
+        ),
+        (
+            ANGULAR | {"f0": 13.8},
+            "bearing.f0 is given, which does not count with kind = 'angular contact'",
+        ),
         (TAPER | {"Y": None}, "bearing.Y is missing; a taper bearing needs it"),
         (BALL | {"dynamic_rating": "20"}, "bearing.dynamic_rating is '20'"),
         (BALL | {"dynamic_rating": "-20 kN"}, "bearing.dynamic_rating is '-20 kN'"),
@@ -71,6 +80,14 @@ TWO = "[{at='10 mm',carries='both'},{at='90 mm'}]"
     ("setting", "said"),
     [
         ("worm_shaft.mesh='250 mm'", "worm_shaft.mesh is 250 mm; the sections end at 190 mm"),
+        (
+            "worm_shaft.mesh='20 mm'",
+            "worm_shaft.mesh is 20 mm; its threads are at 60 to 150 mm from the end, and the teeth",
+        ),
+        (
+            "worm_shaft.bearing=[{at='110 mm',carries='both'},{at='180 mm'}]",
+            "worm_shaft.mesh is 105 mm; its bearings are at 110 to 180 mm from the end, and the",
+        ),
         ("worm_shaft.mesh='250'", "worm_shaft.mesh is 250 without a unit"),
         ("worm_shaft.section=[]", "worm_shaft.section is []; it must be a list of tables"),
         ("worm_shaft.section=3", "worm_shaft.section is 3; it must be a list of tables"),
@@ -311,9 +328,45 @@ def test_many_loads_have_what_each_has_alone():
     for own, load in list(zip(many, loads, strict=True))[::7]:
         first = step % load
         torque = "operation.output_torque='250 N m'"
-        (alone,) = solved(torque, f"operation.duty_cycle=[{first}]").loads
+        alone, *rated = solved(torque, f"operation.duty_cycle=[{first}]").loads
+        assert len(rated) == (load[0] < 250.0)
         for key in ("tangential", "axial", "radial", "driven", "viscosity", "speed", "hours"):
             assert getattr(own, key) == pytest.approx(getattr(alone, key), rel=1e-12)
+
+
+def test_a_rated_torque_above_every_part_is_seen_by_all_but_the_lives():
+    rated, known = solved("operation.output_torque='1000 N m'"), solved()
+    # Of one torque, with the friction and the speed that the hardest part has.
+    (alone,) = {load for load in rated.loads if load.like is not None}
+    hardest = known.loads[0]
+    assert (alone.hours, alone.torque, alone.speed) == (0.0, 1000.0, hardest.speed)
+    for key in ("tangential", "axial", "radial", "driven"):
+        assert getattr(alone, key) == pytest.approx(4.0 * getattr(hardest, key), rel=1e-12)
+    assert rated.worm_deflection == pytest.approx(4.0 * known.worm_deflection, rel=1e-9)
+    for own, other in zip(rated.rows, known.rows, strict=True):
+        assert own.name == other.name
+        if own.standard == "ISO 281":
+            assert own == other
+        elif own.standard == "ISO 76":
+            assert own.value == pytest.approx(other.value / 4.0, rel=1e-9)
+        else:
+            assert own.value < 0.3 * other.value
+    # As high as a part there is no load beside them.
+    assert len(known.loads) == 3
+
+
+def test_a_rated_torque_has_each_rotation_that_a_part_has():
+    steps = (
+        "operation.duty_cycle=[{duration='1 h',output_torque='100 N m',rotation='clockwise'},"
+        "{duration='1 h',output_torque='80 N m',rotation='anticlockwise',drives='load'}]"
+    )
+    found = solved(steps)
+    rated = [load for load in found.loads if load.like is not None]
+    assert [(one.rotation, one.lets_down) for one in rated] == [
+        ("clockwise", False), ("anticlockwise", True),
+    ]  # fmt: skip
+    for case in found.found["worm_shaft"].every:
+        assert [one.condition.rotation for one in case] == ["clockwise", "anticlockwise"] * 2
 
 
 def test_a_spectrum_gives_the_loads_of_a_duty_cycle():

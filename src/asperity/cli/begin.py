@@ -22,7 +22,9 @@ _SPEED = typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
 def new(
     kind: Annotated[
         str,
-        typer.Argument(metavar="KIND", help="gear, duty, slide, block, drive, rig or bearing."),
+        typer.Argument(
+            metavar="KIND", help="gear, duty, slide, block, drive, rig, bearing or plastic."
+        ),
     ],
     file: Annotated[
         str, typer.Argument(metavar="FILE", help="The file to write; KIND.toml if left out.")

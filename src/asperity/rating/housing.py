@@ -80,6 +80,11 @@ class Housing(Table):
                 "housing.area and housing.area_rule are both given: give the area, or the rule "
                 "that it follows from"
             )
+        if self.measured_at is not None and self.idle_loss is None and self.seal_loss is None:
+            raise InputError(
+                "housing.measured_at is given without a loss that was measured there: give "
+                "housing.idle_loss or housing.seal_loss, or leave it out"
+            )
         given = [name for name in HEAT if getattr(self, name) is not None]
         if self.heat_capacity is not None and given:
             raise InputError(

@@ -2,10 +2,12 @@
 
 What is there are nominal stresses by the formulas of ISO/TR 14521 that know of no material but its
 moduli, and the depth that Archard's law wears off, spread over the flanks; what may be is the
-table's. The greatest torque is taken for all cycles; wear adds up over the loads.
+table's. The rated torque, which no part of a duty exceeds, is taken for all cycles; wear adds up
+over the loads.
 """
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from asperity.arrays import Real
@@ -29,7 +31,7 @@ class Found(NamedTuple):
     Attributes
     ----------
     root, flank : float
-        Nominal stresses under the greatest torque, MPa.
+        Nominal stresses under the rated torque, MPa.
     cycles : float
         Of load on a tooth over the life.
     celsius : float
@@ -69,7 +71,7 @@ def judged(given: Inputs, plastic: Plastic) -> Found:
             "standard has a heat balance: give the temperature of its teeth"
         )
     parts = given.duty or (Part(given.life, given.output_torque, given.worm_speed, 0.0),)
-    torque = given.operation.application_factor * max(float(part.torque) for part in parts)
+    torque = given.operation.application_factor * float(given.output_torque)
     force = number(wheel_tangential_force(torque, given.wheel_mean_diameter))
     thickness = number(
         strength.root_thickness(
@@ -166,7 +168,21 @@ def rows_of(given: Inputs) -> tuple[tuple[Row, ...], tuple[str, ...]]:
         )  # fmt: skip
     note = (
         f"no standard covers a wheel of plastic: {plastic.name} is judged by its own table, the "
-        f"greatest torque for all cycles; teeth {100.0 * found.efficiency:.3g} % efficient by the "
+        f"rated torque for all cycles; teeth {100.0 * found.efficiency:.3g} % efficient by the "
         f"friction of {plastic.friction:g} that it states"
     )
-    return tuple(rows), (note,)
+    return tuple(rows), (note, *_uncounted(given))
+
+
+def _uncounted(given: Inputs) -> Iterator[str]:
+    """Say what of a case makes no difference to a wheel of plastic."""
+    spectrum = given.operation.spectrum
+    for there, what in (
+        (spectrum is not None and given.how.kind != "S1", spectrum and spectrum.duty),
+        (given.operation.housing is not None, "[housing]"),
+    ):
+        if there:
+            yield (
+                f"{what} does not count for a wheel of plastic: its teeth have "
+                "operation.oil_temperature all the time"
+            )

@@ -233,7 +233,7 @@ class Rated(Result):
         tables += beside(self.rows)
         if self.holding:
             tables.append(held_table(self.holding))
-        if self.given.operation.steps is not None:
+        if self.given.operation.steps is not None and self.endurance:
             tables.append(endurance_table(self.endurance))
         tables += [starting_table(self.starting)] if self.starting else []
         if self.backlash is not None:

@@ -89,7 +89,8 @@ def _duty(rated: Reported) -> Section:
     from asperity.rating.duty_plots import plot_duty
     from asperity.rating.warming import warming
 
-    tables.append(endurance_table(rated.endurance))
+    if rated.endurance:
+        tables.append(endurance_table(rated.endurance))
     tables += [starting_table(rated.starting)] if rated.starting else []
     figure = plot_duty(rated.duty_cycle, float(iso["theta_S_lim_degC"]), warming(given, iso))
     caption = (

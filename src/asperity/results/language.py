@@ -64,9 +64,10 @@ class Catalogue:
         self.code = code
         self._kept = frozenset(kept)
         self._texts = {english: said for english, said in texts.items() if "{" not in english}
-        lines = [_line(*pair) for pair in texts.items() if "{" in pair[0]]
+        holed = [pair for pair in texts.items() if "{" in pair[0]]
         # What says more of a sentence in words of its own is nearer to it.
-        self._lines = sorted(lines, key=lambda line: -len(_HOLE.sub("", line.found.pattern)))
+        holed.sort(key=lambda pair: -len(_HOLE.sub("", pair[0])))
+        self._lines = [_line(*pair) for pair in holed]
         self._known: dict[str, str | None] = {}
         self.missing: set[str] = set()
 

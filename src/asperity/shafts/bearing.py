@@ -113,6 +113,12 @@ class RollingBearing(Sourced):
                     f"{self.table}.{key} is missing; a {self.kind} bearing needs it, as its "
                     "maker's table has it"
                 )
+        for key in dict.fromkeys(key for keys in _NEEDED.values() for key in keys):
+            if key not in _NEEDED[self.kind] and getattr(self, key) is not None:
+                raise InputError(
+                    f"{self.table}.{key} is given, which does not count with kind = "
+                    f"'{self.kind}': leave it out, or give another kind"
+                )
         if self.outside_diameter <= self.bore:
             raise InputError(
                 f"{self.table}.outside_diameter is {1e3 * self.outside_diameter:g} mm; it must be "

@@ -29,6 +29,8 @@ class Carried(NamedTuple):
         rpm.
     viscosity : float
         Of the oil, mm2/s.
+    lasts : bool
+        Whether it counts for the life, and not for static safety alone.
     """
 
     radial: float
@@ -36,6 +38,7 @@ class Carried(NamedTuple):
     hours: float
     speed: float
     viscosity: float
+    lasts: bool = True
 
 
 class Life(NamedTuple):
@@ -44,7 +47,7 @@ class Life(NamedTuple):
     Attributes
     ----------
     radial, axial : float
-        Of the load with the greatest equivalent load, N.
+        Of the load of the life with the greatest equivalent load, N.
     equivalent : float
         P of that, N; of several loads the mean P_m.
     rating_life : float
@@ -54,9 +57,9 @@ class Life(NamedTuple):
     kappa, a_iso : float or None
         Viscosity ratio and life modification factor, each the least of all loads.
     static_safety : float
-        s_0, the least of all loads.
+        s_0, the least of all loads, of the rated torque too.
     damage : tuple of float
-        Share of each load in what uses the bearing up.
+        Share of each load of the life in what uses the bearing up.
     outside : bool
         Whether the axial load is more than the table of a deep groove bearing reaches.
     """
@@ -96,10 +99,12 @@ def life_of(
     equivalents = []
     for each in loads:
         of = rolling.factors(each.axial, opposed=place.opposed)
-        load = number(np.maximum(dynamic_load(of, each.radial, each.axial), _LEAST * c))
         rest = static_load(of, peak * each.radial, peak * each.axial)
-        equivalents.append(load)
         statics.append(number(life.static_safety(c0, np.maximum(rest, _LEAST * c0))))
+        if not each.lasts:
+            continue
+        load = number(np.maximum(dynamic_load(of, each.radial, each.axial), _LEAST * c))
+        equivalents.append(load)
         lives.append(number(life.rating_life_hours(c, load, p, each.speed)))
         if options.e_c is not None:
             reference = life.reference_viscosity(each.speed, rolling.pitch_diameter)
@@ -111,6 +116,7 @@ def life_of(
             kappas.append(kappa)
             factors.append(factor)
             modified.append(number(life.modified_life(options.a_1, factor, lives[-1])))
+    loads = [each for each in loads if each.lasts]
     hours = [each.hours for each in loads]
     whole = life.spectrum_life(hours, lives)
     reached = options.a_1 * whole if not modified else life.spectrum_life(hours, modified)

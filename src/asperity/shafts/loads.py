@@ -1,5 +1,8 @@
 """What the teeth put on both shafts: each load of the life in each of four cases.
 
+A rated torque above every part of a duty is a load as well, of no time: strength, bearings at rest
+and deflection see it, as root and deflection of the standards do; lives go by the parts.
+
 The worm turns clockwise or the other way, seen from the end it is driven at, and drives the wheel
 or is driven by it. Where the load drives, the other flanks touch: axial and radial force are those
 of the worm driving, the axial one turned round, and the tangential one is F_tm2 tan(gamma - rho),
@@ -25,6 +28,8 @@ from asperity.rating.iso14521.forces import (
 )
 from asperity.rating.result import Rating
 from asperity.shafts.statics import PointLoad, Vector, mesh_load
+
+_ROUNDING = 1e-12
 
 Rotation = Literal["clockwise", "anticlockwise"]
 Drives = Literal["worm", "load"]
@@ -90,6 +95,9 @@ class Load(NamedTuple):
         Whether the load drives under it, whatever the case.
     friction : float
         Of the teeth, by which the forces were found.
+    like : int or None
+        Of the rated torque, above every part of a duty: number of the part, from 0, whose speed,
+        friction and oil it has; it counts for no life. None of a load of the life.
     """
 
     hours: float
@@ -104,6 +112,7 @@ class Load(NamedTuple):
     rotation: Literal["both", "clockwise", "anticlockwise"] = "both"
     lets_down: bool = False
     friction: float = math.nan
+    like: int | None = None
 
     def within(self, case: Condition) -> Condition:
         """Return its condition in a case: what it says of itself, else that of the case."""
@@ -128,6 +137,8 @@ def loads_of(given: Inputs, iso: Rating) -> tuple[Load, ...]:
     """Return the loads of a life, beside a rating by ISO/TR 14521.
 
     Each part of a duty cycle or spectrum is a load of its own; without one there is a single load.
+    Behind the parts stands the rated torque where it is above them all, in each rotation and drive
+    that a part has.
 
     Raises
     ------
@@ -156,7 +167,25 @@ def loads_of(given: Inputs, iso: Rating) -> tuple[Load, ...]:
             )
         load = _load(given, *of, mu, celsius)
         made.append(load._replace(rotation=step.rotation, lets_down=step.drives == "load"))
-    return tuple(made)
+    return (*made, *_rated(given, made))
+
+
+def _rated(given: Inputs, parts: Sequence[Load]) -> list[Load]:
+    """Return the rated torque as loads of no time; none where a part reaches it."""
+    torque = float(given.output_torque)
+    place = max(range(len(parts)), key=lambda number: (parts[number].torque, parts[number].speed))
+    hardest = parts[place]
+    if torque <= hardest.torque * (1.0 + _ROUNDING):
+        return []
+    mesh = float(given.wheel_mean_diameter), float(given.lead_angle), float(given.pressure_angle)
+    tangential, axial, radial, driven = forces(torque, hardest.friction, *mesh)
+    return [
+        hardest._replace(
+            hours=0.0, torque=torque, tangential=tangential, axial=axial, radial=radial,
+            driven=driven, rotation=rotation, lets_down=lets_down, like=place,
+        )
+        for rotation, lets_down in dict.fromkeys((one.rotation, one.lets_down) for one in parts)
+    ]  # fmt: skip
 
 
 def _each(given: Inputs, found: Sequence[Values], key: str) -> list[float]:

@@ -1,5 +1,6 @@
 """The tables `[worm_shaft]` and `[wheel_shaft]` of a case file."""
 
+import itertools
 import math
 from collections.abc import Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
@@ -314,7 +315,27 @@ class _Shaft(Table):
                     )
         if self.table != WormShaft.table and any(s.diameter is None for s in self.section):
             raise InputError(f"{name}.section.diameter is missing; only a worm has threads")
+        if self.table == WormShaft.table:
+            self._require_meshing()
         return self
+
+    def _require_meshing(self) -> None:
+        """Refuse a worm whose mesh is off its threads, or not between its bearings."""
+        ends = [*itertools.accumulate((each.length for each in self.section), initial=0.0)]
+        threads = [
+            span
+            for section, span in zip(self.section, itertools.pairwise(ends), strict=True)
+            if section.diameter is None
+        ]
+        within = sorted(each.at for each in self.bearing)
+        between = [(within[0], within[1])]
+        for said, spans, off in (("threads are", threads, 1e-9), ("bearings are", between, -1e-6)):
+            if spans and not any(low - off <= self.mesh <= high + off for low, high in spans):
+                there = " and ".join(f"{1e3 * a:g} to {1e3 * b:g} mm" for a, b in spans)
+                raise InputError(
+                    f"{self.table}.mesh is {1e3 * self.mesh:g} mm; its {said} at {there} from the "
+                    "end, and the teeth touch between"
+                )
 
     @property
     def length(self) -> float:

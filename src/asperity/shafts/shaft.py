@@ -221,6 +221,7 @@ class ShaftFound:
                     each.load.hours,
                     speed,
                     each.load.viscosity,
+                    each.load.like is None,
                 )
                 for each, speed in zip(case, self.speeds, strict=True)
             ]

@@ -1,5 +1,6 @@
 """What shafts and bearings come to, a row each, as the screen of a rating has its safeties."""
 
+import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -23,10 +24,12 @@ def rows_of(study: Study) -> tuple[Row, ...]:
     rows += _at_rest(study.found)
     for key, found in study.found.items():
         rows += _strength(f"{NAMES[key]} shaft", found)
-    if study.deflection_limit is not None and study.worm_deflection:
+    if study.deflection_limit is not None and study.worm_deflection is not None:
+        bent = study.worm_deflection
+        value = study.deflection_limit / bent if bent else math.inf
         rows.append(
             Row(
-                "worm as a beam", "ISO/TR", study.deflection_limit / study.worm_deflection, 1.0, "",
+                "worm as a beam", "ISO/TR", value, 1.0, "",
                 f"{study.worm_deflection:.3g} um of {study.deflection_limit:.3g} um",
             )
         )  # fmt: skip

@@ -173,13 +173,16 @@ class _Shaft:
         torque: Any = load.torque
         speed: Any = load.speed
         given = self._given
+        place = number - 1 if load.like is None else load.like
         if isinstance(given.output_torque, Traced):
             # A cell of the rating that the shafts stand beside.
-            part = given.duty[number - 1] if given.duty else None
+            part = given.duty[place] if given.duty else None
             hours = given.life if part is None else part.hours
             torque = given.output_torque if part is None else part.torque
             speed = given.worm_speed if part is None else part.speed
-        there = f"part_{number}.mu_zm" if given.duty else "mu_zm"
+            if load.like is not None:
+                hours, torque = load.hours, given.output_torque
+        there = f"part_{place + 1}.mu_zm" if given.duty else "mu_zm"
         torque, speed = cell("torque", torque, "N m"), cell("worm_speed", speed, "rpm")
         friction = cell("friction", self._iso.get(there, load.friction))
         of = self._shared
@@ -188,6 +191,7 @@ class _Shaft:
         return Load(
             cell("hours", hours, "h"), torque, speed, speed / of["gear_ratio"], *found,
             cell("viscosity", load.viscosity, ""), load.rotation, load.lets_down,
+            like=load.like,
         )  # fmt: skip
 
     def _teeth(self, load: Load, condition: Condition) -> PointLoad:
@@ -236,7 +240,8 @@ class _Shaft:
         )  # fmt: skip
         carried = [
             Carried(of.radial[end], axial.loads[end], load.hours,
-                    load.wheel_speed if self._of_wheel else load.speed, load.viscosity)
+                    load.wheel_speed if self._of_wheel else load.speed, load.viscosity,
+                    load.like is None)
             for load, (_, of, axial) in zip(self.loads, loaded, strict=True)
         ]  # fmt: skip
         found = life_of(live, carried, self._options, self.found.model.table.peak)

@@ -357,7 +357,7 @@ def answer(problem: Problem, _: Run) -> Optimum:
 
     best = search(problem.bounds)
     if problem.rows is not None:
-        best = with_shafts(best, problem.rows, problem.bounds, search)
+        best = with_shafts(best, problem.rows, problem.bounds, search, kept.safety)
     return dataclasses.replace(best, curve=curve)
 
 

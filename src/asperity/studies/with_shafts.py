@@ -26,9 +26,15 @@ _HALVED = 5
 
 
 def with_shafts(
-    best: Optimum, rows_of: RowsOf, bounds: Bounds | None, again: Callable[[Bounds], Optimum]
+    best: Optimum,
+    rows_of: RowsOf,
+    bounds: Bounds | None,
+    again: Callable[[Bounds], Optimum],
+    safety: float = 1.0,
 ) -> Optimum:
     """Return an optimum with what its shafts come to, and one whose shafts hold where it can be.
+
+    What is required of them is kept or refused: a worm may get thicker than that of the gearset.
 
     Parameters
     ----------
@@ -40,14 +46,26 @@ def with_shafts(
         That were searched; None: those that are assumed.
     again : callable
         Searches within other bounds.
+    safety : float
+        Times what each row of shafts and bearings asks. Above 1 every row must have that, also
+        where it has not as it is.
+
+    Raises
+    ------
+    InputError
+        Nothing within the bounds has the safety that is required.
     """
     found = _judged(best, rows_of)
     thin, thick = (one.geometry.diameter_factor for one in (best.after, best.before))
     free = bounds is None or bounds.diameter_factor[0] < bounds.diameter_factor[1]
-    held = all(row.holds for row in found.before.rows)
-    if _holds(found) or not held or not free or thin >= thick:
-        return _told(found)
     span, kept = bounds or Bounds(), None
+    held = all(row.margin >= safety for row in found.before.rows)
+    if safety > 1.0 and not held:
+        thick, held = max(thick, span.diameter_factor[1]), True
+    if _holds(found, safety):
+        return _told(found)
+    if not held or not free or thin >= thick:
+        return _told_of(found, safety)
     for _ in range(_HALVED):
         middle = 0.5 * (thin + thick)
         within = middle, max(middle, span.diameter_factor[1])
@@ -56,12 +74,12 @@ def with_shafts(
         except InputError:
             # Nothing so thick keeps all that is asked.
             break
-        if _holds(other):
+        if _holds(other, safety):
             kept, thick = other, middle
         else:
             thin = middle
     if kept is None:
-        return _told(found)
+        return _told_of(found, safety)
     note = (
         f"q_1 is held at {thick:.4g} and above, where shafts and bearings hold; without that the "
         f"efficiency of the teeth were {100.0 * found.after.iso14521['eta_z1_2']:.1f} %"
@@ -81,9 +99,21 @@ def _judged(best: Optimum, rows_of: RowsOf) -> Optimum:
     )
 
 
-def _holds(best: Optimum) -> bool:
+def _holds(best: Optimum, safety: float) -> bool:
     designs = [best.after, *([best.made] if best.made else [])]
-    return all(row.holds for rated in designs for row in rated.rows)
+    return all(row.margin >= safety for rated in designs for row in rated.rows)
+
+
+def _told_of(best: Optimum, safety: float) -> Optimum:
+    """Return an optimum that does not hold, with notes; refuse it where a safety is required."""
+    if safety <= 1.0:
+        return _told(best)
+    designs = [best.after, *([best.made] if best.made else [])]
+    row = min((row for one in designs for row in one.rows), key=lambda row: row.margin)
+    raise InputError(
+        f"no thicker worm within the bounds gives shafts and bearings {safety:g} times what is "
+        f"asked, requirements.safety; {row.name} by {row.standard} of the best design: {row.stands}"
+    )
 
 
 def _told(best: Optimum) -> Optimum:
