@@ -144,7 +144,7 @@ def test_it_is_the_block_that_was_given_the_duration_at_once():
 def test_it_goes_on_to_sixteen_times_the_usual_duration_and_says_that_it_has_not_settled(
     shaken, monkeypatch
 ):
-    monkeypatch.setattr(longer, "_FARTHEST", 2.0)
+    monkeypatch.setattr(longer, "FARTHEST", 2.0)
     block = problem(*SLOW, *shaken)
     answer = solve_block(block)
     assert not answer.settled

@@ -234,3 +234,33 @@ def test_a_march_tells_what_other_steps_miss_where_the_load_jumps_as_its_state_d
     assert marched.settled
     assert told > 1e-5
     assert marched.step_error == pytest.approx(told, rel=0.05)
+
+
+def on_twice(cycle):
+    """The map on steps twice as long, from rest."""
+    return Cycle(cycle.body.model, (len(cycle.increments) - 1) // 2, 2.0 * cycle.step)
+
+
+def test_a_state_found_beside_stands_for_that_on_twice_the_step():
+    # Without corners, where the error falls by four from each step to its half.
+    _, cycle = at_its_state("solve.step=1 us", "vibration.direction=90 deg")
+    twice = on_twice(cycle)
+    assert settle(twice)[0]
+    here = step_error._ratio(cycle)
+    found = step_error._found_beside(cycle)
+    # To the other side: what is told is its size.
+    assert found - here == pytest.approx(here - ratio_of(twice), rel=0.02)
+
+
+def test_friction_on_twice_the_step_is_that_of_a_body_that_runs_on_it():
+    _, cycle = at_its_state("vibration.velocity_ratio=3")
+    twice = on_twice(cycle)
+    step_error.put(twice, cycle.step, cycle.body.kept["state"], cycle.springs)
+    step_error.run_once(twice)
+    expected = float(twice.body.sums["friction_x"] / twice.body.sums["steps"])
+    body = cycle.body
+    told = step_error.friction_on_twice(
+        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
+        body.kept["sums"], 1,
+    )  # fmt: skip
+    assert told == pytest.approx(expected, rel=1e-9)

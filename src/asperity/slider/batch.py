@@ -25,7 +25,7 @@ from asperity.slider.longer import advice, needed
 from asperity.slider.march import march, march_once
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import as_it_rings, ringing_notes
+from asperity.slider.ringing import as_it_rings, heard, ringing_notes
 from asperity.slider.scaled import (
     PRESSED_STATE,
     PRESSED_SUMS,
@@ -37,7 +37,7 @@ from asperity.slider.scaled import (
 from asperity.slider.slide import solve
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import energies, pressed_energies, summarise
-from asperity.slider.timetable import Timetable, march_notes, march_standing
+from asperity.slider.timetable import Timetable, march_notes, march_standing, pull_across
 from asperity.vibration.waveform import displacement_at
 
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
@@ -284,7 +284,9 @@ def _answer(
     ends = pairwise([table.window_start, *table.quarters, table.steps])
     forces = pairwise([0.0, *quarters.tolist(), float(sums["drive_force"])])
     means = [(b - a) / max(to - at, 1) for (a, b), (at, to) in zip(forces, ends, strict=True)]
-    standing = march_standing(model, table, residual, broke=broke, means=means)
+    across = pull_across(model, sums)
+    standing = march_standing(model, table, residual, broke=broke, means=means, across=across)
+    standing = heard(standing, model, model.duration)
     notes = march_notes(model, table, residual, broke=broke) + ringing_notes(model)
     if standing.settled:
         at_end = integrator(model, table.step)
@@ -308,7 +310,7 @@ def _answer(
         return failed
     if answer.settled:
         return answer
-    foreseen = needed(model, table, means, residual, broke=broke)
+    foreseen = needed(model, table, means, residual, broke=broke, across=across)
     return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen)))
 
 

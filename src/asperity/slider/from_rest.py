@@ -14,6 +14,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.model import Model
+from asperity.slider.ringing import ringing_time
 from asperity.slider.shooting import run
 from asperity.slider.steady import fading_rate
 
@@ -21,6 +22,7 @@ _SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
 _NEAR = 0.02  # of mu F_N, that a march may be from the state that it comes to
 _NEARER = 0.9  # of how far it was, where a march is on its way
+_GONE = 1.0  # time constants of a contact's ringing, from which on a march comes nearer
 _TAKEN_UP = 1.2
 _LEANS = 1.5  # times a resonance, up to which there may be two states
 _CYCLES = (40, 80, 160, 320, 960)  # after the body is taken up
@@ -98,7 +100,7 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     body = Cycle(model, (len(cycle.increments) - 1) // cycle.period, cycle.step)
     if body.body.p.rigid:
         body.body.state["velocity_x"] = body.body.p.drive
-    mean = before = 0.0
+    mean, before, fades = 0.0, 0.0, _GONE * ringing_time(model) * model.frequency
     for n, cycles in enumerate(_CYCLES):
         before = mean
         last_cycles, mean, least = _marched(body, cycles + (0 if n else math.ceil(loading)))
@@ -112,6 +114,8 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
             continue
         if (growth := found.multiplier()) <= UNSTABLE:
             if abs(ratio_of(found) - there) <= _SAME:
+                if body.run < fades:
+                    continue  # it rings still, and may do so for ever
                 return None
             found.run = body.run + found.run + cycle.run
             return Elsewhere(found, growth, ratio_of(found), found.run)

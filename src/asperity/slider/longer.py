@@ -11,23 +11,24 @@ from typing import Protocol, TypeVar
 from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import rings
+from asperity.slider.ringing import FARTHEST, faded_after, ringing_time, still_rings, upward
 from asperity.slider.timetable import (
     FAR,
     UNSTEADY,
     WAYS,
     Timetable,
     bending,
+    drifts_for,
     still_grows,
     still_loads,
     still_to_bend,
+    unseen_ring,
 )
 
 _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
 _MOST_TIMES = 1e3  # what has been marched, that a body is told to be marched for
 _NEXT, _MOST_TRIED = 1.02, 400
-_FARTHEST = 16.0  # times the usual duration, that a march goes on by itself
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
 
 M = TypeVar("M", bound=Model)
@@ -67,7 +68,7 @@ def until_settled(model: Model, marching: Marching[A], instead: str | None = "pe
     while True:
         answer, foreseen = marching.to_the_end()
         marched = marching.duration
-        farthest = _FARTHEST * model.duration
+        farthest = FARTHEST * model.duration
         if not answer.settled:
             if model.solve.duration is None and marched < farthest * (1.0 - 1e-9):
                 low, high = (share * marched for share in _FURTHER)
@@ -89,7 +90,13 @@ def lasting(model: M, duration: float) -> M:
 
 
 def needed(
-    model: Model, table: Timetable, means: Sequence[float], residual: float, *, broke: bool
+    model: Model,
+    table: Timetable,
+    means: Sequence[float],
+    residual: float,
+    *,
+    broke: bool,
+    across: float = 0.0,
 ) -> float | None:
     r"""Return the duration in s that a march needs to settle; None where none is foreseen.
 
@@ -105,14 +112,22 @@ def needed(
         How far the halves are apart.
     broke : bool
         Whether it has broken away.
+    across : float
+        Mean friction across, see `pull_across`.
     """
-    if rings(model):
+    if math.isinf(ringing_time(model)):
         return None
     slider = model.slider
     window = model.window / WINDOW_SHARE
     least = [1.0 * model.duration]
     if (bent := bending(model)) > 0.0:
         least.append(_SPARE * WAYS * bent / slider.drive_velocity)
+    if still_rings(model, model.duration):
+        least.append(faded_after(model))
+    if (ring := unseen_ring(model, table)) > 0.0:
+        least.append(model.start + _SPARE * ring / WINDOW_SHARE)
+    if (drift := drifts_for(model, across)) > 0.0:
+        least.append(model.duration + drift)
     if still_grows(model, table):
         least.append(max(model.start + model.ramp + model.window, model.start + window))
     loaded = model.start + _loading(model) + window
@@ -190,5 +205,4 @@ def advice(duration: float | None, instead: str | None = "periodic") -> str:
             "" if instead is None else f": solve.method '{instead}' looks for a state that lasts"
         )
         return f"no solve.duration is foreseen that would do{other}"
-    digit = 10.0 ** (math.floor(math.log10(duration)) - 1)
-    return f"a solve.duration of {math.ceil(duration / digit) * digit:.3g} s would do, by the means"
+    return f"a solve.duration of {upward(duration):.3g} s would do, by the means"

@@ -20,7 +20,7 @@ from asperity.slider.integrators import integrator
 from asperity.slider.longer import lasting, needed, until_settled
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import as_it_rings, ringing_notes
+from asperity.slider.ringing import as_it_rings, heard, ringing_notes
 from asperity.slider.scaled import Parameters
 from asperity.slider.steady import (
     fading_rate,
@@ -32,7 +32,13 @@ from asperity.slider.steady import (
 )
 from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
-from asperity.slider.timetable import BLOCK, Timetable, march_notes, march_standing
+from asperity.slider.timetable import (
+    BLOCK,
+    Timetable,
+    march_notes,
+    march_standing,
+    pull_across,
+)
 from asperity.vibration.waveform import AT_REST
 
 _RECORDS = 4000
@@ -233,10 +239,14 @@ class March:
         residual = abs(float(means[1] - means[0]))
         breakaway = self.breakaway
         broke = breakaway is not None
-        standing = march_standing(self._timed, table, residual, broke=broke, means=self._means())
+        quarters, across = self._means(), pull_across(model, sums)
+        standing = march_standing(
+            self._timed, table, residual, broke=broke, means=quarters, across=across
+        )
         leaves = self._leaves(halves)
         if standing.settled and leaves:
             standing = Standing(False, leaves)
+        standing = heard(standing, model, self.duration)
         standing, wanders = judged(standing, self._body, table, sums)
         answer = summarise(
             model, self.p, table.step, sums, start, self.energies(),
@@ -261,7 +271,7 @@ class March:
         if leaves:
             swing = float(halves[1]["friction_x_max"] - halves[1]["friction_x_min"])
             return answer, self.duration + _SPARE * until_it_sticks(model, swing) + model.window
-        return answer, needed(self._timed, table, self._means(), residual, broke=broke)
+        return answer, needed(self._timed, table, quarters, residual, broke=broke, across=across)
 
     def _leaves(self, halves: tuple[np.void, np.void]) -> str:
         """What a march lacks that is still next to steady sliding which is unstable."""

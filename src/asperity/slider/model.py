@@ -219,8 +219,12 @@ class Model:
     @property
     def duration(self) -> float:
         """Simulated time, s."""
-        if self.solve.duration is not None:
-            return self.solve.duration
+        given = self.solve.duration
+        return given if given is not None else self.usual_duration
+
+    @property
+    def usual_duration(self) -> float:
+        """Simulated time where none is given, s."""
         return self.start + self.ramp + 2.0 * self.window
 
     @functools.cached_property

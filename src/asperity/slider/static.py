@@ -17,7 +17,7 @@ from asperity.slider.held import ROUNDING, STANDING, Creep, HeldBody
 from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
 from asperity.slider.result import inputs
-from asperity.slider.ringing import OF_MANY, rings
+from asperity.slider.ringing import lasting_ring, rings
 from asperity.vibration.waveform import SINE
 
 # Of mu W: how near the limit is found, how far above it the creep is told, where it is sought.
@@ -210,8 +210,8 @@ def _limit(body: HeldBody, run: Run) -> tuple[float, float, tuple[str, ...]]:
 def _standing(body: HeldBody) -> Standing:
     """Whether the pulls are those of one motion normal to the plane."""
     missing = []
-    if rings(body.model):
-        missing.append(OF_MANY)
+    if rings(body.model, by_itself=True):
+        missing.append(lasting_ring(body.model))
     if body.period is None:
         missing.append("the motion normal to the plane never repeats itself")
     return Standing.of(

@@ -74,7 +74,8 @@ def refined(
             return _noted(answer, f"give a solve.step of at most {step:.2g} s, or {other}")
         finer = min(2 ** math.ceil(math.log2(over)), _FINEST // answer.model.finer)
         if finer < 2:
-            return _noted(answer, "no finer step was tried")
+            tried = f"{answer.model.finer} times finer, which this is, is the finest that is tried"
+            return _noted(answer, tried)
         try:
             better = once(dataclasses.replace(model, finer=answer.model.finer * finer))
         except AsperityError:

@@ -4,6 +4,8 @@ import functools
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from asperity.errors import InputError
 from asperity.results.settled import Standing
 from asperity.slider.fading import still_to_come
@@ -101,10 +103,12 @@ def march_standing(
     *,
     broke: bool,
     means: Sequence[float] | None = None,
+    across: float = 0.0,
 ) -> Standing:
     """Return whether a march has settled: by the halves of its window, if nothing is missing.
 
-    ``means`` are those of the quarters of the window, where they are known.
+    ``means`` are those of the quarters of the window, where they are known; ``across`` is what
+    `pull_across` gives.
     """
     missing = []
     if not (broke or model.vibrates or model.slider.rigid):
@@ -113,12 +117,22 @@ def march_standing(
         missing.append("the asperities are still being taken up")
     if still_grows(model, table):
         missing.append("the vibration grows into the window of the means")
+    if (ring := unseen_ring(model, table)) > 0.0:
+        missing.append(
+            f"the window of {table.window * table.step:.2g} s is shorter than one ring of the body "
+            f"on its drive, {ring:.2g} s"
+        )
     if not residual <= UNSTEADY:
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
     elif means is not None and (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
     if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
         missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
+    if across > FAR:
+        missing.append(
+            f"the body drifts sideways: friction across, which comes to nothing, is {across:.2g} "
+            "of mu F_N in the mean"
+        )
     if residual <= UNSTEADY and still_loads(model, table, residual):
         missing.append("the drive is still being stretched: the body lags behind it")
     shown = f"the halves of the window agree to {UNSTEADY:g} of mu F_N"
@@ -156,6 +170,42 @@ def still_loads(model: Model, table: Timetable, residual: float) -> bool:
         return False
     way = 0.5 * table.window * table.step * slider.drive_velocity
     return residual * model.full_friction > LAGS * way * slider.drive_stiffness
+
+
+def unseen_ring(model: Model, table: Timetable) -> float:
+    """Return the period of a ring of the body on its drive that is longer than the window, s.
+
+    The means of less than one ring are those of where the body swings just then. Zero where the
+    window has room for one, and where nothing rings.
+    """
+    slider = model.slider
+    if slider.drive_stiffness is None or slider.mass is None:
+        return 0.0
+    if slider.drive_damping >= 2.0 * math.sqrt(slider.drive_stiffness * slider.mass):
+        return 0.0
+    return model.ring_period if table.window * table.step < model.ring_period else 0.0
+
+
+def pull_across(model: Model, sums: np.void) -> float:
+    """Return the mean friction across the drive over mu F_N of a body that is free to yield to it.
+
+    Nothing else pushes it sideways: in a state that lasts the mean is nothing.
+    """
+    if not (model.vibrates and model.slider.free):
+        return 0.0
+    return abs(float(sums["friction_y"] / sums["steps"]))
+
+
+def drifts_for(model: Model, across: float) -> float:
+    r"""Return the time in which a sideways drift comes to what is steady enough, s.
+
+    A body that is shaken at :math:`v_a` drifts as if friction were viscous, with a time constant of
+    about :math:`m v_a/(\mu F_N)`.
+    """
+    if across <= FAR or model.slider.mass is None:
+        return 0.0
+    constant = model.slider.mass * model.peak_velocity / model.full_friction
+    return constant * math.log(2.0 * across / FAR)
 
 
 def still_grows(model: Model, table: Timetable) -> bool:

@@ -1,0 +1,145 @@
+"""Marches whose window does not show what still changes: ringing, a ring of the drive, a drift."""
+
+import math
+
+import pytest
+
+from asperity.casefile import read_case
+from asperity.runs import Run
+from asperity.slider import TABLES, Model, solve, static
+from asperity.slider.held import Creep
+from asperity.slider.ringing import faded_after, ringing_time, rings
+from asperity.slider.timetable import FAR
+
+
+def model_of(name, *settings):
+    return Model.from_case(read_case(name, TABLES, settings))
+
+
+def solved(name, *settings):
+    return solve(model_of(name, *settings), history=False)
+
+
+def test_a_contact_rings_for_one_over_damping_ratio_and_angular_frequency():
+    model = model_of("normal-pin", "normal.damping_ratio=1e-3")
+    stiffness = model.normal.slope(model.slider.normal_force)
+    expected = 1.0 / (1e-3 * math.sqrt(stiffness / model.slider.mass))
+    assert ringing_time(model) == pytest.approx(expected, rel=1e-12)
+    # After which it has come down to what a mean may be off.
+    left = math.exp(-(faded_after(model) - model.start - model.window) / expected)
+    assert left == pytest.approx(FAR, rel=1e-9)
+    assert math.isinf(ringing_time(model_of("normal-pin", "normal.damping_ratio=0")))
+    assert ringing_time(model_of("normal-pin", "vibration.elevation=0 deg")) == 0.0
+
+
+@pytest.mark.parametrize("damping", [0.0, 1e-9])
+def test_next_to_no_damping_is_as_none(damping):
+    answer = solved("normal-pin", f"normal.damping_ratio={damping}", "solve.method=march")
+    assert answer.residual <= 1e-3
+    assert not answer.settled
+    assert answer.step_error is None
+    assert "one of many" in answer.settled_by
+    (note,) = (note for note in answer.notes if "rings as the vibration began" in note)
+    assert ("solve.duration" in note) == (damping > 0.0)
+
+
+@pytest.mark.parametrize(
+    ("damping", "duration", "on"),
+    [(1e-5, None, True), (1e-5, "30 s", True), (1e-5, "46 s", False), (5e-5, None, False),
+     (1e-4, "0.8 s", False), (1e-4, "0.1 s", True), (0.05, "0.1 s", False)],
+)  # fmt: skip
+def test_a_ringing_lasts_by_what_is_marched(damping, duration, on):
+    given = () if duration is None else (f"solve.duration={duration}",)
+    assert rings(model_of("normal-pin", f"normal.damping_ratio={damping}", *given)) == on
+
+
+@pytest.mark.parametrize(("damping", "settled"), [(0.0, False), (1e-9, False), (0.05, True)])
+def test_static_friction_knows_a_contact_that_rings(damping, settled):
+    case = read_case("normal-pin", TABLES, [f"normal.damping_ratio={damping}"])
+    answer = static.answer(static.prepare(case), Run())
+    assert answer.settled == settled
+    assert settled or "one of many" in answer.settled_by
+
+
+HEAVY = "slider.mass=5000 kg", "vibration.direction=45 deg", "vibration.start=0 s"
+
+
+def test_a_window_shorter_than_a_ring_of_the_drive_has_not_settled():
+    answer = solved("table-4.3", *HEAVY, "solve.duration=0.6 s")
+    assert answer.residual <= 1e-3
+    assert not answer.settled
+    assert "shorter than one ring of the body on its drive" in answer.settled_by
+    assert answer.model.ring_period == pytest.approx(1.43, abs=0.01)
+    assert any("s would do" in note for note in answer.notes)
+
+
+def test_a_sideways_drift_is_waited_for(tmp_path):
+    case = tmp_path / "rigid.toml"
+    case.write_text(RIGID)
+    answer = solved(case)
+    assert answer.residual <= 1e-3
+    assert not answer.settled
+    assert "drifts sideways" in answer.settled_by
+    assert any("s would do" in note for note in answer.notes)
+
+
+# A free body on a rigid drive: nothing but friction stops what drifts across.
+RIGID = """
+[slider]
+drive_velocity = "0.5 mm/s"
+mass = "5000 kg"
+normal_force = "55 N"
+lateral = "free"
+
+[friction]
+model = "dahl"
+mu = 0.1
+max_deflection = "68.75 nm"
+law = "vector"
+
+[vibration]
+frequency = "4 kHz"
+velocity_ratio = 6.0
+direction = "30 deg"
+
+[solve]
+duration = "0.3 s"
+"""
+
+
+class Conveyed:
+    """A held body that stands at one pull and goes at a rate beside it; pulls are counted."""
+
+    def __init__(self, stands_at):
+        self.stands_at, self.pulls = stands_at, 0
+
+    def creep(self, pull, **_):
+        self.pulls += 1
+        assert self.pulls < 100
+        return Creep(pull - self.stands_at, steady=True)
+
+    def creeps_below(self, _):
+        return False
+
+
+@pytest.mark.parametrize("stands_at", [-5.3, -0.24, -1e-3, 0.3, 0.97, 3.7])
+def test_the_limit_of_a_body_that_is_conveyed_is_found_on_either_side(stands_at):
+    ratio, _, notes = static._limit(Conveyed(stands_at), Run())
+    assert ratio == pytest.approx(stands_at, abs=2e-5)
+    assert any("carries the body along" in note for note in notes)
+
+
+def test_lugre_under_a_load_that_hardly_changes_is_lugre_under_a_constant_one():
+    # Across, where the base moves under the body in every step.
+    lugre = (
+        "friction.model=lugre", "friction.contact_damping=20 N s/m", "vibration.direction=90 deg",
+        "friction.law=vector", "vibration.velocity_ratio=6", "solve.method=periodic",
+        "friction.viscous_damping=200 N s/m",
+    )  # fmt: skip
+    constant = solved("table-4.3", *lugre)
+    pressed = solved(
+        "table-4.3", *lugre, "normal.law=linear", "normal.stiffness=97.12 MN/m",
+        "normal.damping_ratio=0.05", "vibration.elevation=1e-6 deg",
+    )  # fmt: skip
+    assert pressed.ratio == pytest.approx(constant.ratio, rel=1e-5)
+    assert pressed.friction_max == pytest.approx(constant.friction_max, rel=1e-5)
