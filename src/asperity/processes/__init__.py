@@ -2,6 +2,6 @@
 
 :Entry: `alone.alone` (what one process holds), `sessions.begun` and `sessions.end`.
 :Data: none.
-:Where: `interrupts` (no Ctrl-C is lost while something is imported).
+:Where: `began` (when the command was given), `interrupts` (no Ctrl-C is lost while something is imported).
 :Tests: `unit/test_processes`, `unit/test_interrupts`.
 """

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.casefile import Case
+from asperity.processes.began import began
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.devices import deadline_of, owned_by
@@ -57,6 +58,7 @@ class Guard:
     ) -> None:
         where = None if folder is None else str(folder.absolute())
         self._told = {"case": packed(case), "backend": backend, "rig": rig, "folder": where}
+        self._told["since"] = began()
         table, simulated = case.get(Table, Table()), backend == "sim"
         # two attempts, the second as the end comes
         busy = 2.0 * longest(deadline_of(case, simulated=simulated))

@@ -58,6 +58,8 @@ class Guardian:
         Why there is none, where there should be.
     folder : Path, optional
         Of the run, where its journal is, or will be.
+    since : float, optional
+        When the run's command was given, in seconds since 1970; left out, now.
     now : callable
         The computer's clock, s; it goes on while the computer sleeps.
     """
@@ -74,6 +76,7 @@ class Guardian:
         relay: Relay | None = None,
         trouble: str = "",
         folder: Path | None = None,
+        since: float | None = None,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
         self._devices = devices
@@ -87,7 +90,7 @@ class Guardian:
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._tripped, self._urgent = "", False
         self._pulses = True
-        self._stop_button = StopButton(self.stop)
+        self._stop_button = StopButton(self.stop, since)
         self._writing = Writing(self._stop_button.watch, folder)
         self._switching = Switching(
             devices, by_hand, limit=longest(deadline), now=now, tick=self._tick
