@@ -5,7 +5,7 @@ import os
 import time
 from pathlib import Path
 
-_STARTED = 21  # field of /proc/self/stat, counted from 0: ticks since the computer's start
+_STARTED = 19  # field of /proc/self/stat behind the name: ticks since the computer's start
 _noted: list[float] = []
 
 
@@ -28,8 +28,8 @@ def _process() -> float:
     with contextlib.suppress(OSError, ValueError, IndexError, AttributeError):
         # Its name may hold blanks and brackets.
         text = Path("/proc/self/stat").read_text()
-        fields = text[: text.index("(")].split() + [""] + text[text.rindex(")") + 1 :].split()
+        behind = text[text.rindex(")") + 1 :].split()
         up = time.clock_gettime(time.CLOCK_BOOTTIME)
-        age = up - float(fields[_STARTED]) / os.sysconf("SC_CLK_TCK")
+        age = up - float(behind[_STARTED]) / os.sysconf("SC_CLK_TCK")
         return now - max(age, 0.0)
     return now
