@@ -60,7 +60,12 @@ class Guard:
         self, case: Case, backend: str, rig: Address | None, folder: Path | None = None
     ) -> None:
         where = None if folder is None else str(folder.absolute())
-        self._told = {"case": packed(case), "backend": backend, "rig": rig, "folder": where}
+        self._told: dict[str, Any] = {
+            "case": packed(case),
+            "backend": backend,
+            "rig": rig,
+            "folder": where,
+        }
         self._told |= {"since": began(), "ended_by": CTRL_C if hears_ctrl_c() else _STOP}
         table, simulated = case.get(Table, Table()), backend == "sim"
         # two attempts, the second as the end comes

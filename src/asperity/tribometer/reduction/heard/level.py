@@ -60,10 +60,10 @@ def _sides(of: Material) -> Iterator[Finding]:
         over.append(left - unsure - most)
         under.append(-left - unsure)
     if max(float(np.median(one)) for one in (*over, *under)) > 0.0:
-        left = float(np.median(bronze[:, 0] + ratio * steel[:, 0]))
+        together = float(np.median(bronze[:, 0] + ratio * steel[:, 0]))
         yield Finding(
             "torques leave bearings what they cannot hold",
-            f"torque_bronze and {ratio:.2f} of torque_steel are together {left:.3g} N m, bearings "
+            f"torque_bronze and {ratio:.2f} of torque_steel come to {together:.3g} N m, bearings "
             f"hold 0 to {most:.3g} N m",
             "look at what comes into the torques with the motors, at both calibrations and at "
             "bearing_torque_steel and bearing_torque_bronze of [rig]",
