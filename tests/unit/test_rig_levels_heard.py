@@ -98,6 +98,13 @@ def test_an_encoder_that_slips_in_one_cell_spoils_that():
     assert (found.place, found.spoils) == (1, True)
 
 
+def test_a_bronze_torque_that_is_told_of_spoils_nothing_anew():
+    rig = Rig()
+    rig.of["torque_bronze"] = 0.0 * rig.of["torque_bronze"]
+    assert told(rig)
+    assert not [*level.findings(rig, {"torque_bronze"})]
+
+
 @pytest.mark.parametrize(
     ("held", "before", "shaken", "turned"),
     [

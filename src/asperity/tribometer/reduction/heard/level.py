@@ -4,7 +4,7 @@ What vibration changes tells nothing of what is added to a signal before and wit
 do, as well as is known what else is in them: the bearings' torques, and what a motor drags.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
@@ -138,11 +138,12 @@ def _runs(of: Material, twin: Twin) -> Iterator[Finding]:
         )  # fmt: skip
 
 
-def findings(of: Material) -> Iterator[Finding]:
-    """Yield levels that do not fit together."""
+def findings(of: Material, told: Collection[str] = ()) -> Iterator[Finding]:
+    """Yield levels that do not fit together; ``told``: signals of which something is told."""
     if not of.windows:
         return
-    if not of.pair.geared:
+    # Of a torque that something is wrong with no level is worth telling again.
+    if not of.pair.geared and "torque_bronze" not in told:
         yield from _sides(of)
     if (twin := of.case.get(Twin)) is not None:
         yield from _drawn(of, twin)

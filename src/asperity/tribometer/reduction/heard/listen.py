@@ -80,7 +80,7 @@ def listen(
             tones[place] = heard
     found += moving.findings(of, rest)
     found += motors.findings(of)
-    found += level.findings(of)
+    found += level.findings(of, {name for one in found for name in one.signals})
     found += drive.findings(of)
     found += acceleration.findings(of, tones)
     return Listened(of.blocks, taken, tuple(found), tones, at_rest=bool(rest.stretches))
