@@ -108,3 +108,13 @@ def test_a_job_that_says_too_much_at_once_is_heard_to_its_end(tmp_path, monkeypa
 
     job = asyncio.run(done())
     assert (job.state, job.done) == ("done", 3000)
+
+
+def test_what_is_begun_behind_an_ampersand_hears_no_ctrl_c(monkeypatch):
+    import signal
+
+    from asperity.processes.interrupts import hears_ctrl_c
+
+    assert hears_ctrl_c()
+    monkeypatch.setattr(signal, "getsignal", lambda _: signal.SIG_IGN)
+    assert not hears_ctrl_c()

@@ -144,6 +144,39 @@ def test_a_stop_is_heard_once_and_one_of_before_not_at_all(tmp_path):
     assert heard == [1]
 
 
+def test_a_stop_that_came_before_the_first_look_is_heard(tmp_path):
+    import threading
+    import time
+
+    came = threading.Event()
+    given = time.time()
+    # As while a command loads; an old one is new with that.
+    (tmp_path / stop.NAME).touch()
+    os.utime(tmp_path / stop.NAME, (given - 60.0, given - 60.0))
+    stop.press(tmp_path)
+    button = stop.StopButton(came.set, given - 1.0)
+    button.watch(tmp_path)
+    button.watch(tmp_path)
+    assert came.wait(60.0)
+    button.leave()
+
+
+def test_a_command_is_given_when_its_process_begins():
+    import subprocess
+    import sys
+    import time
+
+    before = time.time()
+    script = (
+        "import time; time.sleep(0.3); from asperity.processes import began; "
+        "now = time.time(); assert now - 1.0 < began.began(); began.note(); print(began.began())"
+    )
+    told = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True)
+    if os.path.exists("/proc/self/stat"):
+        assert -0.05 < float(told.stdout) - before < 0.3, told
+    assert float(told.stdout) >= before - 0.05
+
+
 def test_a_disk_that_answers_with_an_error_ends_no_stop_button(tmp_path, monkeypatch):
     import threading
 

@@ -389,6 +389,15 @@ def test_a_recording_that_is_imported_again_keeps_its_date_and_a_calibration_its
             prepare(case(), file=str(path), start=wrong)
 
 
+def test_a_date_in_the_future_is_told(tmp_path):
+    path = tmp_path / "run.csv"
+    path.write_text(clocks("2099-05-01T23:59:50"))
+    then = "is in the future; say when it began: --start"
+    assert f"2099-05-01 {then}" in imported(path).notes
+    path.write_text(clocks("2020-05-01T23:59:50"))
+    assert not any("future" in note for note in imported(path).notes)
+
+
 def test_a_channel_is_its_heading_or_what_a_heading_ends_in():
     assert matching("Drehmoment", ["Zeit", "Drehmoment", "Kanal B"]) == [1]
     assert matching("b", ["Zeit", "Drehmoment", "Kanal B"]) == [2]

@@ -6,6 +6,7 @@ import os
 import sys
 
 from asperity.cli import interrupt
+from asperity.processes import began
 from asperity.processes.interrupts import reraise_pending
 
 _DIGITS = 4  # of a terminal's width
@@ -20,6 +21,8 @@ def main(arguments: list[str] | None = None) -> "NoReturn":
     switches = arguments is None and ("rig", "run") in itertools.pairwise(sys.argv[1:])
     interrupt.at_once(to_the_end=switches)
     reraise_pending()
+    if switches:
+        began.note()
     columns = os.environ.get("COLUMNS", "")
     if columns and not columns.strip("0"):
         # No width at all, in which nothing would be printed: as if it were not set.

@@ -2,6 +2,7 @@
 
 :Entry: `alone.alone` (what one process holds), `sessions.begun` and `sessions.end`.
 :Data: none.
-:Where: `interrupts` (no Ctrl-C is lost while something is imported).
+:Where: `interrupts` (no Ctrl-C is lost while something is imported), `began` (when a command was
+    given).
 :Tests: `unit/test_processes`, `unit/test_interrupts`.
 """

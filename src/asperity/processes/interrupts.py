@@ -39,6 +39,11 @@ def reraise_pending() -> None:
     sys.unraisablehook = dropped
 
 
+def hears_ctrl_c() -> bool:
+    """Whether Ctrl-C is heard at all: what is begun behind ``&`` is not to hear it."""
+    return signal.getsignal(signal.SIGINT) is not signal.SIG_IGN
+
+
 def _half_made(what: "sys.UnraisableHookArgs") -> bool:
     """Whether it is an archive that cannot be closed since a Ctrl-C broke off its making."""
     by = getattr(what.object, "__qualname__", "")

@@ -13,6 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from asperity.casefile import Case
+from asperity.processes.began import began
+from asperity.processes.interrupts import hears_ctrl_c
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.devices import deadline_of, owned_by
@@ -20,12 +22,14 @@ from asperity.tribometer.guardian.guardian import BEAT
 from asperity.tribometer.guardian.journal import Journal, Lines
 from asperity.tribometer.guardian.rig import Address
 from asperity.tribometer.guardian.switching import LISTENING, longest
+from asperity.tribometer.guardian.verdicts import CTRL_C
 from asperity.tribometer.guardian.wire import Head, Wire
 from asperity.tribometer.instruments.parameters import Guard as Table
 from asperity.tribometer.instruments.protocols import SWITCHED_OFF, InstrumentError, StillOnError
 from asperity.tribometer.journal_lines import ENDED, NAME, Line
 
 LOST = "guardian lost"  #: Kind of the error where the guardian is there no more.
+_STOP = "a file .stop in the run's folder"
 _STARTING = 60.0  # s that it may take to begin
 _UNANSWERED = 5.0  # s without an answer, after which nothing more is told
 _SLACK = 1.0  # s that a busy computer may need
@@ -56,7 +60,13 @@ class Guard:
         self, case: Case, backend: str, rig: Address | None, folder: Path | None = None
     ) -> None:
         where = None if folder is None else str(folder.absolute())
-        self._told = {"case": packed(case), "backend": backend, "rig": rig, "folder": where}
+        self._told: dict[str, Any] = {
+            "case": packed(case),
+            "backend": backend,
+            "rig": rig,
+            "folder": where,
+        }
+        self._told |= {"since": began(), "ended_by": CTRL_C if hears_ctrl_c() else _STOP}
         table, simulated = case.get(Table, Table()), backend == "sim"
         # two attempts, the second as the end comes
         busy = 2.0 * longest(deadline_of(case, simulated=simulated))

@@ -20,7 +20,7 @@ from asperity.tribometer.guardian.owned import LISTENER, Asked, Device, Verdict
 from asperity.tribometer.guardian.relay import Relay
 from asperity.tribometer.guardian.stop import StopButton, named
 from asperity.tribometer.guardian.switching import Switching, longest
-from asperity.tribometer.guardian.verdicts import NOBODY, NOT_YET, Verdicts
+from asperity.tribometer.guardian.verdicts import CTRL_C, NOBODY, NOT_YET, Verdicts
 from asperity.tribometer.guardian.wire import Head, Wire
 from asperity.tribometer.guardian.writing import Writing
 from asperity.tribometer.instruments.off import said
@@ -58,6 +58,10 @@ class Guardian:
         Why there is none, where there should be.
     folder : Path, optional
         Of the run, where its journal is, or will be.
+    since : float, optional
+        When the run's command was given, in seconds since 1970; left out, now.
+    ended_by : str
+        What a person can end it by.
     now : callable
         The computer's clock, s; it goes on while the computer sleeps.
     """
@@ -74,6 +78,8 @@ class Guardian:
         relay: Relay | None = None,
         trouble: str = "",
         folder: Path | None = None,
+        since: float | None = None,
+        ended_by: str = CTRL_C,
         now: Callable[[], float] = time.monotonic,
     ) -> None:
         self._devices = devices
@@ -87,12 +93,14 @@ class Guardian:
         self._events: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._tripped, self._urgent = "", False
         self._pulses = True
-        self._stop_button = StopButton(self.stop)
+        self._stop_button = StopButton(self.stop, since)
         self._writing = Writing(self._stop_button.watch, folder)
         self._switching = Switching(
             devices, by_hand, limit=longest(deadline), now=now, tick=self._tick
         )
-        self._verdicts = Verdicts(self._switching, self._writing, self._alarm, by_hand, say, now)
+        self._verdicts = Verdicts(
+            self._switching, self._writing, self._alarm, by_hand, say, now, ended_by
+        )
         self._awaited: dict[cf.Future[Any], Asked] = {}
         self._on: set[str] = set()
         self._kind = SWITCHED_OFF

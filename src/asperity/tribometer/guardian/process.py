@@ -100,6 +100,7 @@ def main() -> int:
         patience=table.patient(simulated=simulated),
         deadline=deadline_of(case, simulated=simulated), say=words.say, relay=relay,
         now=_clock, trouble=trouble, folder=Path(told["folder"]) if told.get("folder") else None,
+        since=told["since"], ended_by=told["ended_by"],
     )  # fmt: skip
     for number in held.early:
         guardian.signal(number)

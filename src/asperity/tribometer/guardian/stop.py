@@ -7,6 +7,7 @@ it works where the procedure hangs; in a thread of its own, since a disk may han
 import contextlib
 import os
 import threading
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -29,7 +30,13 @@ def press(folder: Path) -> None:
     """
     # A link would lead to a file of somebody else.
     flags = os.O_WRONLY | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
-    os.close(os.open(folder / NAME, flags, 0o644))
+    file = os.open(folder / NAME, flags, 0o644)
+    try:
+        if os.utime in os.supports_fd:
+            # One that an earlier run has left is new with that.
+            os.utime(file)
+    finally:
+        os.close(file)
 
 
 def named(number: int) -> str:
@@ -49,10 +56,14 @@ class StopButton:
     ----------
     pressed : callable
         Called in a thread, once for each time.
+    since : float, optional
+        When the run's command was given, in seconds since 1970: what was asked for before was
+        asked of an earlier run. Left out, now.
     """
 
-    def __init__(self, pressed: Callable[[], None]) -> None:
+    def __init__(self, pressed: Callable[[], None], since: float | None = None) -> None:
         self._pressed = pressed
+        self._since = time.time() if since is None else since
         self._file: Path | None = None
         self._left = threading.Event()
 
@@ -60,8 +71,12 @@ class StopButton:
         """Look into a folder from now on; what was asked of an earlier run there is forgotten."""
         begun = self._file is not None
         file = folder / NAME
+        if file == self._file:
+            return
         with contextlib.suppress(OSError):
-            file.unlink()
+            # What came since is left: it is for this run, though this is the first look.
+            if file.lstat().st_mtime < self._since:
+                file.unlink()
         self._file = file
         if not begun:
             threading.Thread(target=self._look, name="stop", daemon=True).start()

@@ -9,6 +9,7 @@ from asperity.tribometer.guardian.switching import Switching
 from asperity.tribometer.guardian.writing import Writing
 from asperity.tribometer.instruments.off import Off, said
 
+CTRL_C = "Ctrl-C"
 OPENING = 20.0  #: s that a device may take at the start.
 NOT_YET = "nobody was asked yet to switch it off"
 NOBODY = "nobody was asked to switch it off"
@@ -32,6 +33,8 @@ class Verdicts:
         Tells a person at the terminal; must not wait.
     now : callable
         The computer's clock, s.
+    ended_by : str
+        What a person can end it by.
 
     Attributes
     ----------
@@ -51,7 +54,9 @@ class Verdicts:
         by_hand: Sequence[str],
         say: Callable[[str], None],
         now: Callable[[], float] = time.monotonic,
+        ended_by: str = CTRL_C,
     ) -> None:
+        self._ended_by = ended_by
         self._switching, self._writing, self._alarm = switching, writing, alarm
         self._by_hand = frozenset(by_hand)
         self._say, self._now = say, now
@@ -110,7 +115,7 @@ class Verdicts:
         self._alarm.name(
             fresh,
             cut=any(one.on for one in fresh),
-            on=f" It is tried for {OPENING:g} s from the start; Ctrl-C ends that.",
+            on=f" It is tried for {OPENING:g} s from the start; {self._ended_by} ends that.",
         )
 
     def began(self, event: float) -> None:

@@ -107,6 +107,13 @@ def said_to_begin(text: str) -> datetime.datetime:
     return _at(days[0], clock_in(text.replace("T", " ")))
 
 
+def in_future(began: datetime.datetime, then: str) -> tuple[str, ...]:
+    """Return a note that a recording would begin after today, and what to do then, or none."""
+    # Clocks of two computers, and zones that a file does not tell.
+    tomorrow = datetime.datetime.now(datetime.UTC) + datetime.timedelta(days=1)
+    return (f"{began:%Y-%m-%d} is in the future; {then}",) if began > tomorrow else ()
+
+
 def _at(
     day: datetime.date, clock: tuple[datetime.time, bool] | None
 ) -> datetime.datetime:  # fmt: skip

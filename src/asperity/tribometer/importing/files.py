@@ -7,7 +7,7 @@ from pathlib import Path
 from asperity.errors import InputError, plain, shown
 from asperity.files import store
 from asperity.tribometer.importing.columns import Columns
-from asperity.tribometer.importing.dates import said_to_begin
+from asperity.tribometer.importing.dates import in_future, said_to_begin
 from asperity.tribometer.importing.heads import Told
 from asperity.tribometer.importing.join import joined, renamed
 from asperity.tribometer.importing.mat import read_mat
@@ -131,9 +131,11 @@ def read_joined(files: Sequence[str], told: Told) -> Columns:
     """
     read = joined([(plain(one), read_export(Path(one), plain(one), told)) for one in files])
     if told.began is not None:
-        return dataclasses.replace(read, began=(told.began, "--start"))
+        late = in_future(told.began, "look at --start")
+        return dataclasses.replace(read, began=(told.began, "--start"), notes=(*read.notes, *late))
     if read.began is None:
         return read
     began, by = read.began
     note = f"begun {began:%Y-%m-%d %H:%M:%S} UTC, by {by}"
-    return dataclasses.replace(read, notes=(*read.notes, note))
+    late = in_future(began, "say when it began: --start")
+    return dataclasses.replace(read, notes=(*read.notes, note, *late))

@@ -201,6 +201,7 @@ def _numbers(
         for name, one in zip(("before", "with"), sliding, strict=True)
         if one.low <= 0.0 < one.value
     ]
+    odd += _turned(pair, *(one.value for one in torques))
     odd += _past(recording, case)
     flags += odd
     if not following.powered:
@@ -222,6 +223,20 @@ def _numbers(
     flags += _flags(recording, case, blocks, segment, values)
     doubtful = bool(odd or segment.flags) or change.high - change.low > 2.0 * _WIDE
     return values | {"quality": DOUBTFUL if doubtful else GOOD, "flags": tuple(flags)}, question
+
+
+def _turned(pair: Pair, before: float, shaken: float) -> Iterator[str]:
+    """Yield that vibration turns the sign of what only brakes."""
+    if before * shaken < 0.0:
+        yield (
+            f"the torque turns its sign, {before:.3g} to {shaken:.3g} N m: friction brakes and "
+            "does not drive (look at its zero, and at what comes into it with the motor)"
+        )
+    elif (held := pair.rig.bearing_torque_steel) and (before - held) * (shaken - held) < 0.0:
+        yield (
+            f"without rig.bearing_torque_steel, {held:.3g} N m, the torque turns its sign, "
+            f"{before - held:.3g} to {shaken - held:.3g} N m"
+        )
 
 
 def _amplitude(blocks: Blocks, tones: Tones | None, doubt: float) -> Cause:

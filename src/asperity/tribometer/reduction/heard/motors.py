@@ -5,10 +5,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from asperity.arrays import FloatArray
 from asperity.tribometer.options import Twin
 from asperity.tribometer.reduction.heard.answers import Answers, answers
 from asperity.tribometer.reduction.heard.finding import Finding
+from asperity.tribometer.reduction.heard.level import levels_of
 from asperity.tribometer.reduction.heard.material import Material
 from asperity.tribometer.reduction.heard.rest import least_of
 from asperity.tribometer.signals import SIGNALS
@@ -63,17 +63,8 @@ def _teeth(of: Material) -> Iterator[Finding]:
     )  # fmt: skip
 
 
-def _levels(of: Material, signal: str) -> FloatArray:
-    """Return levels and standard errors, a row a segment: before, its error, with, its error."""
-    rows = []
-    for _, *both in of.windows:
-        one, other = (of.level(signal, window) for window in both)
-        rows.append((one.value, one.error, other.value, other.error))
-    return np.array(rows)
-
-
 def _middle(of: Material, signal: str) -> tuple[float, float]:
-    levels = _levels(of, signal)
+    levels = levels_of(of, signal)
     return float(np.median(levels[:, 0])), float(np.median(levels[:, 1]))
 
 
@@ -153,14 +144,14 @@ def _exchanged(of: Material, what: str) -> Iterator[Finding]:
     names = f"{what}_steel", f"{what}_bronze"
     if not of.has(*names):
         return
-    torque = _levels(of, "torque_steel")
+    torque = levels_of(of, "torque_steel")
     weight = torque[:, 2] - torque[:, 0]
     if not np.all(np.isfinite(weight)) or not weight.any():
         return
     weight = weight / np.abs(weight).sum()
     answers, sure = [], []
     for name in names:
-        levels = _levels(of, name) / abs(of.blocks.lines[name].gain)
+        levels = levels_of(of, name) / abs(of.blocks.lines[name].gain)
         if not np.all(np.isfinite(levels)):
             return
         answers.append(float(weight @ (levels[:, 2] - levels[:, 0])))
