@@ -245,6 +245,7 @@ export function Files({ job }) {
   const buttons = names.map((name) => html`<button type="button" class="quiet" key=${name}
     onClick=${() => take(job.id, name)}>${name}</button>`);
   return html`<p class="row"><span class="says">files:</span> ${buttons.slice(0, FEW)}</p>
-    ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more files</summary>
+    ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more ${
+      buttons.length - FEW === 1 ? "file" : "files"}</summary>
       ${buttons.slice(FEW)}</details>` : null}`;
 }

@@ -169,8 +169,8 @@ function Least({ title, unit, values, loose, axes }) {
   const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
   const where = axes.map(({ label, unit: of, values: all }, k) =>
     printed(`${label} ${amount(all[places[k]], of)}`));
-  return html`<p class="big">Least: <b>${amount(value, unit, 3)}</b> at ${where.join(", ")}${" "}
-    <span class="says">${inWords(title)}</span></p>`;
+  return html`<p class="big"><span class="says">${inWords(title)}</span><br />Least: <b>${
+    amount(value, unit, 3)}</b> at ${where.join(", ")}</p>`;
 }
 
 /** What is shown of all that was solved. */
