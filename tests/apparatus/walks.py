@@ -68,11 +68,11 @@ def to_the_best_way(walk, seen=lambda page: None):
     walk.clicks += 1
     expect(page.locator("#slide-vibration-elevation")).to_be_visible()
     settled(page)
-    expect(page.get_by_text(re.compile("Least is left at"))).to_be_visible()
+    expect(page.get_by_text(re.compile("Least of the .* tried is left at"))).to_be_visible()
     seen(page)
     walk.click("button", "take it")
     settled(page)
-    expect(page.get_by_text("No other elevation leaves less.")).to_be_visible()
+    expect(page.get_by_text("elevations tried leaves less by 0.01 or more.")).to_be_visible()
 
 
 def to_a_law(walk):

@@ -403,7 +403,28 @@ def test_a_report_of_a_gearset_is_a_click_away(seen):
     expect(page.get_by_role("heading", name="Does it hold?")).to_be_visible()
     with page.expect_download(timeout=120_000) as download:
         page.get_by_role("button", name="report", exact=True).click()
-    assert download.value.suggested_filename == "report.html"
+    assert download.value.suggested_filename == "worm-15-to-1-report.html"
     text = Path(download.value.path()).read_text("utf-8")
     assert "gearset 3" in text
     expect(page.get_by_role("button", name="rate.xlsx")).to_be_visible()
+
+
+def test_what_was_taken_is_called_by_its_own_name_on_the_screen_and_in_its_file(seen):
+    page = seen.open("size", case="gearset-3", ratio="41", output_torque="500 N m")
+    take = page.get_by_role("button", name="take a =").first
+    expect(take).to_be_visible()
+    take.click()
+    expect(page.get_by_role("heading", name="Gearset", exact=True)).to_be_visible()
+    settled(page)
+    name = page.locator("#field-gearset-name").input_value()
+    assert re.match(r"\d+:\d, a \d+(\.\d{1,3})? mm$", name)
+    expect(page.locator("header .case .says")).to_contain_text(name)
+    expect(page.locator("header .case .says")).not_to_contain_text("thesis")
+    torque = page.locator("#field-operation-through_travel_torque")
+    if torque.count():
+        assert len(torque.input_value().replace(" N m", "")) <= 6
+    with page.expect_download() as download:
+        page.get_by_role("button", name="share").click()
+    called = re.sub(r"[^\w.-]+", "-", name)
+    assert download.value.suggested_filename == f"{called}.html"
+    assert f"<h1>Gearset: {name}</h1>" in Path(download.value.path()).read_text("utf-8")

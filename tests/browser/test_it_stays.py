@@ -51,6 +51,30 @@ def test_a_restart_keeps_tabs_and_bookmarks(browser, served):
     context.close()
 
 
+def test_a_tab_left_alone_over_a_restart_asks_again_by_itself(browser, served):
+    first = served()
+    context = browser.new_context()
+    tab = context.new_page()
+    tab.goto(here(first, f"slide?case=body-shaken-across&token={first.token}"))
+    ratio = tab.locator(".headline [data-key=ratio]")
+    expect(ratio).to_be_visible()
+    before = ratio.get_attribute("data-value")
+    first.close()
+    box = tab.get_by_label("velocity ratio k, typed")
+    box.fill("3")
+    box.press("Enter")
+    expect(tab.get_by_role("alert").first).to_contain_text("does not answer")
+    expect(tab.get_by_role("alert").first).to_contain_text("of before, not of what is set now")
+    assert ratio.get_attribute("data-value") == before
+    served()
+    # Nothing is touched.
+    expect(tab.locator(".fault")).to_have_count(0)
+    expect(tab.locator(".headline [data-key=velocity_ratio]")).to_have_attribute("data-value", "3")
+    assert ratio.get_attribute("data-value") != before
+    expect(tab.locator(".of-before")).to_have_count(0)
+    context.close()
+
+
 NOTE_WAITS = """
 window.waits = new Set();
 const note = () => document.querySelectorAll(".wait").forEach((one) => waits.add(one.textContent));

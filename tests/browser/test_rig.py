@@ -33,6 +33,8 @@ def test_a_recording_that_is_dropped_shows_its_segments_and_is_reduced(seen, ser
     page.get_by_role("button", name="reduce").click()
     change = page.locator("[data-key=torque_change_percent]").first
     expect(change).to_be_visible(timeout=120_000)
+    # Its one segment is doubtful, and so is what stands on top.
+    expect(page.locator(".big").first).to_contain_text("~ doubtful for")
     words = copied(page)
     assert "reduction.settling=1.5 s" in words
     wanted = answered(words, server.folder)["segments"][0]["torque_change_percent"]

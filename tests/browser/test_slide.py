@@ -284,7 +284,7 @@ def test_the_best_elevation_of_a_pin_is_taken_by_a_click(seen):
     page.get_by_role("button", name="take it").click()
     settled(page)
     assert shown(page, "ratio") < 0.2 * before
-    expect(page.get_by_text("No other elevation leaves less.")).to_be_visible()
+    expect(page.get_by_text("elevations tried leaves less by 0.01 or more.")).to_be_visible()
 
 
 AROUND = """async () => {
@@ -354,3 +354,24 @@ def test_the_first_tab_leads_to_the_answer(slide):
     expect(slide.get_by_role("button", name="skip to the answer")).to_be_focused()
     slide.keyboard.press("Enter")
     assert slide.evaluate("document.activeElement.id") == "main"
+
+
+def test_a_refused_elevation_keeps_its_field_and_the_old_headline_is_of_before(seen):
+    page = seen.open("slide", case="pin-on-disc")
+    box = page.get_by_label("elevation, typed")
+    was = box.input_value()
+    expect(page.locator(".headline [data-key=ratio]")).to_be_visible()
+    for wrong in ("-5", "up"):
+        box.fill(wrong)
+        box.press("Enter")
+        expect(page.locator(".fault")).to_contain_text("vibration.elevation")
+        expect(box).to_have_attribute("aria-invalid", "true")
+        expect(page.get_by_label("normal phase, typed")).to_be_visible()
+        said = page.evaluate(
+            "getComputedStyle(document.querySelector('.headline'), '::before').content"
+        )
+        assert said == '"of before"'
+    box.fill(was)
+    box.press("Enter")
+    settled(page)
+    expect(page.locator(".fault, .of-before")).to_have_count(0)

@@ -75,6 +75,36 @@ def test_points_that_no_grid_has_are_refused_also_from_an_address(seen):
         expect(box).to_have_value(typed)
 
 
+@pytest.mark.parametrize(
+    ("path", "ends", "wrong", "why"),
+    [
+        ("vibration.velocity_ratio", "abc~8", "from", "a number"),
+        ("vibration.velocity_ratio", "2~5 N m", "to", "a number without a unit"),
+        ("vibration.velocity_ratio", "2~inf", "to", "a number"),
+        ("vibration.velocity_ratio", "0~8", "from", "above 0 where steps are even ratios"),
+        ("vibration.direction", "0 deg~9 dag", "to", "in a unit such as"),
+    ],
+)
+def test_an_end_that_no_axis_has_is_told_at_its_field_and_nothing_is_promised(
+    seen, path, ends, wrong, why
+):
+    page = seen.open("sweep", case="body-shaken-along", x=f"{path}~{ends}~5~log", y="none")
+    if why.startswith("in a unit"):
+        page.get_by_label("spacing").select_option("even")
+    box = page.locator(f"#x-{wrong}")
+    expect(box).to_have_attribute("aria-invalid", "true")
+    expect(page.locator(f"#x-{wrong}-why")).to_contain_text(why)
+    expect(page.get_by_role("alert").first).to_contain_text(wrong)
+    expect(page.get_by_role("button", name="solve the grid")).to_be_disabled()
+    expect(page.locator(".controls [role=status]").first).to_have_text("–")
+    page.locator("#x-from").fill("1")
+    page.locator("#x-from").press("Enter")
+    page.locator("#x-to").fill("8")
+    page.locator("#x-to").press("Enter")
+    expect(page.get_by_role("button", name="solve the grid")).to_be_enabled()
+    expect(page.locator(".fault")).to_have_count(0)
+
+
 def test_a_grid_is_stopped_from_the_list_of_jobs_and_gone_on_with(seen):
     page = seen.open(
         "sweep", case="body-shaken-along", x="vibration.velocity_ratio~1~20~40~even",

@@ -212,3 +212,31 @@ def test_a_table_that_a_command_tells_is_that_of_the_command_line(seen):
                     assert numbers_of(one) == pytest.approx(numbers_of(other), rel=2e-3), row
                 differ += wanted != before
     assert differ > 10
+
+
+@pytest.mark.parametrize("width", [360, 720, 800])
+@pytest.mark.parametrize("screen", ["slide", "jobs"])
+def test_the_switch_is_in_sight_on_a_narrow_window(seen_as, width, screen):
+    page = seen_as(viewport={"width": width, "height": 800}).open(screen)
+    settled(page)
+    box = page.get_by_label("units", exact=True).bounding_box()
+    assert box["x"] >= 0
+    assert box["x"] + box["width"] <= width
+    assert box["y"] < 100
+    assert page.locator("nav [aria-current]").bounding_box()["x"] < box["x"]
+    choose(page, "us")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+def test_the_centre_of_a_pattern_has_the_digits_and_units_of_other_numbers(seen):
+    page = seen.open("flanks")
+    settled(page)
+    page.locator("details.all > summary").first.click()
+    button = page.locator(".all .num button[data-unit=mm]").filter(has_text=", ").first
+    for system, factor, unit in (("si", 1.0, "mm"), ("us", 1e-3 / INCH, "in")):
+        choose(page, system)
+        told = button.inner_text().split()
+        assert told[-1] == unit
+        for text, exact in zip(told, button.get_attribute("data-value").split(","), strict=False):
+            assert len(text.strip(",-0.")) <= 6
+            assert float(text.strip(",")) == pytest.approx(float(exact) * factor, rel=1e-4)

@@ -1,5 +1,6 @@
 /** What is asked of the server. Every answer is JSON; every error is one line. */
 import { signal, useEffect, useLayoutEffect, useRef, useState } from "../vendor/preact.js";
+import { awaitServer, returned } from "./again.js";
 import { instead, takeAnother, token } from "./state.js";
 
 /** What the command line says before what is wrong with a setting; here the field says it. */
@@ -13,6 +14,12 @@ export class Refused extends Error {
     this.exitCode = told.exit_code ?? null;
     this.reached = told.reached ?? null;
   }
+}
+
+/** What is told while nothing answers; what was asked is asked again once something does. */
+function silent() {
+  awaitServer();
+  return new Refused("the server does not answer: is asperity page still running? It is asked every second", 0);
 }
 
 /** Of a file that is there already and holds something else. */
@@ -30,7 +37,7 @@ async function ask(path, options = {}) {
     response = await fetch(path, { ...options, headers });
   } catch (error) {
     if (error.name === "AbortError") throw error;
-    throw new Refused("the server does not answer: is asperity page still running?", 0);
+    throw silent();
   }
   if (response.ok) return response;
   const told = await response.json().catch(() => ({}));
@@ -107,7 +114,9 @@ export async function follow(id, onEvent, stop) {
   const reader = /** @type {ReadableStream} */ (response.body).pipeThrough(new TextDecoderStream()).getReader();
   let rest = "";
   for (;;) {
-    const { value, done } = await reader.read();
+    const { value, done } = await reader.read().catch((error) => {
+      throw error.name === "AbortError" ? error : silent();
+    });
     if (done) return;
     const events = (rest + value).split("\n\n");
     rest = events.pop() ?? "";
@@ -156,6 +165,9 @@ export function useCaseFile(name) {
   }, [name, known]);
   return known ?? null;
 }
+// What could not be read while nothing answered.
+returned.subscribe(() =>
+  (opened.value = Object.fromEntries(Object.entries(opened.peek()).filter(([, { error }]) => error?.status !== 0))));
 
 /**
  * What is asked for where a key says what, once for each.
@@ -175,7 +187,7 @@ export function useAsked(key, ask) {
       (error) => error.name === "AbortError" || setKnown({ key, found: null, error }),
     );
     return () => leave.abort();
-  }, [key]);
+  }, [key, returned.value]);
   return known.key === key ? known : { found: null, error: null };
 }
 
@@ -271,7 +283,7 @@ export function useLive(verb, body, delay = 0) {
     if (delay) mine.timer = setTimeout(begin, delay);
     else begin();
     return () => clearTimeout(mine.timer);
-  }, [verb, text, delay]);
+  }, [verb, text, delay, returned.value]);
   const path = state.data || state.error ? "" : shippedAt(verb, text);
   const ships = useAsked(path, (leave) => get(path, leave)).found;
   // As an answer is, it is shown until the next is there.

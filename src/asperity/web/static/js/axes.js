@@ -13,6 +13,19 @@ export function axisOf(text) {
   return path.includes(".") ? { path, from, to, points, count, spacing } : null;
 }
 
+/** Why an end of an axis is refused; "" where it is not. @param {any} axis @param {string} end */
+export function refusedEnd(axis, end) {
+  const { path, spacing } = axis;
+  const [number, unit] = split(axis[end]);
+  const field = fieldOf(path);
+  const usual = field?.unit || split(field?.example)[1];
+  const must = !Number.isFinite(number) ? `a number${usual ? ` with its unit, such as ${field.example}` : ""}`
+    : unit && field && field.kind !== "quantity" ? "a number without a unit"
+    : unit && Number.isNaN(inUnit(axis[end], usual || unit)) ? `in a unit such as ${usual}`
+    : spacing === "log" && !(number > 0) ? "above 0 where steps are even ratios" : "";
+  return must && `${JSON.stringify(axis[end])}; it must be ${must}`;
+}
+
 export const textOf = ({ path, from, to, points, spacing }) => [path, from, to, points, spacing].join("~");
 
 /** The values of an axis as `--over` takes them. */

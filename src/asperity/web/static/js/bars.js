@@ -15,11 +15,16 @@ export const Verdict = ({ ok, yes = "holds", no = "fails", other = "" }) =>
   ok === null ? html`<span class="verdict">? ${other}</span>`
     : html`<span class=${ok ? "verdict good" : "verdict bad"}>${ok ? `✓ ${yes}` : `✗ ${no}`}</span>`;
 
-export function Bar({ from, to, kind, mark }) {
+/**
+ * A bar; `on`: it goes on beyond its end.
+ * @param {{from: number, to: number, kind: string, mark: number, on?: boolean}} props
+ */
+export function Bar({ from, to, kind, mark, on = false }) {
   return html`<svg class="bar" viewBox="0 0 300 12" preserveAspectRatio="none" aria-hidden="true">
     <rect class="ground" width="300" height="12" />
     <rect class=${kind} x=${Math.min(from, to)} width=${Math.max(Math.abs(to - from), 1)} height="12" />
     <path class="mark" d=${`M${mark} 0V12`} />
+    ${on ? html`<path class="goes-on" d="M284 1L292 6L284 11M291 1L299 6L291 11" />` : null}
   </svg>`;
 }
 
@@ -35,7 +40,8 @@ export const Sided = ({ value, most, kind = value < 0 ? "less" : "more" }) =>
 export const Margins = ({ rows }) => html`<${Table} kind="bars" rows=${rows} columns=${[
   ["safety", (row) => html`${row.name} <span class="of">${symbol(row.symbol)}</span>`, "row"],
   ["0 to 3 × asked", ({ value, asked, holds }) => html`<${Bar} from=${0}
-    to=${Math.min(value / asked / MOST, 1) * 300} mark=${300 / MOST} kind=${holds ? "good" : "bad"} />`],
+    to=${Math.min(value / asked / MOST, 1) * 300} mark=${300 / MOST} kind=${holds ? "good" : "bad"}
+    on=${value / asked > MOST} />`],
   ["value", ({ entry, value }) => (entry ? html`<${Num} entry=${entry} count=${3} />` : digits(value, 3)), "right"],
   ["asked", ({ asked }) => digits(asked, 3), "right"],
   ["verdict", ({ holds }) => html`<${Verdict} ok=${holds} />`],

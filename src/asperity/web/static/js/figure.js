@@ -11,6 +11,9 @@ const KEPT = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharra
   "font-weight"];
 const [MARGIN, TITLE, ENTRY] = [12, 28, 20];
 
+/** What a file is called for something. @param {string} name */
+export const fileOf = (name) => name.replace(/\.toml$/i, "").replace(/[^\w.-]+/g, "-").replace(/^[-.]+|-+$/g, "");
+
 /** Hand a file to the reader. @param {string} name @param {Blob | string} content */
 export function download(name, content) {
   const blob = content instanceof Blob ? content : new Blob([content]);

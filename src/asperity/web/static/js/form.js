@@ -42,7 +42,7 @@ const GIVE = / *(?:Give this|Exactly one of)[^.;]*\.?/;
 /** What a key means, as it is said beside its box. */
 function meaningOf({ meaning, kind, follows }) {
   const said = kind === "quantity" ? meaning.replace(SI, "").replace(/, rad (?=\()/, " ") : meaning;
-  return follows?.length ? said.replace(GIVE, "") : said;
+  return follows?.length ? said.replace(GIVE, "").replace(".;", ";") : said;
 }
 
 function hint(field) {

@@ -1,5 +1,6 @@
 /** The list of screens, and the one that is open. */
 import { html, render, signal, useEffect } from "../vendor/preact.js";
+import { returned } from "./again.js";
 import { about, loadAbout, loadForms } from "./api.js";
 import { App, HIDDEN } from "./shell.js";
 import { handed, route, whenHanded } from "./state.js";
@@ -36,7 +37,7 @@ function Page() {
     listed.load()
       .then(({ view }) => (loaded.value = { ...loaded.peek(), [screen]: view }))
       .catch((error) => (trouble.value = error));
-  }, [screen]);
+  }, [screen, returned.value]);
   const View = loaded.value[screen];
   return html`<${App} screens=${SCREENS}>
     ${trouble.value ? html`<p class="fault" role="alert">✗ ${trouble.value.message}</p>` : null}
@@ -45,8 +46,10 @@ function Page() {
   <//>`;
 }
 
+let timer = 0;
 /** Ask again until what computes is there. */
 async function wait() {
+  clearTimeout(timer);
   try {
     await loadAbout();
     trouble.value = null;
@@ -55,11 +58,13 @@ async function wait() {
     // A tab that is opened at the printed address hands its token on.
     if (error.status === 403) return whenHanded(() => location.reload());
   }
-  if (!about.value?.ready) setTimeout(wait, 1000);
+  if (!about.value?.ready) timer = setTimeout(wait, 1000);
 }
 
 handed.then(() => {
   render(html`<${Page} />`, document.body);
-  wait();
-  loadForms().catch((error) => (trouble.value = error));
+  returned.subscribe(() => {
+    wait();
+    loadForms().catch((error) => (trouble.value = error));
+  });
 });

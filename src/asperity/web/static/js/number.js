@@ -3,6 +3,7 @@ import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { Beneath } from "./figure.js";
 import { inWords, symbol } from "./symbols.js";
 import { Table } from "./table.js";
+import { digits } from "./units.js";
 import { readable, shown } from "./us.js";
 
 const TRUST = {
@@ -27,9 +28,10 @@ export function Num({ entry, label = false, count = 5 }) {
   const none = entry.value && Math.abs(entry.value) <= (entry.resolution ?? 0);
   const [value, unit] =
     none ? [`0 within ${readable(entry.resolution, entry.unit, 1)[0]}`, readable(entry.resolution, entry.unit)[1]]
-    : typeof entry.value === "number"
-      ? readable(entry.value, entry.unit, count)
-      : [entry.value === null ? "–" : String(entry.value), entry.unit];
+    : typeof entry.value === "number" ? readable(entry.value, entry.unit, count)
+    : Array.isArray(entry.value) && entry.value.every((each) => typeof each === "number")
+      ? [entry.value.map((each) => digits(shown(each, entry.unit)[0], count)).join(", "), shown(0, entry.unit)[1]]
+    : [entry.value === null ? "–" : String(entry.value), entry.unit];
   return html`<span class="num">
     ${label ? html`<span class="of">${inWords(entry.meaning)}</span> ` : null}
     <button type="button" data-key=${entry.key} data-value=${entry.value ?? ""} data-unit=${entry.unit}
@@ -60,7 +62,7 @@ export function Behind() {
   };
   const rows = entry
     ? [
-        ["symbol", symbol(entry.symbol)], ["exactly", `${entry.value ?? "none"} ${entry.unit}`],
+        ["symbol", symbol(entry.symbol)], ["exactly", `${[entry.value ?? "none"].flat().join(", ")} ${entry.unit}`],
         ["equation", symbol(entry.equation)], ["equation from", entry.own],
         [entry.trust === "computed" ? "source" : "weakest source of what it follows from", entry.source],
         ["trust", TRUST[entry.trust] ?? entry.trust], ["in --json", entry.key],

@@ -1,8 +1,11 @@
 /** Reports: one file that prints, of a screen's own job, of a job for it, or of what is answered at once. */
 import { html, useEffect, useRef, useState } from "../vendor/preact.js";
-import { download } from "./figure.js";
+import { download, fileOf } from "./figure.js";
+import { called } from "./state.js";
 import { ENDED, Files, REPORT, take, useJob } from "./work.js";
 
+/** What a report is called once it is handed over: one tells another gearset's from it. */
+const own = () => (called() ? `${fileOf(called())}-${REPORT}` : REPORT);
 const TITLE = "a file to read and to print, with what was set";
 
 /**
@@ -18,10 +21,10 @@ export function Report({ work, files = false }) {
     if (error) wanted.current = false;
     if (!there || !wanted.current) return;
     wanted.current = false;
-    take(id, REPORT);
+    take(id, REPORT, own());
   }, [there, id, error]);
   const ask = () => {
-    if (there) return take(id, REPORT);
+    if (there) return take(id, REPORT, own());
     wanted.current = true;
     start();
   };
@@ -51,7 +54,7 @@ export function ReportNow({ ask }) {
     try {
       const { html: text } = await ask();
       setError("");
-      download(REPORT, new Blob([text], { type: "text/html" }));
+      download(own(), new Blob([text], { type: "text/html" }));
     } catch (found) {
       setError(found.message);
     } finally {

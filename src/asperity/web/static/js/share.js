@@ -1,7 +1,7 @@
 /** A screen as one file that works without server and network: what is shown, what it was made from, the case. */
 import { about } from "./api.js";
 import { movesOf, scriptOf } from "./embedded.js";
-import { download } from "./figure.js";
+import { download, fileOf } from "./figure.js";
 
 const STYLES = ["style.css", "gear.css", "stage.css"];
 /** What of a screen is of use with a server only. */
@@ -110,7 +110,7 @@ export async function share(title, told, of) {
   const day = new Date().toISOString().slice(0, 10);
   const name = of || title;
   const heading = of ? `${title}: ${of}` : title;
-  const file = `${name.replace(/\.toml$/i, "").replace(/[^\w.-]/g, "-")}.toml`;
+  const file = `${fileOf(name)}.toml`;
   const items = (told.notes ?? []).map((each) => `<li>${safe(each)}</li>`).join("");
   const notes = items ? `<h2>Notes</h2><ul>${items}</ul>` : "";
   const whole = `<!doctype html>

@@ -2,7 +2,7 @@
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { about, forgetCase, loadAbout, post, THERE, useCaseFile } from "./api.js";
 import { Behind } from "./number.js";
-import { address, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
+import { address, called, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
 import { inWords } from "./symbols.js";
 import { follow, Units } from "./us.js";
 import { visited } from "./visited.js";
@@ -30,12 +30,11 @@ export function tell(text) {
 
 /** Make a file of the screen, and say so where that takes longer. */
 async function shared(title, answer) {
-  const { case: of = "" } = route.peek().params;
   sharing.value = true;
   tell("the file is being made");
   try {
     const { share } = await import("./share.js");
-    await share(title, answer, of);
+    await share(title, answer, called());
     tell("the file is made: all of this, for anyone, without server and network");
   } catch (error) {
     tell(`no file: ${error.message}`);
@@ -108,6 +107,7 @@ function CasePicker({ kinds, first, start = {} }) {
   const option = (each) => html`<option key=${each.name} value=${each.alias || each.name}>
     ${each.alias || each.name}</option>`;
   const known = cases.find((each) => each.name === name || each.alias === name);
+  const taken = settings["gearset.name"];
   const count = Object.entries(settings).filter(([path, text]) => start[path] !== text).length;
   return html`<div class="case">
     <label for="case">case</label>
@@ -126,8 +126,8 @@ function CasePicker({ kinds, first, start = {} }) {
     <button type="button" class="quiet as-it-was" disabled=${!count} onClick=${() => reset(name, start)}
       title=${count ? `${count} set` : ""}><span class="sign" aria-hidden="true">↺ </span><span class="word">as the case
         has it</span></button>
-    <span class="on-paper"><b>${known?.alias || name}</b></span>
-    <span class="says">${known?.title ?? ""}</span>
+    <span class="on-paper"><b>${taken || known?.alias || name}</b></span>
+    <span class="says">${taken ? html`now <b>${taken}</b>; all else as this case has it` : (known?.title ?? "")}</span>
   </div>`;
 }
 
@@ -218,9 +218,11 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
     </header>
     <div role="alert" class=${error ? "fault" : ""}>
       ${error ? html`<p>✗ ${error.message}</p>` : null}
+      ${error && answer?.answer ? html`<p class="says">What is shown below is of before, not of what is set now.</p>`
+        : null}
       ${reached.length ? html`<p class="says">
         reached: ${reached.map(([key, value]) => `${key} ${value}`).join(", ")}</p>` : null}
     </div>
     ${error ? null : html`<${Notes} notes=${answer?.notes} />`}
-    <div class=${error || late ? "body stale" : "body"}>${children}</div>`;
+    <div class=${`body${error || late ? " stale" : ""}${error ? " of-before" : ""}`}>${children}</div>`;
 }

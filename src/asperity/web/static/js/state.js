@@ -197,6 +197,9 @@ export function useCase() {
   return { name: params.case ?? "", settings, set, setAll, unset, reset };
 }
 
+/** What the case is called now: as the gearset that was taken, or else as its file. */
+export const called = ({ params } = route.peek()) => params[`${SET}gearset.name`] || params.case || "";
+
 /** Set a key of the case; another form of the same thing is left out. */
 function set(path, text) {
   setAll({ [path]: text });

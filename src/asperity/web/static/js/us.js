@@ -70,8 +70,6 @@ const SMALL = { m: [2.5e-5, "um", 1e6], "m/s": [0.02, "mm/s", 1e3] };
 /** Value and unit as a reader wants them. @returns {[string, string]} */
 export function readable(value, unit, count = 5) {
   if (asKept() || !Number.isFinite(value)) return inSI(value, unit, count);
-  // What is less than a hundredth of a horsepower is told in watts.
-  if (unit === "W" && Math.abs(value) < HP / 100) return inSI(value, unit, count);
   const [below, other, times] = SMALL[unit] ?? [0, "", 1];
   const [number, of] = Math.abs(value) < below ? shown(value * times, other) : shown(value, unit);
   return inSI(number, of, count);

@@ -1,5 +1,6 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
 import { html, useEffect, useState } from "../vendor/preact.js";
+import { returned } from "./again.js";
 import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, shippedJobs, useAsked,
   useLive } from "./api.js";
 import { download } from "./figure.js";
@@ -12,9 +13,9 @@ export const ENDED = ["stopped", "done", "failed"];
 /** What a job is told in on paper; its name. */
 export const REPORT = "report.html";
 
-/** Hand a file of a job over. */
-export async function take(id, name) {
-  download(name, await (await fetchRaw(placeOf(id, encodeURIComponent(name)))).blob());
+/** Hand a file of a job over, called `as`. */
+export async function take(id, name, as = name) {
+  download(as, await (await fetchRaw(placeOf(id, encodeURIComponent(name)))).blob());
 }
 
 /** Jobs that were begun here, by what was asked: another visit finds them again. */
@@ -106,7 +107,7 @@ export function useJob(command, body, slot = "", any = false) {
     };
     follow(id, hear, leave.signal).then(() => get(`/api/jobs/${id}`, leave)).then(hear).catch(failed);
     return () => leave.abort();
-  }, [id, round]);
+  }, [id, round, returned.value]);
   const start = async () => {
     put({ asking: true, error: null });
     try {
@@ -244,6 +245,7 @@ export function Files({ job }) {
   const buttons = names.map((name) => html`<button type="button" class="quiet" key=${name}
     onClick=${() => take(job.id, name)}>${name}</button>`);
   return html`<p class="row"><span class="says">files:</span> ${buttons.slice(0, FEW)}</p>
-    ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more files</summary>
+    ${buttons.length > FEW ? html`<details><summary>${buttons.length - FEW} more ${
+      buttons.length - FEW === 1 ? "file" : "files"}</summary>
       ${buttons.slice(FEW)}</details>` : null}`;
 }

@@ -164,10 +164,13 @@ function Most({ segments }) {
   const [best] = segments.filter(({ quality }) => quality !== "refused")
     .toSorted((one, other) => one.torque_change_percent - other.torque_change_percent);
   if (!best) return html`<p class="big">No segment tells what vibration did.</p>`;
-  const { torque_change_percent: change, torque_change_ci95_percent: ends, commanded_Hz: at } = best;
+  const { torque_change_percent: change, torque_change_ci95_percent: ends, commanded_Hz: at, quality, flags } = best;
+  const [sign, kind] = SIGNS[quality];
   return html`<p class="big"><b>${digits(Math.abs(change), 3)} %</b> ${change < 0 ? "less" : "more"} torque${
     at ? ` at ${digits(at, 4)} Hz` : ""}${ends ? html`, <span class="says">95 % sure of ${
-    ends.map((each) => digits(Math.abs(each), 3)).toSorted().join(" to ")} %</span>` : null}</p>`;
+    ends.map((each) => digits(Math.abs(each), 3)).toSorted().join(" to ")} %</span>` : null}${
+    quality === "good" ? null : html`, <span class=${kind} title=${flags.join("; ")}>${sign} ${quality} for ${
+    flags.length} ${flags.length === 1 ? "reason" : "reasons"}, told in its row</span>`}</p>`;
 }
 
 /** What vibration did, with intervals, and the model beside it. */

@@ -100,9 +100,9 @@ function Proposals({ found, options, through, parts }) {
     ...Object.fromEntries(one.settings.map((text) => text.split(/=(.*)/).slice(0, 2))),
     "operation.output_torque": options.output_torque, "operation.worm_speed": options.worm_speed,
     // Not the name of what it was before.
-    "gearset.name": `${one.wheel_teeth}:${one.starts}, a ${one.centre_distance_mm} mm`,
+    "gearset.name": `${one.wheel_teeth}:${one.starts}, a ${digits(one.centre_distance_mm, 5)} mm`,
     // That of the case goes with another torque.
-    ...(through && { [THROUGH]: `${Number((torque / parts).toPrecision(12))} ${unit}` }),
+    ...(through && { [THROUGH]: `${digits(torque / parts)} ${unit}` }),
   });
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
     a = ${amount(one.centre_distance_mm, "mm", 12)}, ${one.wheel_teeth}:${one.starts}, m = ${

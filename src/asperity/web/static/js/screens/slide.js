@@ -101,7 +101,9 @@ function Known({ path, ...more }) {
 }
 
 function Direction() {
-  const elevated = inUnit(useValue("vibration.elevation").text, "deg") > 0;
+  const { text } = useValue("vibration.elevation");
+  // Also of what is refused: it is mended where it was typed.
+  const elevated = Boolean(text) && inUnit(text, "deg") !== 0;
   return html`
     <${Known} path="vibration.direction" low=${0} high=${elevated ? 180 : 90} step=${1} unit="deg" log=${false} />
     ${elevated ? html`
@@ -261,8 +263,10 @@ function Best({ curve, ratio, over, pick }) {
   const known = left.map((value, at) => ({ value, at })).filter(({ value, at }) => value !== null && !flags[at]);
   if (over === "k" || !known.length || ratio === undefined) return null;
   const { value, at } = known.reduce((best, one) => (Math.abs(one.value) < Math.abs(best.value) ? one : best));
-  if (ratio - value < WORTH) return html`<p role="status">No other ${OVER[over].words} leaves less.</p>`;
-  return html`<p class="row"><span role="status">Least is left at ${digits(x[at], 3)}°: ${digits(value, 3)}.</span>
+  const tried = `of the ${x.length} ${OVER[over].words}s tried`;
+  if (ratio - value < WORTH) return html`<p role="status">None ${tried} leaves less by ${WORTH} or more.</p>`;
+  return html`<p class="row"><span role="status">Least ${tried} is left at ${digits(x[at], 3)}°: ${
+      digits(value, 3)}.</span>
     <button type="button" onClick=${() => pick(x[at])}>take it</button></p>`;
 }
 

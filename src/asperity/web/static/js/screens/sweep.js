@@ -1,13 +1,13 @@
 /** A case over a grid: axes, how long it takes, a map that fills, and the file of it. */
 import { html, useEffect, useState } from "../../vendor/preact.js";
-import { axisOf, MOST, over, textOf } from "../axes.js";
+import { axisOf, MOST, over, refusedEnd, textOf } from "../axes.js";
 import { commandLine, forms, get, useCaseFile, useLive } from "../api.js";
 import { AllKeys, Box, fieldOf, words } from "../form.js";
 import { Heat } from "../heat.js";
 import { Plot } from "../plot.js";
 import { Report } from "../report.js";
 import { Screen } from "../shell.js";
-import { route, setParam, useCase } from "../state.js";
+import { fault, route, setParam, useCase } from "../state.js";
 import { inWords, plain, printed } from "../symbols.js";
 import { digits, split } from "../units.js";
 import { amount, withUnitOf, written } from "../us.js";
@@ -34,9 +34,8 @@ export function view() {
   const texts = ["x", "y"].map((key, place) => params[key] ?? kind.axes[place]);
   const axes = texts.flatMap((text) => axisOf(text) ?? []);
   const points = axes.reduce((product, { count }) => product * count, 1);
-  const wrong = axes.find(({ count }) => !count);
-  const refused = wrong && { message: `points of ${words(wrong.path.split(".")[1])}: ${JSON.stringify(wrong.points)}; `
-    + `it must be a whole number from 1 to ${MOST}` };
+  const [wrong] = axes.flatMap((axis) => refusals(axis).map(([what, why]) => ({ axis, what, why })));
+  const refused = wrong && { message: `${wrong.what} of ${words(wrong.axis.path.split(".")[1])}: ${wrong.why}` };
   const body = name && axes.length && !wrong ? { case: name, settings, options: { over: axes.map(over) } } : null;
   const work = useJob("sweep", body);
   // One point is solved at once: it refuses what cannot be, and tells how long the others take.
@@ -72,6 +71,12 @@ export function view() {
   <//>`;
 }
 
+/** What of an axis is refused, and why. @returns {[string, string][]} */
+const refusals = (axis) => /** @type {[string, string][]} */ ([["from", refusedEnd(axis, "from")],
+  ["to", refusedEnd(axis, "to")],
+  ["points", axis.count ? "" : `${JSON.stringify(axis.points)}; it must be a whole number from 1 to ${MOST}`],
+]).filter(([, why]) => why);
+
 function AxisForm({ name, label, axis, tables, file }) {
   const change = (more) => setParam(name, textOf({ ...axis, ...more }));
   const choose = (path) => {
@@ -86,9 +91,15 @@ function AxisForm({ name, label, axis, tables, file }) {
     setParam(name, textOf({ path, from, to, points: "11", spacing: field.log ? "log" : "even" }));
   };
   const numeric = ({ kind }) => ["quantity", "number", "integer"].includes(kind);
-  const boxes = axis ? [["from", written(axis.from), (from) => change({ from: withUnitOf(from, axis.from) })],
-    ["to", written(axis.to), (to) => change({ to: withUnitOf(to, axis.to) })],
-    ["points", axis.points, (points) => change({ points }), !axis.count]] : [];
+  // A bare number has the unit of an end that is not refused.
+  const right = (...ends) => axis[ends.find((end) => !refusedEnd(axis, end)) ?? ""] ?? fieldOf(axis.path)?.example;
+  const boxes = axis ? [
+    ["from", written(axis.from), (from) => change({ from: withUnitOf(from, right("from", "to")) })],
+    ["to", written(axis.to), (to) => change({ to: withUnitOf(to, right("to", "from")) })],
+    ["points", axis.points, (points) => change({ points })]] : [];
+  const why = Object.fromEntries(axis ? refusals(axis) : []);
+  // What only the server knows to be wrong names its key.
+  const all = axis && fault.value.includes(`${axis.path} `);
   return html`<fieldset><legend>${label}</legend>
     <div class="field"><label for=${`${name}-path`}>key</label>
       <select id=${`${name}-path`} value=${axis?.path ?? ""} onChange=${(event) => choose(event.target.value)}>
@@ -98,10 +109,14 @@ function AxisForm({ name, label, axis, tables, file }) {
             html`<option value=${`${table}.${key}`}>${words(key)}</option>`)}
         </optgroup>`)}
       </select></div>
-    ${boxes.map(([what, text, put, invalid]) => html`<div class="field" key=${what}>
+    ${boxes.map(([what, text, put]) => html`<div class="field" key=${what}>
       <label for=${`${name}-${what}`}>${what}</label>
-      <${Box} id=${`${name}-${what}`} text=${text} onSet=${put} invalid=${invalid} />
-      ${what === "points" ? html`<p class="says">a whole number from 1 to ${MOST}</p>` : null}</div>`)}
+      <${Box} id=${`${name}-${what}`} text=${text} onSet=${put}
+        invalid=${what in why || (all && what !== "points")}
+        describedby=${what in why ? `${name}-${what}-why` : undefined} />
+      ${what in why ? html`<p class="says bad" id=${`${name}-${what}-why`}>✗ ${why[what]}</p>` : null}
+      ${what === "points" && !(what in why)
+        ? html`<p class="says">a whole number from 1 to ${MOST}</p>` : null}</div>`)}
     ${axis ? html`<div class="field"><label for=${`${name}-spacing`}>spacing</label>
       <select id=${`${name}-spacing`} value=${axis.spacing}
         onChange=${(event) => change({ spacing: event.target.value })}>
@@ -154,8 +169,8 @@ function Least({ title, unit, values, loose, axes }) {
   const places = axes.length > 1 ? [Math.floor(at / count), at % count] : [at];
   const where = axes.map(({ label, unit: of, values: all }, k) =>
     printed(`${label} ${amount(all[places[k]], of)}`));
-  return html`<p class="big">Least: <b>${amount(value, unit, 3)}</b> at ${where.join(", ")}${" "}
-    <span class="says">${inWords(title)}</span></p>`;
+  return html`<p class="big"><span class="says">${inWords(title)}</span><br />Least: <b>${
+    amount(value, unit, 3)}</b> at ${where.join(", ")}</p>`;
 }
 
 /** What is shown of all that was solved. */
