@@ -334,13 +334,9 @@ def _load(column: FloatArray, body: _Body) -> None:
     column[row.PENETRATION] = q.reference
     if q.mobility == 0.0 and body.model.shape is not None:
         wave = body.model.wave(body.table.step, lead=body.model.normal_lead)
-        column[row.PENETRATION] += q.base * displacement_at(wave, -_start(body.model))
+        begin = body.model.start * body.model.frequency
+        column[row.PENETRATION] += q.base * displacement_at(wave, -begin)
     column[[row.LOAD, row.ELASTIC]] = elastic_force(q.law, column[row.PENETRATION])
-
-
-def _start(model: Model) -> float:
-    """Start of the vibration in its cycles."""
-    return model.start * model.frequency
 
 
 def _waves(bodies: Sequence[_Body]) -> tuple[FloatArray, FloatArray, bool]:
@@ -354,8 +350,8 @@ def _waves(bodies: Sequence[_Body]) -> tuple[FloatArray, FloatArray, bool]:
         rate = model.frequency * table.step
         turn = 2.0 * math.pi * rate
         waves[:6, place] = (
-            model.shape.code, model.wave(table.step).rise, -_start(model), rate, math.cos(turn),
-            math.sin(turn),
+            model.shape.code, model.wave(table.step).rise, -model.start * model.frequency, rate,
+            math.cos(turn), math.sin(turn),
         )  # fmt: skip
         waves[8, place] = model.shape.ramp
         shapes[place] = model.shape.table
