@@ -495,7 +495,8 @@ def test_what_a_person_switches_is_named_whenever_nobody_was_asked(made, way):
 
 def test_a_supply_that_is_on_is_looked_at_unasked(made, monkeypatch):
     monkeypatch.setattr(guardians, "_POLLED", 0.05)
-    one = made()
+    # What garbles is tried until its time is over.
+    one = made(limit=0.5)
     one.begin()
     one.ask("steel", "on")
     looked = one.told.count
