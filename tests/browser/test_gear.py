@@ -240,8 +240,9 @@ def test_a_torque_ratio_stands_beside_its_balance_and_whether_it_settled(seen, s
     page.get_by_role("button", name="shake it").click()
     done(page, "shaken")
     answer = answered(copied(page), server.folder)
+    # Marched in two processes, whose threads of linear algebra add up in orders of their own.
     for key in ("torque_ratio", "torque_balance", "power_actuator_W", "saved_per_actuator_W_W"):
-        assert shown(page, key) == pytest.approx(answer[key], rel=1e-12)
+        assert shown(page, key) == pytest.approx(answer[key], rel=1e-9)
     expect(page.locator(".ratio")).to_contain_text("✓ settled")
     for button, box, then in (("try each way", "which way", "least force on the teeth"),
                               ("take the motor off", "locking", "Creep of the wheel")):  # fmt: skip
@@ -423,7 +424,7 @@ def test_what_was_taken_is_called_by_its_own_name_on_the_screen_and_in_its_file(
     torque = page.locator("#field-operation-through_travel_torque")
     if torque.count():
         assert len(torque.input_value().replace(" N m", "")) <= 6
-    with page.expect_download() as download:
+    with page.expect_download(timeout=120_000) as download:
         page.get_by_role("button", name="share").click()
     called = re.sub(r"[^\w.-]+", "-", name)
     assert download.value.suggested_filename == f"{called}.html"

@@ -22,7 +22,7 @@ def shared(seen, tmp_path):
         button = page.get_by_role("button", name="share", exact=True)
         expect(button).to_be_visible()
         settled(page)
-        with page.expect_download() as download:
+        with page.expect_download(timeout=120_000) as download:
             button.click()
         path = tmp_path / download.value.suggested_filename
         download.value.save_as(path)
@@ -64,7 +64,7 @@ def test_a_shared_file_holds_the_numbers_and_the_case_that_gives_them(
         assert again[key] == told[key]
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
     expect(page.get_by_text("Made on")).to_contain_text(f"asperity {command}")
-    with page.expect_download() as download:
+    with page.expect_download(timeout=120_000) as download:
         page.get_by_role("button", name="save the case").click()
     saved = Path(download.value.path()).read_text()
     assert saved == page.locator("#case").text_content()

@@ -37,7 +37,7 @@ def test_a_grid_that_is_solved_is_what_the_command_line_finds(seen, server):
         answer = answered([*words, *sets], server.folder)
         assert found[k, direction] == pytest.approx(answer["ratio"], rel=1e-5)
     assert answered([*copied(page), "--json"], server.folder)["points"] == 6
-    with page.expect_download() as download:
+    with page.expect_download(timeout=120_000) as download:
         page.get_by_role("button", name="sweep.nc", exact=True).click()
     assert download.value.suggested_filename == "sweep.nc"
     page.reload()
@@ -254,7 +254,7 @@ def test_a_job_of_a_command_without_a_screen_opens_with_its_tables_and_pictures(
     picture.scroll_into_view_if_needed()
     expect(picture).to_be_visible()
     assert picture.evaluate("e => e.naturalWidth") > 300
-    with page.expect_download() as got:
+    with page.expect_download(timeout=120_000) as got:
         page.get_by_role("button", name="report", exact=True).click()
     assert "<h2>" in Path(got.value.path()).read_text("utf-8")
     # What is asked of no job says where they are.
