@@ -110,9 +110,13 @@ def test_files_that_are_written_together_stand_all_or_not_at_all(tmp_path):
     with written_together(tmp_path) as folder:
         write_text(folder / "one.txt", "new")
         write_text(folder / "two.txt", "new")
-        assert [path.read_text() for path in tmp_path.glob("*.txt")] == ["old"]
-    assert {path.name: path.read_text() for path in tmp_path.iterdir()} == {
-        "one.txt": "new", "two.txt": "new"
+        (folder / "of/each").mkdir(parents=True)
+        write_text(folder / "of/each/three.txt", "new")
+        assert [
+            path.read_text() for path in tmp_path.rglob("*.txt") if folder not in path.parents
+        ] == ["old"]
+    assert {path.name: path.read_text() for path in tmp_path.rglob("*.txt")} == {
+        "one.txt": "new", "two.txt": "new", "three.txt": "new"
     }  # fmt: skip
 
     def full(target):
@@ -125,7 +129,7 @@ def test_files_that_are_written_together_stand_all_or_not_at_all(tmp_path):
 
     two = tmp_path / "two.txt"
     assert refusal(writing) == f"{two} cannot be written: no space left on device"
-    assert sorted(tmp_path.iterdir()) == [old, two]
+    assert sorted(tmp_path.glob("*.txt")) == [old, two]
     assert old.read_text() == "new"
 
 

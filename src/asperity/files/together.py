@@ -36,7 +36,7 @@ def written_together(folder: Path) -> Iterator[Path]:
         for place in places:
             refuse_input(place)
         for path, place in zip(files, places, strict=True):
-            place.parent.mkdir(exist_ok=True)
+            place.parent.mkdir(parents=True, exist_ok=True)
             os.replace(path, place)
     except StorageError as error:
         error.args = (str(error).replace(str(made), str(folder)), *error.args[1:])
