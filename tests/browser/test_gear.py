@@ -240,7 +240,7 @@ def test_a_torque_ratio_stands_beside_its_balance_and_whether_it_settled(seen, s
     page.get_by_role("button", name="shake it").click()
     done(page, "shaken")
     answer = answered(copied(page), server.folder)
-    # Marched in two processes, whose threads of linear algebra add up in orders of their own.
+    # Marched in two processes, which were seen to be 1.5e-12 apart.
     for key in ("torque_ratio", "torque_balance", "power_actuator_W", "saved_per_actuator_W_W"):
         assert shown(page, key) == pytest.approx(answer[key], rel=1e-9)
     expect(page.locator(".ratio")).to_contain_text("✓ settled")
