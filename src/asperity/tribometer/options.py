@@ -223,9 +223,7 @@ class Reduction(Table):
     frequency_tolerance: Annotated[float, Quantity("", "a share", "0.01", gt=0, lt=0.5)] = 0.02
     confidence: Annotated[float, Quantity("", "a share", "0.95", gt=0.5, lt=1)] = 0.95
     drift: bool = True
-    weighing_uncertainty: (
-        Annotated[float, Quantity("kg", "a mass", "0.1 mg", gt=0)] | None
-    ) = None
+    weighing_uncertainty: Annotated[float, Quantity("kg", "a mass", "0.1 mg", gt=0)] | None = None
 
     @model_validator(mode="after")
     def _fits(self) -> "Reduction":

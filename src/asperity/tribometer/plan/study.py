@@ -46,7 +46,7 @@ class PlanProblem:
     files: tuple[PlannedFile, ...]
     plant: Plant | None
     warnings: tuple[str, ...]
-    reduction: Reduction = Reduction()
+    reduction: Reduction
 
     def named(self, text: str) -> str:
         """Return a sentence of the discs as it is of what the rig has."""
@@ -183,9 +183,7 @@ def _expected(problem: PlanProblem) -> Expected | None:
         state = states[one.steel_supply]
         turns = plan.before / (2.0 * np.pi)
         for cell in one.cells:
-            shaken = (
-                plant.sonotrode.velocity(one.mode, cell.frequency) if cell.frequency else 0.0
-            )
+            shaken = plant.sonotrode.velocity(one.mode, cell.frequency) if cell.frequency else 0.0
             rows.append(
                 (
                     np.nan if shaken is None or not state.sliding else shaken / state.sliding,

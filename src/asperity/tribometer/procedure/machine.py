@@ -280,6 +280,9 @@ class Machine:
             pulses = self._pair.drives.encoder_pulses
             checks.check_speeds(running, measured, 2.0 * np.pi / pulses)
             self._driving.still(logger)
+            if self._plan.distance is not None:
+                # Encoders have forgotten it before the sliding is counted.
+                logger.watch(self._slides.idle)
             return {"running": running, "tachometer_rad_per_s": measured}
 
         return self._tried(action, checked)
