@@ -66,7 +66,7 @@ class Report(Result):
         Whether a worm and its wheel stand in place of the discs.
     """
 
-    title = "Tests on a disc-on-disc rig"
+    title = "Tests on a rig"
     stem = "report"
     whole = True
 
