@@ -83,6 +83,23 @@ def test_a_sideways_drift_is_waited_for(tmp_path):
     assert any("s would do" in note for note in answer.notes)
 
 
+@pytest.mark.parametrize(("duration", "across", "settled"), [(0.8, 2.4e-3, 0), (0.85, 1.8e-3, 1)])
+def test_a_drift_takes_less_from_the_ratio_than_friction_pulls_across(
+    tmp_path, duration, across, settled
+):
+    # What is left of one falls by itself; two thousandths of mu F_N are what a mean may be off.
+    case = tmp_path / "rigid.toml"
+    case.write_text(RIGID)
+    lighter = "slider.mass=500 kg"
+    state = solved(case, lighter, "solve.method=periodic")
+    marched = solved(case, lighter, f"solve.duration={duration} s")
+    pull = abs(marched.friction_mean[1]) / marched.static_drive_force
+    assert pull == pytest.approx(across, rel=0.05)
+    assert abs(marched.ratio - state.ratio) < pull
+    assert abs(state.friction_mean[1]) < 1e-9 * state.static_drive_force
+    assert marched.settled == bool(settled)
+
+
 # A free body on a rigid drive: nothing but friction stops what drifts across.
 RIGID = """
 [slider]
