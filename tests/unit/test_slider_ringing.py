@@ -160,3 +160,23 @@ def test_lugre_under_a_load_that_hardly_changes_is_lugre_under_a_constant_one():
     )  # fmt: skip
     assert pressed.ratio == pytest.approx(constant.ratio, rel=1e-5)
     assert pressed.friction_max == pytest.approx(constant.friction_max, rel=1e-5)
+
+
+THROWN = (
+    "vibration.frequency=6187.9 Hz", "normal.damping_ratio=0.0123644",
+    "vibration.velocity_ratio=189.871", "vibration.elevation=85.7558 deg",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("ratio", "told"), [(189.871, True), (6.0, False)])
+def test_of_a_body_that_is_thrown_far_above_its_resonance_another_state_is_told(ratio, told):
+    # Found by lot: at 2.8 times the resonance it bounces every cycle, or thrice in four.
+    thrown = *THROWN, f"vibration.velocity_ratio={ratio}"
+    state = solved("normal-pin", *thrown, "solve.method=periodic")
+    assert state.settled
+    assert (state.normal.landings_per_cycle > 0.0) == told
+    assert any("it may bounce in another way" in note for note in state.notes) == told
+    if told:
+        marched = solved("normal-pin", *thrown, "solve.method=march")
+        assert marched.settled
+        assert abs(marched.ratio - state.ratio) > FAR
