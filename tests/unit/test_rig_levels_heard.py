@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.tribometer.calibration import Line
 from asperity.tribometer.options import Twin
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction import file
@@ -23,10 +24,11 @@ TORQUES = (0.36, 0.345), (0.36, 0.27), (0.36, 0.32)
 class Rig:
     """Cells in which a motor drives its disc, as `level` looks at them."""
 
-    def __init__(self, volts=3.0, torques=TORQUES):
-        self.case, self.pair = CASE, PAIR
+    def __init__(self, volts=3.0, torques=TORQUES, *, case=CASE, known=0.0007):
+        self.case, self.pair = case, Pair.from_case(case)
         self.given = SimpleNamespace(speed_settling=3.0)
-        self.blocks = SimpleNamespace(length=0.02)
+        lines = dict.fromkeys(("torque_steel", "torque_bronze"), Line(0.4, gain_deviation=known))
+        self.blocks = SimpleNamespace(length=0.02, lines=lines)
         torque = np.array(torques)
         drives = PAIR.drives
         load = TWIN.motor_drag + torque / (drives.gear_ratio * TWIN.gear_efficiency)
