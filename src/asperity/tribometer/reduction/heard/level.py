@@ -4,6 +4,7 @@ What vibration changes tells nothing of what is added to a signal before and wit
 do, as well as is known what else is in them: the bearings' torques, and what a motor drags.
 """
 
+import math
 from collections.abc import Collection, Iterator
 
 import numpy as np
@@ -46,8 +47,11 @@ def _sides(of: Material) -> Iterator[Finding]:
     if level < least_of(names[0]):
         return
     rig = of.pair.rig
+    # Either torque tells the force they share, one with its bearings in it, one without.
+    pushed = abs(float(np.median(bronze[:, 0]))) + rig.bearing_torque_bronze
+    shared = min(level, pushed / ratio / (1.0 - rig.bearing_tolerance))
     most = rig.bearing_torque_bronze + ratio * rig.bearing_torque_steel
-    most += 2.0 * ratio * rig.bearing_tolerance * level
+    most += 2.0 * ratio * rig.bearing_tolerance * shared
     gain = _gain_of(of, names)
     over, under = [], []
     for n in (0, 2):
@@ -74,7 +78,7 @@ def _gain_of(of: Material, names: Collection[str]) -> float:
     lines = [of.blocks.lines[name] for name in names]
     if not all(line.gain_deviation for line in lines):
         return _GAIN
-    return _RADII + _SURE * float(np.hypot(*(line.gain_deviation / line.gain for line in lines)))
+    return _RADII + _SURE * math.hypot(*(line.gain_deviation / line.gain for line in lines))
 
 
 def _drawn(of: Material, twin: Twin) -> Iterator[Finding]:
