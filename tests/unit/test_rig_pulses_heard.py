@@ -81,6 +81,8 @@ def test_a_speed_that_is_not_counted_or_is_noisy_tells_nothing(seed):
 
 def test_a_disc_that_turns_evenly_tells_nothing():
     assert [*pulses.findings(rig(np.full(3000, 7.1)))] == []
+    assert [*pulses.findings(rig(np.zeros(3000)))] == []
+    assert [*pulses.findings(rig(np.full(40, 7.1)))] == []
 
 
 def test_steps_are_told_among_others_and_noise_tells_none():

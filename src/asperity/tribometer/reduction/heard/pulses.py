@@ -54,14 +54,15 @@ def step_of(differences: FloatArray) -> float | None:
         Between counts and the next ones.
     """
     sizes = np.abs(differences)
-    if sizes.size < _FEWEST:
+    changed = sizes[sizes > _NONE * np.quantile(sizes, 0.9)] if sizes.size else sizes
+    if changed.size < _FEWEST:
         return None
-    usual = float(np.median(sizes[sizes > _NONE * np.quantile(sizes, 0.9)]))
+    usual = float(np.median(changed))
     # Most are single ones, where a speed changes little from count to count.
     for many in (1, 2, 3):
         step = usual / many
-        whole = np.round(sizes / step) if step > 0.0 else np.zeros(sizes.size)
-        if many > 1 and whole.any():
+        whole = np.round(sizes / step)
+        if many > 1:
             step = float(sizes @ whole / (whole @ whole))
         fits = np.abs(sizes - step * whole) < _WHOLE * step
         if np.count_nonzero(fits & (whole > 0)) >= _FEWEST and np.mean(~fits) <= _MOST_OTHERS:
