@@ -16,6 +16,7 @@ from asperity.tribometer.quantities import (
     Share,
     Span,
     Speed,
+    Tolerance,
     Torque,
     Velocity,
     Voltage,
@@ -135,6 +136,13 @@ class Twin(Table):
         Standard deviation of a weighing, kg.
     seed : int
         Of the noise.
+    motor_tolerance, drag_tolerance, gear_tolerance : float
+        By what share of themselves a real rig's motors may differ in constant and resistance, which
+        warm with them, in drag and in the gear's efficiency, before a recording contradicts.
+    supply_tolerance : float
+        By what share of its volts a supply may give otherwise than it was told.
+    lead_voltage : float or str
+        What may fall in leads and brushes, V.
     """
 
     table: ClassVar[str] = "twin"
@@ -170,6 +178,11 @@ class Twin(Table):
     wear_bronze: WearRate = 0.0
     weighing_noise: Mass = 0.0
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    motor_tolerance: Tolerance = 0.1
+    drag_tolerance: Tolerance = 0.25
+    gear_tolerance: Tolerance = 0.25
+    supply_tolerance: Tolerance = 0.02
+    lead_voltage: Voltage = 0.1
 
     @model_validator(mode="after")
     def _rotor(self) -> "Twin":

@@ -76,6 +76,10 @@ def not_counted(case: Case, signals: Sequence[str]) -> Iterator[str]:
         "the supply's set voltage, diameters, gear ratios and the bearings' torque are taken as "
         "exact"
     )
+    yield (
+        "what comes into a torque with its motor, as an offset that is not there at rest: a run "
+        "with the discs apart shows it"
+    )
 
 
 def of_segment(budgets: Budgets) -> list[dict[str, Any]]:
