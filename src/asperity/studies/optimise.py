@@ -364,8 +364,9 @@ def answer(problem: Problem, _: Run) -> Optimum:
     )
 
     def search(begin: FloatArray, borne: Borne | None = None) -> Optimum:
-        own = {"least": least, "requirements": kept}
-        return optimise(*tables, folder=gears.folder, begin=begin, borne=borne, **own)
+        return optimise(
+            *tables, folder=gears.folder, least=least, begin=begin, requirements=kept, borne=borne
+        )
 
     best = search(begin)
     if problem.rows is not None:

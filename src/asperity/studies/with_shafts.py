@@ -6,7 +6,7 @@ with each of their rows as a constraint beside all others.
 """
 
 import dataclasses
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +26,7 @@ RowsOf = Callable[[Gearset], tuple[Row, ...]]
 _LEAST = -10.0
 _ABOVE = 1e-9
 _ACTIVE = 1e-6
+_ROOM = 1e-7
 _NEAR = 0.02
 _STEP = 1e-4
 _TRIED = 40
@@ -76,7 +77,7 @@ class Borne(NamedTuple):
         self,
         gearset_at: Callable[[FloatArray], Gearset],
         point: FloatArray,
-        others: Sequence[FloatArray],
+        others: FloatArray,
     ) -> int | None:
         """Return the place of the first of other points near one that holds; None: none does.
 
@@ -130,7 +131,7 @@ def with_shafts(
     margins = [row.margin for row in found.before.rows]
     asked = [(safety,) * len(margins)]
     if safety <= 1.0 and min(margins) < 1.0:
-        asked.append(tuple(min(margin, 1.0) for margin in margins))
+        asked.append(tuple(min(margin * (1.0 - _ROOM), 1.0) for margin in margins))
     for least in asked:
         try:
             kept = _judged(again(Borne(rows_of, least)), rows_of)
