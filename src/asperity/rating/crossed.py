@@ -68,7 +68,7 @@ class CrossedStudy(Result):
     contact_ratio: float = quantity("eps_n", "", "contact ratio in the normal section")
     between_generators: float = quantity("", "deg", "angle between the flanks' straight lines")
     sliding: float | None = quantity(
-        "v_g", "m/s", "sliding speed at the pitch point", optional=True
+        "v_g", "m/s", "sliding speed at the height of the worm's reference cylinder", optional=True
     )
     most_sliding: float | None = quantity(
         "v_g,max", "m/s", "greatest sliding speed on the path", optional=True
@@ -77,13 +77,16 @@ class CrossedStudy(Result):
         "F_n", "N", "normal force on one pair of teeth, without friction", optional=True
     )
     pressure: float | None = quantity(
-        "p_C", "MPa", "Hertzian pressure at the pitch point, one pair of teeth", optional=True
+        "p_C",
+        "MPa",
+        "Hertzian pressure at the height of the worm's reference cylinder, one pair",
+        optional=True,
     )
     most_pressure: float | None = quantity(
         "p_max", "MPa", "greatest Hertzian pressure on the path, one pair of teeth", optional=True
     )
     long_axis: float | None = quantity(
-        "a_H", "mm", "longer semi-axis of the ellipse of contact at the pitch point", optional=True
+        "a_H", "mm", "longer semi-axis of the ellipse of contact there", optional=True
     )
     short_axis: float | None = quantity("b_H", "mm", "shorter semi-axis of it", optional=True)
 
@@ -223,7 +226,7 @@ class _Loaded(NamedTuple):
 
 
 def _loaded(problem: Problem, ways: FloatArray) -> _Loaded:
-    """Return what speed and torque bring, on the whole path and at the pitch point."""
+    """Return what speed and torque bring, on the whole path and at the worm's reference."""
     gearset, pair, operation = problem
     assert operation is not None
     modulus = 1.0 / sum(
@@ -241,7 +244,7 @@ def _loaded(problem: Problem, ways: FloatArray) -> _Loaded:
     def slid(way: float) -> float:
         return 1e-3 * math.hypot(*pair.sliding(way, operation.worm_speed))
 
-    # The pitch point, or what of the path is next to it.
+    # At the worm's reference cylinder, or what of the path is next to it.
     pitch = min(max(0.0, pair.ends[0]), pair.ends[1])
     there = pressed(pitch)
     slides = np.array([slid(way) for way in ways])

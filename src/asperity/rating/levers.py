@@ -144,7 +144,19 @@ def _raised(gearset: Gearset, operation: Operation) -> Iterator[Raised]:
         run(lubricant=oil.model_copy(update=thicker, units="SI")),
     )
     speed = operation.worm_speed * more
-    yield "worm speed", ("operation.worm_speed",), run(worm_speed=speed)
+    if operation.steps is None or all(step.worm_speed is None for step in operation.steps):
+        yield "worm speed", ("operation.worm_speed",), run(worm_speed=speed)
+    else:
+        # A step's own speed goes with it, as its torque does.
+        paced = tuple(
+            step
+            if step.worm_speed is None
+            else step.model_copy(update={"worm_speed": step.worm_speed * more}, units="SI")
+            for step in operation.steps
+        )
+        own = "operation.duty_cycle" if spectrum is None else "spectrum.step"
+        faster = operation.with_steps(paced, worm_speed=speed)
+        yield "worm speed", ("operation.worm_speed", own), lambda: (gearset, faster)
     if operation.steps is None:
         turns = operation.wheel_revolutions
         if turns is None:

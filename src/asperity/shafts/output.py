@@ -17,6 +17,10 @@ Study = Any
 
 _ENDS = ("A", "B")
 _BETWEEN = 12
+_OF_ALL = (
+    "F_r and F_a are those of the load with the greatest equivalent load, P is the mean of all "
+    "loads that gives the same life, s_0 the least of all"
+)
 
 
 def shaft_json(found: ShaftFound) -> dict[str, Any]:
@@ -157,12 +161,14 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
         )
         for condition, life in (own or {}).items()
     ]  # fmt: skip
+    several = any(len(life.damage) > 1 for own in found.lives for life in (own or {}).values())
     if lives:
         oil = ("kappa", "a_ISO", "L_nmh (h)") if len(lives[0]) > 6 else ()
         yield Table.of(
             ("", "F_r (N)", "F_a (N)", "P (N)", "L_10h (h)", *oil, "s_0"),
             lives,
             title=f"Lives of the {name}'s bearings (ISO 281, ISO 76)",
+            remarks=[_OF_ALL] if several else [],
         )
     sections = [
         (

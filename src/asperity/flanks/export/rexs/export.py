@@ -107,6 +107,11 @@ def answer(given: Given, _: Run) -> Exchanged:
         )
     if given.left_out:
         notes.append(f"left out: {', '.join(given.left_out)}")
+    factor = None if given.operation is None else given.operation.application_factor
+    if given.forces is not None and factor != 1.0:
+        notes.append(
+            f"forces of the teeth are those under K_A T_2, K_A {factor:g}; torques are without it"
+        )
     for part in ("worm", "wheel"):
         if getattr(given, f"{part}_shaft") is None:
             notes.append(
