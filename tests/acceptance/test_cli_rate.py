@@ -448,3 +448,25 @@ def test_a_file_of_ones_own_that_is_wrong_is_named(asperity, tmp_path, name, why
     assert (code, output, errors.count("\n")) == (2, "", 1)
     assert name in errors
     assert why in errors
+
+
+def test_one_step_has_the_levers_of_the_constant_load(asperity):
+    load = ("rate", "gearset-3", "--set", "operation.life=500 h")
+    code, output, errors = asperity(*load, "--json")
+    assert code == 0, errors
+    constant = json.loads(output)["verdict"]["moved_by"]
+    operation = json.loads(asperity("rate", "gearset-3", "--json")[1])["iso14521"]
+    torque, speed = operation["output_torque_Nm"], operation["worm_speed_rpm"]
+    code, output, errors = asperity(
+        "rate", "gearset-3", "--set", f'spectrum.step="{torque:g} N m, {speed:g} rpm, 500 h"',
+        "--json",
+    )  # fmt: skip
+    assert code == 0, errors
+    step = json.loads(output)["verdict"]["moved_by"]
+    for lever in ("torque", "worm speed"):
+        own, other = (
+            [one["exponent"] for one in levers if one["name"] == lever]
+            for levers in (constant, step)
+        )
+        assert own == pytest.approx(other, rel=1e-9), lever
+    assert any(one["name"] == "worm speed" for one in step)

@@ -171,3 +171,34 @@ def test_a_required_ratio_stands_for_the_option(asperity, tmp_path):
     assert code == 0
     gearset = tomllib.loads((tmp_path / "own.toml").read_text())["gearset"]
     assert gearset["wheel_teeth"] / gearset["starts"] == pytest.approx(50, rel=0.03)
+
+
+def test_the_power_of_the_worm_stands_in_place_of_the_torque(asperity):
+    asked = ("size", "--ratio", "40", "--worm-speed", "1500 rpm", "--uncut", "--json")
+    code, by_option, errors = asperity(*asked, "--input-power", "1.5 kW")
+    assert code == 0, errors
+    code, by_set, errors = asperity(*asked, "--set", "operation.input_power=1.5 kW")
+    assert code == 0, errors
+    assert json.loads(by_option)["proposals"] == json.loads(by_set)["proposals"]
+
+
+@pytest.mark.parametrize(
+    ("more", "says"),
+    [
+        (("--output-torque", "300 N m"), "--output-torque 300 N m says what it comes to"),
+        (("--set", "operation.input_torque=3 N m"), "--input-power 1.5 kW says the same"),
+    ],
+)
+def test_two_forms_of_a_load_are_refused(asperity, more, says):
+    code, _, errors = asperity(
+        "size", "--ratio", "40", "--worm-speed", "1500 rpm", "--input-power", "1.5 kW", *more
+    )
+    assert code == 2
+    assert says in errors
+    assert len(errors.strip().splitlines()) == 1
+
+
+def test_a_page_is_refused_units_that_there_are_not(asperity):
+    code, _, errors = asperity("page", "--units", "mm")
+    assert code == 2
+    assert "--units mm: it must be one of 'si', 'us'" in errors
