@@ -67,6 +67,7 @@ def condensed(problem: DriveProblem, run: Run) -> Sector:
         problem.gearset.wheel_material,
         density=drive.density,
         teeth=drive.teeth,
+        body=problem.wheel_body,
         notify=run.notify,
     )
     if drive.threads == "rigid":

@@ -32,7 +32,7 @@ from asperity.contact.elastic.body import freedoms_of
 from asperity.contact.elastic.solver import factorise
 from asperity.contact.interface.surface import ContactSurface
 from asperity.flanks.wheel.frame import turned
-from asperity.gearset.blanks import Blanks, rim_radius, wheel_sizes
+from asperity.gearset.blanks import WheelBody, rim_radius
 from asperity.gearset.geometry import Geometry
 from asperity.kernels.closure import source_key
 from asperity.mesh import HexMesh
@@ -47,28 +47,6 @@ _LAYERS = 6
 _SAME = 1e-6  # mm
 # Of how much a corner of a hexahedron lies along, outwards and over the face.
 _CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
-
-
-@dataclasses.dataclass(frozen=True)
-class WheelBody:
-    """What is between the rim's inside and what holds the wheel.
-
-    Attributes
-    ----------
-    web_width : float
-        Of the web, mm.
-    hub_radius : float
-        Where it is held, mm; the rim's inside or more: the rim stands on the hub.
-    """
-
-    web_width: float
-    hub_radius: float
-
-    @classmethod
-    def of(cls, geometry: Geometry, blanks: Blanks | None) -> Self:
-        """Return that of a wheel, by `[blank]` or what is usual."""
-        sizes = wheel_sizes(geometry, blanks)
-        return cls(sizes["web_width"], 0.5 * sizes["hub_diameter"])
 
 
 def with_web(one: HexMesh, body: WheelBody, geometry: Geometry) -> tuple[HexMesh, IntArray]:
