@@ -6,13 +6,15 @@ import math
 
 import numpy as np
 import pytest
-from apparatus.drives import problem
+from apparatus.drives import case, problem
 
 from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.interface.surface import contact_surface
+from asperity.drive.deck.setup import TeethSetup
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.teeth.sector import right_handed
 from asperity.drive.teeth.whole import Ring, with_web
+from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts, tooth
 from asperity.gearset.blanks import WheelBody, rim_radius
 
@@ -104,3 +106,9 @@ def test_a_case_says_which_and_its_blank_how_wide():
     assert given.hub_radius == pytest.approx(30.0)
     assert dataclasses.astuple(given)[0] == pytest.approx(0.5 * wheel(4.3).blank.face_width)
     assert rim_radius(wheel(4.3).pair.geometry) > 50.0
+
+
+def test_a_deck_of_a_wheel_on_its_web_is_refused():
+    given = case("drive.wheel_body=web")
+    with pytest.raises(InputError, match="a deck holds the inside of the rim"):
+        TeethSetup.from_case(given)
