@@ -24,12 +24,13 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.contact.candidates.records import Body
 from asperity.contact.elastic import CondensedBody, ElasticMaterial, condense
 from asperity.contact.interface.surface import ContactSurface, contact_surface
-from asperity.drive.teeth.whole import WheelBody, whole_wheel
+from asperity.drive.teeth.whole import whole_wheel
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts, contact_counts, tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import FlankGrid
 from asperity.flanks.wheel.frame import turned
+from asperity.gearset.blanks import WheelBody
 from asperity.gearset.materials import WheelMaterial
 from asperity.mesh import HexMesh
 
