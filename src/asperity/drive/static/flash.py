@@ -13,6 +13,7 @@ place along a contact, speeds those of the flank's exact kinematics there.
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -101,17 +102,19 @@ class Flash:
     """
 
     def __init__(self, problem: DriveProblem, flank: ExactFlank, friction: float) -> None:
-        wheel = flank.sector.wheel
-        motion = kinematics(wheel.pair, exact_grid(wheel), 1, problem.worm_speed)
-        self._flank, self._friction = flank, friction
-        self._sliding = _MILLI * motion.sliding_speed.ravel()
-        self._rolling = tuple(
-            _MILLI * part.ravel() for part in (motion.worm_rolling, motion.wheel_rolling)
-        )
+        self._flank, self._friction, self._speed = flank, friction, problem.worm_speed
         family = problem.gearset.wheel_material.family
         self._effusivities = effusivity(*_STEEL), effusivity(*_WHEELS[family])
         self.course: list[float] = []  #: Largest of each phase, K
         self.worst = Line(np.zeros(0), np.zeros(0))  #: Of the contact with the largest
+
+    @functools.cached_property
+    def _motion(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Speeds at the points of the exact flank: sliding, worm and wheel across, m/s."""
+        wheel = self._flank.sector.wheel
+        motion = kinematics(wheel.pair, exact_grid(wheel), 1, self._speed)
+        one, other = motion.worm_rolling, motion.wheel_rolling
+        return _MILLI * motion.sliding_speed.ravel(), _MILLI * one.ravel(), _MILLI * other.ravel()
 
     def take(self, found: Resolved) -> None:
         """Take the pressures of a phase."""
@@ -132,9 +135,9 @@ class Flash:
             for values in (strip.share, strip.points[:, 2])
         )
         at = self._flank.nearest(np.clip(share, 0.0, 1.0), z)
-        one, other = self._rolling
+        sliding, one, other = self._motion
         rise = flash_temperature(
-            self._friction, whole / along, self._sliding[at], (one[at], other[at]),
+            self._friction, whole / along, sliding[at], (one[at], other[at]),
             across * (force > 0.0).sum(axis=0)[on], self._effusivities,
         )  # fmt: skip
         return Line(z, rise)
