@@ -102,6 +102,7 @@ export function Mending({ line, settings, before, own, setAll, unset }) {
         onChange=${({ target }) => target.value && setAll({ [path]: target.value })}>
         <option value="">one of the ${names.length}</option>
         ${names.map((name) => html`<option>${name}</option>`)}</select>` : null}
-      ${settings[path] !== before[path] && !texts(path).includes(was(path)) ? html`<button type="button" onClick=${() => back(path)}>
+      ${settings[path] !== before[path] && !texts(path).includes(was(path)) ? html`<button type="button"
+        onClick=${() => back(path)}>
         ${was(path) ? `back to ${written(was(path))}` : `without ${say(path)}`}</button>` : null}`)}</p>`;
 }

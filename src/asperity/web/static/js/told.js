@@ -69,5 +69,6 @@ export function Told({ work }) {
     ${told.tables.map((each, at) => html`<${One} key=${at} ...${each} name=${`table ${at + 1}`} />`)}
     <div class="grid">${pictures.map((file) => html`<figure class="plot" key=${file}>
       <figcaption>${named(file)}</figcaption>
-      <${Drawn} at=${placeOf(work.id, encodeURIComponent(file))} kind="drawn-by" alt=${`${named(file)}, drawn`} /></figure>`)}</div>`;
+      <${Drawn} at=${placeOf(work.id, encodeURIComponent(file))} kind="drawn-by"
+        alt=${`${named(file)}, drawn`} /></figure>`)}</div>`;
 }
