@@ -55,7 +55,9 @@ export function offered(must, typed, field) {
   const names = namesIn(must);
   if (names.length) return nearest(names, typed);
   if (Number.isNaN(number)) return [];
-  if (/whole number|integer/.test(must)) return [Math.floor(number), Math.ceil(number)].filter((each) => each > 0).map(String);
+  if (/whole number|integer/.test(must)) {
+    return [Math.floor(number), Math.ceil(number)].filter((each) => each > 0).map(String);
+  }
   if (/positive|above 0\b/.test(must) && number < 0) return [`${digits(-number, 12)} ${unit}`.trim()];
   if (low || high) {
     const least = split(low)[0];
@@ -94,12 +96,13 @@ export function Mending({ line, settings, before, own, setAll, unset }) {
     ${named && named !== paths[0] ? html`<span class="says">Set since the last answer: ${
       paths.map((path) => `${say(path)}, ${written(settings[path])}`).join("; ")}.</span>` : null}
     ${paths.map((path) => html`
-      ${texts(path).map((text) => html`<button type="button" class="main" onClick=${() => setAll({ [path]: text })}>
-        ${say(path)} ${printed(written(text))}</button>`)}
+      ${texts(path).map((text) => html`<button type="button" class="main" key=${text}
+        onClick=${() => setAll({ [path]: text })}>${say(path)} ${printed(written(text))}</button>`)}
       ${names.length > texts(path).length ? html`<select aria-label=${`all for ${say(path)}`} value=""
         onChange=${({ target }) => target.value && setAll({ [path]: target.value })}>
         <option value="">one of the ${names.length}</option>
         ${names.map((name) => html`<option>${name}</option>`)}</select>` : null}
-      ${settings[path] !== before[path] && !texts(path).includes(was(path)) ? html`<button type="button" onClick=${() => back(path)}>
+      ${settings[path] !== before[path] && !texts(path).includes(was(path)) ? html`<button type="button"
+        onClick=${() => back(path)}>
         ${was(path) ? `back to ${written(was(path))}` : `without ${say(path)}`}</button>` : null}`)}</p>`;
 }
