@@ -69,7 +69,7 @@ function Travel({ error, setAll }) {
   const valve = useValue("operation.service").text === "valve";
   if (!/through_travel_torque/.test(error?.message ?? "")) return null;
   const [number, unit] = split(torque);
-  const wanted = text(valve ? number / 3 : number, unit);
+  const wanted = valve ? text(Number((number / 3).toPrecision(5)), unit) : torque;
   return Number.isNaN(number) ? null : html`<p><button type="button" class="main"
     onClick=${() => setAll({ "operation.through_travel_torque": wanted })}>
     ${valve ? "a third" : "all"} of it through the travel: ${written(wanted)}</button></p>`;
@@ -82,7 +82,7 @@ function Ratio() {
   const ratio = Number(teeth) / Number(starts);
   // What is set may not be known yet, though an answer that ships is shown.
   const ask = (other) => torque && go("size", { ...caseParams(route.peek().params), ratio: other,
-    output_torque: torque, worm_speed: speed });
+    output_torque: torque, worm_speed: speed }, false, true);
   return html`<div class="field"><label for="ratio">ratio</label>
     <${Box} id="ratio" text=${ratio > 0 && ratio < Infinity ? digits(ratio) : ""} onSet=${ask}
       describedby="ratio-says" />
