@@ -84,18 +84,11 @@ class SimulatedRig:
 
     def change(self) -> None:
         """Bring the rig to the present, before something is changed or read."""
-        before, reached = self._sliding(), self._reached
+        before, seconds = self.wearing.sliding(self._state[0]), self.now - self._reached
         self._advance()
         self._reached = self.now
-        if self.wearing.wears:
-            drive = (self.mode, self.waveform, self.frequency) if self.vibrates else None
-            self.wearing.slide((before, self._sliding()), self.now - reached, drive)
-
-    def _sliding(self) -> float:
-        if not self.wearing.wears:
-            return 0.0
-        state = self._state[0]
-        return self.wearing.sliding((float(state["motor_steel"]), float(state["motor_bronze"])))
+        drive = (self.mode, self.waveform, self.frequency) if self.vibrates else None
+        self.wearing.slide((before, self.wearing.sliding(self._state[0])), seconds, drive)
 
     def _advance(self) -> None:
         if self._interval:
@@ -175,8 +168,7 @@ class SimulatedRig:
             "frequency": self.frequency,
             "held": held,
             "noise": self._noise.state(),
-            "path": self.wearing.path,
-            "weighings": self.wearing.weighings,
+            **self.wearing.state(),
         }
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -187,8 +179,7 @@ class SimulatedRig:
         for name, value in state["held"].items():
             self._state[name] = value
         self._noise.restore(state["noise"])
-        self.wearing.path = float(state.get("path", 0.0))
-        self.wearing.weighings = int(state.get("weighings", 0))
+        self.wearing.restore(state)
 
 
 class SimulatedClock:

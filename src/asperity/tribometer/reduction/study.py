@@ -26,7 +26,8 @@ from asperity.tribometer.reduction.heard.listen import Listened, listen
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
 from asperity.tribometer.reduction.segments import Segment, running_of, segments_of
 from asperity.tribometer.reduction.wear_rate import Stretch as Worn
-from asperity.tribometer.reduction.wear_rate import WearResult, wear_rates
+from asperity.tribometer.reduction.wear_rate import wear_rates
+from asperity.tribometer.reduction.wear_result import WearResult
 from asperity.tribometer.sheets import broken_classes
 
 _OFTEN = 0.01  # share of samples
@@ -136,18 +137,18 @@ def answer(series: Series, run: Run) -> Reduced:
             of_file, of_segments = reduce_recording(one)
             files.append(of_file)
             segments += of_segments
-    for segment in segments:
-        if segment.quality == REFUSED:
-            run.notify(f"{segment.file}: {refusal(segment)}")
     deviation, freedom = repeats(segments)
     pair, notes = pair_of(problem[0].case), list(_notes(problem))
     journals = list(wear.of_journals([one.recording.path for one in problem], files, notes))
-    if not journals and not any(segment.quality != REFUSED for segment in segments):
+    rates = tuple(_rates(problem, journals, segments, notes))
+    if not rates and not any(segment.quality != REFUSED for segment in segments):
         raise InputError(_nothing(problem, segments))
+    for segment in segments:
+        if segment.quality == REFUSED:
+            run.notify(f"{segment.file}: {refusal(segment)}")
     weighed = [*wear.between_weighings(pair, files)]
     for weighing, between in journals:
         weighed += wear.of_weighing(pair, weighing, between)
-    rates = tuple(_rates(problem, journals, segments, notes))
     return Reduced(
         segments=tuple(segments), files=tuple(files), repeat_deviation=deviation,
         repeat_freedom=freedom, notes=tuple(notes),

@@ -1,7 +1,7 @@
 """What the simulated discs lose: Archard's wear on the path of one disc on the other."""
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -42,10 +42,22 @@ class Wearing:
     def _shaken(self, mode: str, waveform: str, frequency: float) -> Any:
         return disc_velocity(self._plant.sonotrode, mode, waveform, frequency)
 
-    def sliding(self, motors: tuple[float, float]) -> float:
-        """Return the sliding velocity of the rims, m/s, at speeds of both motors, rad/s."""
+    def sliding(self, state: Any) -> float:
+        """Return the sliding velocity of the rims, m/s, of a state of the motion."""
+        if not self.wears:
+            return 0.0
+        motors = float(state["motor_steel"]), float(state["motor_bronze"])
         steel, bronze = self._plant.pair.rims(*motors)
         return float(steel - bronze)
+
+    def state(self) -> dict[str, float | int]:
+        """Return path and weighings, for JSON; nothing where nothing wears."""
+        return {"path": self.path, "weighings": self.weighings} if self.wears else {}
+
+    def restore(self, state: Mapping[str, Any]) -> None:
+        """Go on from there."""
+        self.path = float(state.get("path", 0.0))
+        self.weighings = int(state.get("weighings", 0))
 
     def slide(self, velocities: tuple[float, float], seconds: float, drive: Any = None) -> None:
         """Slide for a time.
@@ -59,6 +71,8 @@ class Wearing:
         drive : (str, str, float), optional
             Direction, waveform and frequency of the vibration; None: there is none.
         """
+        if not self.wears:
+            return
         mean = 0.5 * (velocities[0] + velocities[1])
         speed = 0.5 * (abs(velocities[0]) + abs(velocities[1]))
         if drive is not None:
