@@ -281,6 +281,7 @@ def test_a_budget_adds_up_to_the_interval_that_is_told(budgeted):
 def test_a_budget_names_what_it_does_not_count(budgeted, asperity, environment, recording):
     told = "\n".join(budgeted["not_counted"])
     assert "the calibration of speed_steel is taken as exact: 2 points" in told
+    assert "with its motor, as an offset that is not there at rest" in told
     assert "torque_steel" not in told
     wide = {**environment, "COLUMNS": "160"}
     code, printed, errors = asperity("rig", "reduce", recording, "--budget", env=wide)

@@ -57,10 +57,19 @@ def test_a_wheel_that_does_not_turn_as_its_teeth_have_it_is_told(asperity, recor
     assert told["segments"][0]["quality"] == "doubtful"
 
 
-def test_a_report_is_of_discs(asperity, recorded):
-    code, _, errors = asperity("rig", "report", recorded.parent)
+def test_a_report_of_a_gear_rig_tells_of_gears_and_keeps_to_no_standard_of_discs(
+    asperity, recorded, tmp_path
+):
+    code, output, errors = asperity("rig", "report", recorded.parent, "--out", tmp_path)
+    assert code == 0, errors
+    assert "torque of the brake" in output
+    assert "normal force, without friction" in output
+    assert "bronze disc" not in output
+    page = (tmp_path / "report.html").read_text()
+    assert "what the brake holds the wheel with" in page
+    code, _, errors = asperity("rig", "report", recorded.parent, "--standard", "G99")
     assert code == 2
-    assert "it is of a gear rig" in errors
+    assert "--standard G99 asks for friction and wear of discs" in errors
 
 
 def test_what_was_measured_fits_the_friction_that_the_twin_was_given(asperity, recorded, tmp_path):

@@ -594,6 +594,12 @@ FAULTS: dict[str, tuple[Callable[[Run], None] | None, dict[str, Any]]] = {
     "speed told four times as large": (_gain("speed_steel", 4.0), {}),
     "speed told half as large again": (_gain("speed_steel", 1.5), AT_3_V),
     "speed of the bronze disc told twice as large": (_gain("speed_bronze", 2.0), {}),
+    "speed of the bronze disc told half as large again": (
+        _gain("speed_bronze", 1.5), AT_3_V | {"part": 10.0}
+    ),
+    "speed of the bronze disc told 0.7 times as large": (
+        _gain("speed_bronze", 0.7), {"part": 10.0}
+    ),
     "both torques told half as large again": (_both(1.5), {}),
     "both torques told 0.6 times as large": (_both(0.6), {}),
     "supply of 3 V told as 5.5 V": (_supply_told(5.5), AT_3_V),
@@ -619,7 +625,7 @@ SPARED = {"drive half as strong in one cell": {0, 2}, "encoder that dies": {0}}
 def faulty(name, seed, path, **settings):
     """Write a recording with a fault, of a rig drawn by a seed."""
     fault, needed = FAULTS[name]
-    given = dataclasses.replace(sound_settings(seed), **settings, **needed)
+    given = dataclasses.replace(sound_settings(seed), **settings | needed)
     return recorded(made(given, fault), path)
 
 

@@ -89,6 +89,20 @@ def test_a_plain_shaft_bends_as_beam_tables_say(span, place, diameter):
     assert found[1, 1] == pytest.approx(bare[1, 1], rel=1e-10)
 
 
+def test_an_overhung_worm_bends_as_beam_tables_say():
+    span, over, diameter = 100.0, 65.0, 30.0
+    stiffness, area = E * math.pi * diameter**4 / 64.0, math.pi / 4.0 * diameter**2
+    shear = 6.0 * 1.3 / 8.8 * E / 2.6 * area
+    for ends, mesh in (((40.0, 140.0), 205.0), ((90.0, 190.0), 25.0)):
+        found = mesh_compliance([Stretch(0.0, 250.0, diameter)], ends, mesh, E)
+        bent = over**2 * (span + over) / (3.0 * stiffness)
+        slid = (over + over**2 / span) / shear
+        assert found[0, 0] == pytest.approx(bent + slid, rel=1e-10)
+        turn = over * (2.0 * span + 3.0 * over) / (6.0 * stiffness)
+        assert abs(found[1, 0]) == pytest.approx(turn, rel=1e-10)
+        assert found[1, 1] == pytest.approx((span + 3.0 * over) / (3.0 * stiffness), rel=1e-10)
+
+
 def _by_finite_elements(stretches, loads, bearings):
     """Deflection by Hermite elements of scikit-fem, one plane, at the bearings and loads."""
     from skfem import Basis, BilinearForm, ElementLineHermite, MeshLine, condense, solve

@@ -1,5 +1,6 @@
 """What a vibrated block settles to, beside the march it stands for."""
 
+import numpy as np
 import pytest
 
 from asperity.block.problem import BlockProblem
@@ -32,9 +33,32 @@ def test_a_block_settles_to_what_its_answer_says_and_how_surely(found):
     assert 0.0 < told["unsteadiness"] < 0.5 * settled.STEADY * told["slider_ratio"]
     assert told["drive_force_N"] == pytest.approx(told["ratio"] * 5.5)
     assert told["method"] == "settled"
+    assert told["settled"]
     assert told["cycles"] == 16
     (gains,) = told["notes"]
     assert gains.startswith("asperities keep their deflection")
+
+
+@pytest.mark.parametrize(("across", "stands"), [(1.9e-3, True), (2.1e-3, False)])
+def test_a_block_that_drifts_sideways_has_not_settled(across, stands):
+    reading = settled.Reading((np.full(4, 0.5),), (0.0,), (across,), (np.zeros((1, 2)),), 16)
+    standing = settled._standing(reading, 0.5)
+    assert standing.settled == stands
+    assert stands or standing.settled_by.startswith("the body drifts sideways")
+
+
+def test_a_march_of_a_block_asks_for_a_drift_as_that_of_a_body():
+    """A heavy block that is shaken far faster than it slides takes a tenth of a second."""
+    settings = (
+        *NOTHING[:-1], "solve.step=5 us", "vibration.direction=30 deg", "friction.law=vector",
+        "friction.keeps=stiffness", "contact.damping_ratio=0.05", "slider.mass=5 kg",
+        "vibration.velocity_ratio=20", "solve.duration=20 ms",
+    )  # fmt: skip
+    block = BlockProblem.from_case(read_case("block-longitudinal", case_tables(), settings))
+    answer = solve_block(block, history=False)
+    assert not answer.settled
+    pull = abs(answer.friction_mean[1]) / answer.static_drive_force
+    assert f"which comes to nothing, is {pull:.2g} of mu F_N" in answer.settled_by
 
 
 NOTHING = (

@@ -4,12 +4,16 @@ import os
 
 import pytest
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.gearset import library
 from asperity.gearset.bearings import Bearings
 from asperity.gearset.library import VARIABLE, find, resolve
 from asperity.gearset.lubricants import BaseOil, Lubricant
 from asperity.gearset.materials import Steel, WheelMaterial, WormMaterial, worm_material
+from asperity.rating import rate_command
+from asperity.runs import Run
 
 OWN = """
 [source.maker]
@@ -239,3 +243,42 @@ def test_a_steel_of_ones_own_stands_for_its_class(tmp_path, monkeypatch):
     assert worm_material("ours").bs721 == "0.55C steel"
     with pytest.raises(InputError, match=r"steel.wrong.worm is '0.5C steel'.*'0.55C steel'"):
         worm_material("wrong")
+
+
+ADI = """
+[wheel."our ADI"]
+family = "nodular iron"
+youngs_modulus = "165 GPa"
+poisson_ratio = 0.27
+material_factor = 1.0
+pitting_strength = "700 MPa"
+shear_strength = "220 MPa"
+
+[worm."ADI, ground"]
+youngs_modulus = "165 GPa"
+poisson_ratio = 0.27
+"""
+
+
+def test_austempered_iron_is_rated_by_its_owner_s_strengths_where_the_standards_have_none(
+    tmp_path, monkeypatch
+):
+    path = tmp_path / "adi.toml"
+    path.write_text(ADI)
+    monkeypatch.setenv(VARIABLE, str(path))
+    told = {}
+    for wheel in ("our ADI", "EN-GJS-400-15"):
+        case = read_case("gearset-3", case_tables(), [f"gearset.wheel_material={wheel}"])
+        verdict = rate_command.answer(rate_command.prepare(case), Run()).to_json()["verdict"]
+        told[wheel] = verdict
+    root = {
+        wheel: next(one["value"] for one in verdict["safeties"] if one["symbol"] == "S_F")
+        for wheel, verdict in told.items()
+    }
+    # Of iron alike in all but its strength and, by the mesh, its modulus: as the strengths.
+    assert root["our ADI"] / root["EN-GJS-400-15"] == pytest.approx(220.0 / 115.0, rel=0.02)
+    standing = told["our ADI"]["standing"]
+    assert "no stress factors" in standing["bs721"]["reasons"][0]
+    assert "no bronze that AGMA 6034 covers" in standing["agma6034"]["reasons"][0]
+    worm = read_case("gearset-3", case_tables(), ["gearset.worm_material=ADI, ground"])
+    assert rate_command.answer(rate_command.prepare(worm), Run()).to_json()["verdict"]["safeties"]

@@ -95,6 +95,14 @@ def test_its_friction_and_powers_are_those_of_a_cycle():
     assert homogenised.ledger.residual < 2e-3
 
 
+def test_a_body_that_is_free_does_not_drift_sideways_in_any_of_its_states():
+    # A march with the law has no drift to wait for: each of its states is one that lasts.
+    answer = solve(body("table-4.4", "solve.method=homogenised", "vibration.direction=30 deg"))
+    assert answer.model.slider.free
+    across = answer.history.friction[1:, 1] / answer.static_drive_force
+    assert abs(across).max() < 1e-9
+
+
 def test_the_law_is_odd_in_the_velocity(law):
     speeds = np.geomspace(1e-7, 1.0, 200)
     assert law(-speeds) == pytest.approx(-law(speeds), rel=1e-12)

@@ -35,6 +35,7 @@ ROOM_OF_THEIR_OWN = {
     "asperity.flanks.wheel.cutting.trim_grid.limits_each",
     "asperity.flanks.wheel.cutting.trim_grid.locate_each",
     "asperity.flanks.wheel.cutting.undercut.regularity_map",
+    "asperity.slider.at_corners._let_down_in_a_cycle",
     "asperity.slider.held_kernels.carry",
     "asperity.slider.kernels.march_stretches",
     "asperity.slider.on_twice._moved",

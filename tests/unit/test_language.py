@@ -148,7 +148,7 @@ def test_german_proposals_leave_nothing_english(given):
 @pytest.mark.parametrize(
     ("command", "case"),
     [("rexs", "actuator-duty"), ("rexs", "actuator-shafts"), ("shafts", "actuator-shafts"),
-     ("sensitivity", "actuator-duty"), ("sensitivity", "gearset-3"),
+     ("crossed", "gearset-3"), ("sensitivity", "actuator-duty"), ("sensitivity", "gearset-3"),
      pytest.param("optimise", "gearset-3", marks=pytest.mark.slow),
      pytest.param("optimise", "actuator-duty", marks=pytest.mark.slow),
      pytest.param("flank", "gearset-3", marks=pytest.mark.slow)],

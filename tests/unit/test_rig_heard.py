@@ -61,6 +61,7 @@ TOLD = {
     "current told 1.7 times as large": "current_steel does not fit its torque",
     "speed told half as large again": "speed_steel does not fit its supply",
     "speed of the bronze disc told twice as large": "speed_bronze does not fit its supply",
+    "speed of the bronze disc told half as large again": "speed_bronze is counted in other steps",
     "both torques told half as large again": "current_steel does not fit its torque",
     "supply of 3 V told as 5.5 V": "speed_steel does not fit its supply",
     "drive picked up by both torques": "current_steel does not fit its torque",

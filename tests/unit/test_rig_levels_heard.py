@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.errors import InputError
+from asperity.tribometer.calibration import Line
 from asperity.tribometer.options import Twin
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction import file
@@ -23,10 +25,11 @@ TORQUES = (0.36, 0.345), (0.36, 0.27), (0.36, 0.32)
 class Rig:
     """Cells in which a motor drives its disc, as `level` looks at them."""
 
-    def __init__(self, volts=3.0, torques=TORQUES):
-        self.case, self.pair = CASE, PAIR
+    def __init__(self, volts=3.0, torques=TORQUES, *, case=CASE, known=0.0007):
+        self.case, self.pair = case, Pair.from_case(case)
         self.given = SimpleNamespace(speed_settling=3.0)
-        self.blocks = SimpleNamespace(length=0.02)
+        lines = dict.fromkeys(("torque_steel", "torque_bronze"), Line(0.4, gain_deviation=known))
+        self.blocks = SimpleNamespace(length=0.02, lines=lines)
         torque = np.array(torques)
         drives = PAIR.drives
         load = TWIN.motor_drag + torque / (drives.gear_ratio * TWIN.gear_efficiency)
@@ -118,3 +121,54 @@ def test_a_bronze_torque_that_is_told_of_spoils_nothing_anew():
 def test_a_torque_that_vibration_turns_is_told(held, before, shaken, turned):
     rig = SimpleNamespace(rig=SimpleNamespace(bearing_torque_steel=held))
     assert bool([*file._turned(rig, before, shaken)]) is turned
+
+
+NAMES = "torque_steel", "torque_bronze"
+
+
+@pytest.mark.parametrize("volts", [1.0, 3.0, 5.5])
+def test_what_comes_with_the_motor_is_told_from_what_bearings_are_known_to_hold(volts):
+    rig = Rig(volts)
+    rig.of["torque_steel"] = rig.of["torque_steel"] + 0.06
+    assert not told(rig)
+    rig.case = CASE.replace(["rig.bearing_tolerance=0.02"])
+    rig.pair = Pair.from_case(rig.case)
+    assert told(rig) == {"torques leave bearings what they cannot hold"}
+
+
+def test_torques_are_as_sure_of_each_other_as_their_calibrations():
+    def off(known):
+        rig = Rig(known=known)
+        rig.of["torque_steel"] = rig.of["torque_steel"] * 0.85
+        return told(rig)
+
+    # 0.14 % are told; of nothing told, and of 2 %, less is known than 15 parts of a hundred.
+    assert off(0.0007) == {"torques leave bearings what they cannot hold"}
+    assert not off(0.0)
+    assert not off(0.01)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_a_rig_that_knows_its_motor_tells_what_comes_into_both_torques(sign):
+    rig = Rig()
+    for name in NAMES:
+        rig.of[name] = rig.of[name] * (1.0 + 0.25 * sign)
+    assert not told(rig)
+    shares = "motor_tolerance=0.01", "drag_tolerance=0.01", "gear_tolerance=0.02"
+    rig.case = CASE.replace([f"twin.{one}" for one in shares])
+    assert told(rig) == {"current_steel is not what drag and torque take"}
+
+
+def test_a_supply_that_is_said_to_give_otherwise_explains_a_speed():
+    rig = Rig(5.5)
+    rig.of["speed_steel"] = rig.of["speed_steel"] * [1.0, 1.04]
+    assert told(rig) == {"speed_steel does not answer as its motor"}
+    rig.case = CASE.replace(["twin.supply_tolerance=0.05"])
+    assert not told(rig)
+
+
+@pytest.mark.parametrize("key", ["motor_tolerance", "drag_tolerance", "supply_tolerance"])
+def test_a_share_that_is_none_is_refused(key):
+    for value in ("1", "-0.1", "nan", "1 V"):
+        with pytest.raises(InputError, match=key):
+            CASE.replace([f"twin.{key}={value}"])

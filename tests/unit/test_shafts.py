@@ -85,8 +85,8 @@ TWO = "[{at='10 mm',carries='both'},{at='90 mm'}]"
             "worm_shaft.mesh is 20 mm; its threads are at 60 to 150 mm from the end, and the teeth",
         ),
         (
-            "worm_shaft.bearing=[{at='110 mm',carries='both'},{at='180 mm'}]",
-            "worm_shaft.mesh is 105 mm; its bearings are at 110 to 180 mm from the end, and the",
+            "worm_shaft.bearing=[{at='105 mm',carries='both'},{at='180 mm'}]",
+            "worm_shaft.mesh is 105 mm, where a bearing stands; the teeth touch between",
         ),
         ("worm_shaft.mesh='250'", "worm_shaft.mesh is 250 without a unit"),
         ("worm_shaft.section=[]", "worm_shaft.section is []; it must be a list of tables"),
@@ -353,6 +353,20 @@ def test_a_rated_torque_above_every_part_is_seen_by_all_but_the_lives():
             assert own.value < 0.3 * other.value
     # As high as a part there is no load beside them.
     assert len(known.loads) == 3
+
+
+def test_the_application_factor_loads_shafts_and_bearings_as_it_loads_the_teeth():
+    found, known = solved("operation.application_factor=2"), solved()
+    for own, other in zip(found.loads, known.loads, strict=True):
+        assert (own.torque, own.hours) == (other.torque, other.hours)
+        for key in ("tangential", "axial", "radial", "driven"):
+            assert getattr(own, key) == pytest.approx(2.0 * getattr(other, key), rel=1e-12)
+    assert found.iso_deflection == pytest.approx(2.0 * known.iso_deflection, rel=1e-9)
+    assert found.worm_deflection == pytest.approx(2.0 * known.worm_deflection, rel=1e-9)
+    assert found.least_yield_safety == pytest.approx(known.least_yield_safety / 2.0, rel=1e-9)
+    assert found.least_static_safety == pytest.approx(known.least_static_safety / 2.0, rel=1e-9)
+    assert any("K_A = 2 times" in note for note in found.notes)
+    assert not any("K_A" in note for note in known.notes)
 
 
 def test_a_rated_torque_has_each_rotation_that_a_part_has():

@@ -130,6 +130,19 @@ def test_a_rated_torque_above_every_part_is_a_load_of_the_sheet(tmp_path):
         assert again < 0.95 * told(found)[place]
 
 
+def test_the_application_factor_is_a_cell_of_the_sheet(tmp_path):
+    found, sheets = beside_the_rating(tmp_path, "operation.application_factor=1.5")
+    assert held(sheets, found) > 80
+    sheets.change("operation.application_factor", 1.2)
+    moved, known = told(solved("operation.application_factor=1.8")), {}
+    rows = {cells[3]: row for row, cells in sheets.rows("worm shaft")}
+    rests = [place for place in moved if place[0] == "worm shaft" and "static" in place[1]]
+    assert rests
+    for place in rests:
+        again = sheets.value(("worm shaft", "B", rows[place[1]]), known)
+        assert again == pytest.approx(moved[place], rel=1e-11)
+
+
 def test_a_mesh_that_is_moved_in_the_sheet_is_moved_in_the_case(tmp_path):
     # Away from the middle, where no two cases are alike.
     found, moved = solved("worm_shaft.mesh=110 mm"), solved("worm_shaft.mesh=114 mm")

@@ -83,6 +83,23 @@ def test_a_sideways_drift_is_waited_for(tmp_path):
     assert any("s would do" in note for note in answer.notes)
 
 
+@pytest.mark.parametrize(("duration", "across", "settled"), [(0.8, 2.4e-3, 0), (0.85, 1.8e-3, 1)])
+def test_a_drift_takes_less_from_the_ratio_than_friction_pulls_across(
+    tmp_path, duration, across, settled
+):
+    # What is left of one falls by itself; two thousandths of mu F_N are what a mean may be off.
+    case = tmp_path / "rigid.toml"
+    case.write_text(RIGID)
+    lighter = "slider.mass=500 kg"
+    state = solved(case, lighter, "solve.method=periodic")
+    marched = solved(case, lighter, f"solve.duration={duration} s")
+    pull = abs(marched.friction_mean[1]) / marched.static_drive_force
+    assert pull == pytest.approx(across, rel=0.05)
+    assert abs(marched.ratio - state.ratio) < pull
+    assert abs(state.friction_mean[1]) < 1e-9 * state.static_drive_force
+    assert marched.settled == bool(settled)
+
+
 # A free body on a rigid drive: nothing but friction stops what drifts across.
 RIGID = """
 [slider]
@@ -143,3 +160,23 @@ def test_lugre_under_a_load_that_hardly_changes_is_lugre_under_a_constant_one():
     )  # fmt: skip
     assert pressed.ratio == pytest.approx(constant.ratio, rel=1e-5)
     assert pressed.friction_max == pytest.approx(constant.friction_max, rel=1e-5)
+
+
+THROWN = (
+    "vibration.frequency=6187.9 Hz", "normal.damping_ratio=0.0123644",
+    "vibration.velocity_ratio=189.871", "vibration.elevation=85.7558 deg",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("ratio", "told"), [(189.871, True), (6.0, False)])
+def test_of_a_body_that_is_thrown_far_above_its_resonance_another_state_is_told(ratio, told):
+    # Found by lot: at 2.8 times the resonance it bounces every cycle, or thrice in four.
+    thrown = *THROWN, f"vibration.velocity_ratio={ratio}"
+    state = solved("normal-pin", *thrown, "solve.method=periodic")
+    assert state.settled
+    assert (state.normal.landings_per_cycle > 0.0) == told
+    assert any("it may bounce in another way" in note for note in state.notes) == told
+    if told:
+        marched = solved("normal-pin", *thrown, "solve.method=march")
+        assert marched.settled
+        assert abs(marched.ratio - state.ratio) > FAR

@@ -70,6 +70,50 @@ def test_text_is_read_to_the_value(tmp_path, program, encoding):
         assert found.start == pytest.approx(TIMES[0])
 
 
+@pytest.mark.parametrize("time", ["Zeit / s", "Zeit [s]"])
+def test_a_quantity_over_its_unit_is_a_channel_and_its_unit(tmp_path, time):
+    path = tmp_path / "run.csv"
+    heads = [f"{time};A / V;B / mV"]
+    path.write_text("\n".join([*heads, *triples(separator=";", decimal=",")]), "utf-8")
+    found = read_export(path, path.name)
+    assert ([*found.headings], [*found.units]) == (["A", "B"], ["V", "mV"])
+    holds(found, BOTH)
+
+
+@pytest.mark.parametrize(
+    ("below", "told"),
+    [
+        (["End of data"], ["'End of data'"]),
+        (["", "End of data", ""], ["'End of data'"]),
+        (["# end", "Samples,2000", "", "by,somebody,here"], ["'# end'", "'by,somebody,here'"]),
+        (["[END]", *20 * ["word"]], None),
+    ],
+)
+def test_words_below_the_numbers_are_left_out_and_named(tmp_path, below, told):
+    path = tmp_path / "run.csv"
+    rows = ["Time (s),A (V),B (V)", *triples()]
+    path.write_text("\n".join([*rows, *below, ""]), "utf-8")
+    if told is None:
+        # So many are no footer.
+        with pytest.raises(InputError, match=rf"row {len(rows) + 1}.*END"):
+            read_export(path, path.name)
+        return
+    found = read_export(path, path.name)
+    holds(found, BOTH)
+    (note,) = found.notes
+    assert all(one in note for one in told)
+    place = next(n for n, one in enumerate(below, 1) if one)
+    assert f"from row {len(rows) + place} on" in note
+
+
+@pytest.mark.parametrize("last", ["0.1x,1,2", "1,two,3", "-,1,2"])
+def test_a_damaged_last_row_is_no_footer(tmp_path, last):
+    path = tmp_path / "run.csv"
+    path.write_text("\n".join(["Time (s),A (V),B (V)", *triples(), last, ""]), "utf-8")
+    with pytest.raises(InputError, match="is not a number"):
+        read_export(path, path.name)
+
+
 @pytest.mark.parametrize("version", ["4", "5", "7.3"])
 @pytest.mark.parametrize("said", ["t", "fs", "dt", "Tinterval"])
 def test_matlab_says_the_time_in_several_ways(tmp_path, version, said):

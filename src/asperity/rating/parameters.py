@@ -106,7 +106,7 @@ class Operation(Table):
     immersed : {'worm', 'wheel'}
         What dips into the oil.
     application_factor : float
-        Application factor :math:`K_A`, which multiplies the torque.
+        Application factor :math:`K_A`, which multiplies the torque, of shafts and bearings too.
     starts_per_hour : float
         Starts per hour :math:`N_S`.
     spectrum, housing : table, optional

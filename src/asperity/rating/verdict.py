@@ -155,7 +155,7 @@ class Verdict(NamedTuple):
 
     @property
     def first(self) -> Safety | None:
-        """The safety that fails first: the least over what is asked; None without any."""
+        """The safety of the standards that fails first: the least over what is asked; or None."""
         return min(self.safeties, key=lambda safety: safety.margin, default=None)
 
     @property
@@ -178,8 +178,17 @@ class Verdict(NamedTuple):
             ],
             "alternatives": [other._asdict() for other in self.alternatives],
             "film": None if self.film is None else self.film.to_json(),
-            **({"rows": [row.to_json() for row in self.rows]} if self.rows else {}),
+            **self._beside(),
         }
+
+    def _beside(self) -> dict[str, Any]:
+        """Return the rows by key, and which number is the least of all; nothing without rows."""
+        if not self.rows:
+            return {}
+        every: list[Safety | Row] = [*self.safeties, *self.rows]
+        place, known = every.index(min(every, key=lambda one: one.margin)), len(self.safeties)
+        least = f"safeties.{place}" if place < known else f"rows.{place - known}"
+        return {"least": least, "rows": [row.to_json() for row in self.rows]}
 
     def stands(self, whole: bool = False) -> Iterator[str]:
         """Yield by which standards it holds, which have no answer, and which rate outside.
@@ -211,13 +220,15 @@ class Verdict(NamedTuple):
         """Yield what fails first or is nearest to it, and what moves that most."""
         first = self.first
         place, row = min(enumerate(self.rows), key=lambda one: one[1].margin, default=(0, None))
-        if row is not None and (first is None or row.margin < first.margin):
+        beside = row is not None and (first is None or row.margin < first.margin)
+        if row is not None and beside:
             yield row.nearest(f"verdict.rows.{place}")
         if first is None:
             return
         d, own = first.demand, f"verdict.safeties.{self.safeties.index(first)}"
+        is_first = "nearest to its limit" if first.holds else "first to fail"
         said: list[str] = [
-            f"{'nearest to its limit' if first.holds else 'first to fail'}: {d.name} by "
+            f"{'least by the standards' if beside else is_first}: {d.name} by "
             f"{NAMES[d.standard]}, {d.symbol} ",
             Number.of(first.value, ".3g", f"{own}.value"),
             " of the ",

@@ -80,7 +80,7 @@ class Load(NamedTuple):
     hours : float
         Of the life, h.
     torque : float
-        Of the wheel, N m.
+        Of the wheel, N m, without the application factor, which the forces have.
     speed, wheel_speed : float
         Of worm and wheel, rpm.
     tangential, axial, radial : float
@@ -177,8 +177,7 @@ def _rated(given: Inputs, parts: Sequence[Load]) -> list[Load]:
     hardest = parts[place]
     if torque <= hardest.torque * (1.0 + _ROUNDING):
         return []
-    mesh = float(given.wheel_mean_diameter), float(given.lead_angle), float(given.pressure_angle)
-    tangential, axial, radial, driven = forces(torque, hardest.friction, *mesh)
+    tangential, axial, radial, driven = _forces(given, torque, hardest.friction)
     return [
         hardest._replace(
             hours=0.0, torque=torque, tangential=tangential, axial=axial, radial=radial,
@@ -199,16 +198,21 @@ def _load(
     given: Inputs, hours: float, torque: float, speed: float, friction: float, celsius: float
 ) -> Load:
     oil = given.operation.lubricant.kinematic_viscosity(celsius + 273.15)
-    mesh = float(given.wheel_mean_diameter), float(given.lead_angle), float(given.pressure_angle)
     return Load(
         hours,
         torque,
         speed,
         speed / float(given.gear_ratio),
-        *forces(torque, friction, *mesh),
+        *_forces(given, torque, friction),
         1e6 * float(oil),
         friction=friction,
     )
+
+
+def _forces(given: Inputs, torque: float, friction: float) -> tuple[Any, Any, Any, Any]:
+    """Return `forces` under K_A times a torque, as ISO/TR 14521 has them."""
+    mesh = float(given.wheel_mean_diameter), float(given.lead_angle), float(given.pressure_angle)
+    return forces(given.operation.application_factor * torque, friction, *mesh)
 
 
 def forces(

@@ -320,22 +320,24 @@ class _Shaft(Table):
         return self
 
     def _require_meshing(self) -> None:
-        """Refuse a worm whose mesh is off its threads, or not between its bearings."""
+        """Refuse a worm whose mesh is off its threads, or on a bearing."""
         ends = [*itertools.accumulate((each.length for each in self.section), initial=0.0)]
         threads = [
             span
             for section, span in zip(self.section, itertools.pairwise(ends), strict=True)
             if section.diameter is None
         ]
-        within = sorted(each.at for each in self.bearing)
-        between = [(within[0], within[1])]
-        for said, spans, off in (("threads are", threads, 1e-9), ("bearings are", between, -1e-6)):
-            if spans and not any(low - off <= self.mesh <= high + off for low, high in spans):
-                there = " and ".join(f"{1e3 * a:g} to {1e3 * b:g} mm" for a, b in spans)
-                raise InputError(
-                    f"{self.table}.mesh is {1e3 * self.mesh:g} mm; its {said} at {there} from the "
-                    "end, and the teeth touch between"
-                )
+        if threads and not any(a - 1e-9 <= self.mesh <= b + 1e-9 for a, b in threads):
+            there = " and ".join(f"{1e3 * a:g} to {1e3 * b:g} mm" for a, b in threads)
+            raise InputError(
+                f"{self.table}.mesh is {1e3 * self.mesh:g} mm; its threads are at {there} from the "
+                "end, and the teeth touch between"
+            )
+        if any(abs(self.mesh - each.at) < 1e-6 for each in self.bearing):
+            raise InputError(
+                f"{self.table}.mesh is {1e3 * self.mesh:g} mm, where a bearing stands; the teeth "
+                "touch between both, or beyond them"
+            )
 
     @property
     def length(self) -> float:
@@ -351,11 +353,8 @@ class _Shaft(Table):
     @property
     def assumed(self) -> Mapping[str, str]:
         """Which keys were left out, and what was assumed for them."""
-        words = {
-            "torque": "constant",
-            "peak": "1, the greatest torque of the load",
-            "hardening": "1",
-        }
+        words = {"torque": "constant", "peak": "1, the greatest torque of the load"}
+        words["hardening"] = "1"
         return {key: text for key, text in words.items() if key not in self.model_fields_set}
 
 
@@ -376,7 +375,7 @@ _SHAFT = """
     torque : {'constant', 'pulsating', 'reversing'}
         How the torque counts in fatigue: as mean stress, half as amplitude, or all.
     peak : float
-        Greatest torque over that of the load, for yield and for static safety.
+        Greatest torque over K_A times that of the load, for yield and for static safety.
     hardening : float
         Factor :math:`K_V` of DIN 743, above 1 for a surface that is hardened or rolled.
     thread_notch_bending, thread_notch_torsion : float

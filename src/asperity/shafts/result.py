@@ -121,6 +121,11 @@ class ShaftStudy(Drawn):
         worm = found.get("worm_shaft")
         bent = None if worm is None else worm.worst.at_mesh
         notes = [note for shaft in found.values() for note in shaft.model.notes]
+        if (factor := given.operation.application_factor) != 1.0:
+            notes.append(
+                f"forces of the teeth are those under K_A = {factor:g} times the torque, as in "
+                "ISO/TR 14521: lives, strength, static safety and deflection have it"
+            )
         for key, shaft in found.items():
             if shaft.model.table.material is None:
                 notes.append(f"{key}.material is not given: its strength is not judged")
@@ -185,6 +190,11 @@ class ShaftStudy(Drawn):
     def holds(self) -> bool:
         """Whether everything does."""
         return all(row.holds for row in self.rows)
+
+    @property
+    def application_factor(self) -> float:
+        """K_A, which the forces of the teeth have."""
+        return 1.0 if self.given is None else self.given.operation.application_factor
 
     @property
     def geometry(self) -> "Geometry":

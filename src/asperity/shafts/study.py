@@ -214,6 +214,13 @@ def _off_centre(worm: Model) -> str:
     place, span = worm.mesh - first, second - first
     if abs(place - 0.5 * span) <= _MIDWAY * span:
         return ""
+    if not 0.0 <= place <= span:
+        end, over = ("A", -place) if place < 0.0 else ("B", place - span)
+        return (
+            f"worm_shaft: the worm overhangs, its mesh {over:.4g} mm beyond bearing {end}; forces "
+            "on bearings and deflection by ISO/TR 14521 have it midway between them, asperity "
+            "shafts where it is"
+        )
     return (
         f"worm_shaft: its mesh is {place:.4g} mm from bearing A, of {span:.4g} mm; forces on "
         "bearings and deflection by ISO/TR 14521 have it midway, asperity shafts where it is"

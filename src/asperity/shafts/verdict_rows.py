@@ -21,7 +21,7 @@ def rows_of(study: Study) -> tuple[Row, ...]:
     rows: list[Row] = []
     for key, found in study.found.items():
         rows += _bearings(NAMES[key], found, study.life)
-    rows += _at_rest(study.found)
+    rows += _at_rest(study.found, study.application_factor)
     for key, found in study.found.items():
         rows += _strength(f"{NAMES[key]} shaft", found)
     if study.deflection_limit is not None and study.worm_deflection is not None:
@@ -54,7 +54,7 @@ def _bearings(name: str, found: ShaftFound, asked: float) -> Iterator[Row]:
         yield Row(f"{name} bearing {end}", "ISO 281", life, asked, "h", ", ".join(by))
 
 
-def _at_rest(found: Mapping[str, ShaftFound]) -> Iterator[Row]:
+def _at_rest(found: Mapping[str, ShaftFound], factor: float) -> Iterator[Row]:
     """Yield the static safety of the bearing that is nearest to what is asked of it."""
     every = [
         (life.static_safety, shaft.options.at_rest(place.bearing.elements), key, end, condition)
@@ -66,8 +66,8 @@ def _at_rest(found: Mapping[str, ShaftFound]) -> Iterator[Row]:
     if not every:
         return
     value, asked, key, end, condition = first_least(every, lambda one: one[0] / one[1])
-    peak = found[key].model.table.peak
-    under = "" if peak == 1.0 else f", at {peak:g} T_2"
+    peak, torque = found[key].model.table.peak, "T_2" if factor == 1.0 else "K_A T_2"
+    under = "" if peak == 1.0 else f", at {peak:g} {torque}"
     by = f"{NAMES[key]} bearing {end}, {condition.short}{under}"
     yield Row("bearings at rest", "ISO 76", value, asked, "", by)
 

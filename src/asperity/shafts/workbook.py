@@ -150,6 +150,8 @@ class _Shaft:
                 ("lead_angle", "rad"), ("pressure_angle", "rad"), ("gear_ratio", ""),
             )
         }  # fmt: skip
+        factor = given.operation.application_factor
+        self._factor = _number(factor, "operation.application_factor", "", cells)
         self.loads = tuple(self._load(number, load) for number, load in enumerate(loads, 1))
         model = found.model
         self._mesh = cells.input(f"{name}.mesh", model.mesh, "mm")
@@ -187,7 +189,7 @@ class _Shaft:
         friction = cell("friction", self._iso.get(there, load.friction))
         of = self._shared
         angles = of["lead_angle"], of["pressure_angle"]
-        found = forces(torque, friction, of["wheel_mean_diameter"], *angles)
+        found = forces(self._factor * torque, friction, of["wheel_mean_diameter"], *angles)
         return Load(
             cell("hours", hours, "h"), torque, speed, speed / of["gear_ratio"], *found,
             cell("viscosity", load.viscosity, ""), load.rotation, load.lets_down,

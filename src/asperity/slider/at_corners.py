@@ -15,104 +15,134 @@ from asperity.arrays import FloatArray
 from asperity.friction.dahl import TINY
 from asperity.friction.loaded import STIFFNESS
 from asperity.friction.lugre import stribeck_share
+from asperity.kernels.compiled import kernel
+from asperity.kernels.dense import copy
+from asperity.kernels.elimination import eliminate
 from asperity.normal import elastic_force, indentation
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.pressed import friction_limit, march_pressed
-from asperity.slider.scaled import COULOMB, LUGRE, SPRINGS, NormalLoading, Parameters
-from asperity.slider.unknowns import most_unknowns, read_unknowns, unknown_scales
+from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed
+from asperity.slider.scaled import COULOMB, LUGRE, SPRINGS
+from asperity.slider.search_room import room_for
+from asperity.slider.unknowns import read_unknowns, unknown_scales
 
 _JUMP = 1e-9  # of the load, that a jump is more than the rounding of a wave
-
-
-def jumps(cycle: Cycle) -> list[int]:
-    """Return the steps of a cycle at whose ends the load jumps, where friction remembers it."""
-    p, q = cycle.body.p, cycle.q
-    if q is None or p.smooth or p.model == COULOMB:
-        return []
-    if p.model != SPRINGS and q.keeps != STIFFNESS:
-        return []
-    jump = np.abs(q.damping * q.base * np.diff(cycle.rises))
-    return [int(n) + 1 for n in np.flatnonzero(jump > _JUMP)]
 
 
 def ratio_let_down(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
     """Return the ratio of the state next to that of a cycle whose asperities are let down.
 
-    None where no load jumps. What is given is left as it is.
+    None where no load jumps, or friction does not remember it. What is given is left as it is.
     """
-    ends, q = jumps(cycle), cycle.q
-    if not ends or q is None:
+    p, q, kept = cycle.body.p, cycle.q, cycle.body.kept
+    if q is None or p.smooth or p.model == COULOMB or q.damping == 0.0:
         return None
-    there = cycle.copied()
-    body, p = there.body, there.body.p
-    body.clear()
-    state, rises = body.kept["state"], there.rises
-    scales, before, after = np.empty((3, most_unknowns(there.springs)))
-    count = unknown_scales(state, there.springs, p, q, scales)
-    read_unknowns(state[0], there.springs, p, q, before)
-    nodes = np.empty(0, body.node_type)
-    last, above = 0, 1.0
-    # Only what falls with the speed is ever above its limit.
-    looked = [each - 1 for each in ends if each > 1] if p.model == LUGRE else []
-    for end in sorted({*ends, *looked, rises.size - 1}):
-        march_pressed(
-            state[0], there.springs, body.sums, p, q, there.increments[last : end + 1],
-            rises[last : end + 1], end - last, nodes,
-        )  # fmt: skip
-        if end in ends:
-            _let_down(there, q, end, above)
-        if end in looked:
-            limit = float(friction_limit(state[0]["load"], q.load_power))
-            above = math.hypot(*state[0][["deflection_x", "deflection_y"]]) / max(limit, TINY)
-        last = end
-    read_unknowns(state[0], there.springs, p, q, after)
-    ratio = float(body.sums["drive_force"] / body.sums["steps"])
-    step = (before - after)[:count] / scales[:count]
+    if p.model != SPRINGS and q.keeps != STIFFNESS:
+        return None
+    jumps, ratio = _let_down_in_a_cycle(
+        kept["state"], cycle.springs, p, q, cycle.increments, cycle.rises, kept["sums"],
+        np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
+    )  # fmt: skip
+    return ratio if jumps and math.isfinite(ratio) else None
+
+
+@kernel
+def _let_down_in_a_cycle(start, springs, p, q, increments, rises, sums, jacobian, slopes):
+    """March a cycle from a state, the asperities let down where the load jumps: copies.
+
+    Returns how often it jumps, and the mean drive force over mu F_N of the state next to it, by the
+    ``slopes``; infinite where the Jacobian tells nothing.
+    """
+    room, records = room_for(start, springs), np.empty_like(sums)
+    part, rise_part = np.empty_like(increments), np.empty_like(rises)
+    states, held = room.trial, room.trial_springs
+    states[0] = start[0]
+    records[0] = sums[0]
+    clear_pressed(records[0])
+    copy(springs, held)
+    state = states[0]
+    steps = rises.size - 1
+    jumps, last, above = 0, 0, 1.0
+    for n in range(1, steps + 1):
+        here = _jumps(q, rises, n)
+        # Only what falls with the speed is ever above its limit.
+        looked = p.model == LUGRE and n < steps and _jumps(q, rises, n + 1)
+        if not (here or looked or n == steps):
+            continue
+        for i in range(n - last + 1):
+            part[i] = increments[last + i]
+            rise_part[i] = rises[last + i]
+        march_pressed(state, held, records[0], p, q, part, rise_part, n - last, room.nodes[1])
+        last = n
+        if here:
+            jumps += 1
+            _let_down(state, held, p, q, increments, rises, n, above)
+        if looked:
+            limit = friction_limit(state.load, q.load_power)
+            above = math.hypot(state.deflection_x, state.deflection_y) / max(limit, TINY)
+    ratio = records[0].drive_force / records[0].steps
+    if jumps == 0 or jacobian.size == 0:
+        return jumps, ratio
+    count = unknown_scales(start, springs, p, q, room.scales)
+    read_unknowns(start[0], springs, p, q, room.before)
+    read_unknowns(state, held, p, q, room.after)
+    found = False
+    for i in range(count):
+        room.step[i] = (room.before[i] - room.after[i]) / room.scales[i]
+        for j in range(count):
+            room.matrix[i, j] = jacobian[i, j]
+            found = found or jacobian[i, j] != 0.0
     # A state that was found without Newton's method goes there by itself.
-    if jacobian.any():
-        try:
-            ratio += float(slopes @ np.linalg.solve(jacobian, step))
-        except np.linalg.LinAlgError:
-            return None
-    return ratio if math.isfinite(ratio) else None
+    if not found:
+        return jumps, ratio
+    if not eliminate(room.matrix, room.step, count, 0.0):
+        return jumps, np.inf
+    for i in range(count):
+        ratio += slopes[i] * room.step[i]
+    return jumps, ratio
 
 
-def _let_down(cycle: Cycle, q: NormalLoading, end: int, above: float) -> None:
+@kernel
+def _jumps(q, rises, n):
+    """Whether the load jumps at the end of a step of a cycle, counted from 1."""
+    return abs(q.damping * q.base * (rises[n] - rises[n - 1])) > _JUMP
+
+
+@kernel
+def _let_down(state, springs, p, q, increments, rises, n, above):
     """Let the asperities down to the loads before and behind a corner, at the end of a step.
 
     What is ``above`` its limit, since the slip speeds up, goes with the load.
     """
-    state, p = cycle.body.kept["state"][0], cycle.body.p
-    depth, load = float(state["penetration"]), float(state["load"])
+    depth = state.penetration
     elastic = elastic_force(q.law, depth)
-    rise = float(state["rise"]) - 0.5 * q.mobility * (load - 1.0)
+    rise = state.rise - 0.5 * q.mobility * (state.load - 1.0)
     # Before and behind the corner: the load there, and the increment in the plane.
-    sides = [
-        (
-            elastic * max(1.0 + q.damping * (q.base * cycle.rises[n] - rise), 0.0),
-            cycle.increments[n],
-        )
-        for n in (end - 1, end)
-    ]
-    lower, increment = min(sides)
+    before = elastic * max(1.0 + q.damping * (q.base * rises[n - 1] - rise), 0.0)
+    behind = elastic * max(1.0 + q.damping * (q.base * rises[n] - rise), 0.0)
+    lower, increment = behind, increments[n]
+    if before < behind:
+        lower, increment = before, increments[n - 1]
+    state.load = behind
     if p.model == SPRINGS:
-        most = np.maximum(indentation(q.law, depth, elastic, lower) - q.heights, 0.0)
-        size = np.hypot(*cycle.springs)
-        cycle.springs *= np.where(size > most, most / np.maximum(size, TINY), 1.0)
-        state["deflection_x"], state["deflection_y"] = cycle.springs @ q.weights
-    else:
-        limit = float(friction_limit(lower, q.load_power))
-        level = _level(state, p, increment) if p.model == LUGRE else 1.0
-        size = math.hypot(state["deflection_x"], state["deflection_y"])
-        over = size / max(limit * max(level, above), TINY)
-        for name in ("deflection_x", "deflection_y"):
-            state[name] /= max(over, 1.0)
-    state["load"] = sides[1][0]
-
-
-def _level(state: np.void, p: Parameters, increment: float) -> float:
-    """Return LuGre's limit at the speed of the slip, over that of fast slip."""
-    slip_x = float(state["velocity_x"]) - p.base_x * increment
-    slip_y = (p.own_1 + p.own_2) * float(state["velocity_y"]) - p.base_y * increment
-    share: float = stribeck_share(math.hypot(slip_x, slip_y), p.static_ratio, p.stribeck)
-    return share
+        most = indentation(q.law, depth, elastic, lower)
+        state.deflection_x = 0.0
+        state.deflection_y = 0.0
+        for j in range(springs.shape[1]):
+            allowed = max(most - q.heights[j], 0.0)
+            size = math.hypot(springs[0, j], springs[1, j])
+            if size > allowed:
+                springs[0, j] *= allowed / max(size, TINY)
+                springs[1, j] *= allowed / max(size, TINY)
+            state.deflection_x += q.weights[j] * springs[0, j]
+            state.deflection_y += q.weights[j] * springs[1, j]
+        return
+    limit = friction_limit(lower, q.load_power)
+    level = 1.0
+    if p.model == LUGRE:
+        slip_x = state.velocity_x - p.base_x * increment
+        slip_y = (p.own_1 + p.own_2) * state.velocity_y - p.base_y * increment
+        level = stribeck_share(math.hypot(slip_x, slip_y), p.static_ratio, p.stribeck)
+    size = math.hypot(state.deflection_x, state.deflection_y)
+    over = max(size / max(limit * max(level, above), TINY), 1.0)
+    state.deflection_x /= over
+    state.deflection_y /= over

@@ -284,7 +284,7 @@ def _answer(
     ends = pairwise([table.window_start, *table.quarters, table.steps])
     forces = pairwise([0.0, *quarters.tolist(), float(sums["drive_force"])])
     means = [(b - a) / max(to - at, 1) for (a, b), (at, to) in zip(forces, ends, strict=True)]
-    across = pull_across(model, sums)
+    across = pull_across(model, sums["friction_y"] / sums["steps"])
     standing = march_standing(model, table, residual, broke=broke, means=means, across=across)
     standing = heard(standing, model, model.duration)
     notes = march_notes(model, table, residual, broke=broke) + ringing_notes(model)

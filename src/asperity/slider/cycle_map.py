@@ -78,6 +78,8 @@ class Cycle:
         along = cycle_of_wave(model.wave(step, lead=self.phase), steps)
         if self.q is None:
             return along, still
+        if model.normal_lead == 0.0:
+            return along, along
         lead = self.phase + model.normal_lead
         return along, cycle_of_wave(model.wave(step, lead=lead), steps)
 

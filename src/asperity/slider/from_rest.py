@@ -90,6 +90,16 @@ def may_come_elsewhere(cycle: Cycle) -> bool:
     return model.frequency <= highest * math.sqrt(stiffness + (slider.drive_stiffness or 0.0))
 
 
+def bounces_uncompared(cycle: Cycle) -> bool:
+    """Whether a body is thrown and lands where no march from rest is compared.
+
+    What flies for a cycle and more may land in several ways, by ever so little in where it comes
+    from, so that one march tells nothing of the others.
+    """
+    thrown = cycle.q is not None and float(cycle.body.sums["landings"]) > 0.0
+    return thrown and not may_come_elsewhere(cycle)
+
+
 def from_rest(cycle: Cycle) -> Elsewhere | None:
     """March a body from rest; None where it comes to the state of a cycle, or is not taken up."""
     model = cycle.body.model

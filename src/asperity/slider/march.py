@@ -239,7 +239,7 @@ class March:
         residual = abs(float(means[1] - means[0]))
         breakaway = self.breakaway
         broke = breakaway is not None
-        quarters, across = self._means(), pull_across(model, sums)
+        quarters, across = self._means(), pull_across(model, sums["friction_y"] / sums["steps"])
         standing = march_standing(
             self._timed, table, residual, broke=broke, means=quarters, across=across
         )

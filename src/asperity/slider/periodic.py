@@ -9,7 +9,12 @@ import numpy as np
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
 from asperity.slider.cycle_map import UNSTABLE, Cycle
-from asperity.slider.from_rest import from_rest, ratio_of, sticks_from_rest
+from asperity.slider.from_rest import (
+    bounces_uncompared,
+    from_rest,
+    ratio_of,
+    sticks_from_rest,
+)
 from asperity.slider.history import History
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
@@ -33,6 +38,10 @@ _MARCH = "march it from rest with solve.method 'march'"
 _NOT_FOLLOWED = (
     "friction falls with the speed: a body from rest may stick and slip instead, which takes too "
     "long to follow here: see solve.method 'march'"
+)
+_BOUNCES = (
+    "the body is thrown and lands, above what a march from rest is compared for: by where it comes "
+    "from it may bounce in another way, see solve.method 'march'"
 )
 _REST = f"give a damping (normal.damping_ratio), or {_MARCH}"
 
@@ -141,6 +150,8 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
             f"a march from rest has not come to this state after {other.cycles} cycles: it has a "
             f"ratio of {other.ratio:.5g} there, see solve.method 'march'",
         )
+    elif rested and bounces_uncompared(cycle):
+        notes += (_BOUNCES,)
     answer = answer_of(model, step, cycle, growth, notes, began, history=history, judged=judged)
     if other is None or other.state is not None:
         return answer

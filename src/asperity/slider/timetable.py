@@ -4,8 +4,6 @@ import functools
 import math
 from collections.abc import Sequence
 
-import numpy as np
-
 from asperity.errors import InputError
 from asperity.results.settled import Standing
 from asperity.slider.fading import still_to_come
@@ -128,11 +126,7 @@ def march_standing(
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
     if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
         missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
-    if across > FAR:
-        missing.append(
-            f"the body drifts sideways: friction across, which comes to nothing, is {across:.2g} "
-            "of mu F_N in the mean"
-        )
+    missing += drifts_sideways(across)
     if residual <= UNSTEADY and still_loads(model, table, residual):
         missing.append("the drive is still being stretched: the body lags behind it")
     shown = f"the halves of the window agree to {UNSTEADY:g} of mu F_N"
@@ -186,14 +180,23 @@ def unseen_ring(model: Model, table: Timetable) -> float:
     return model.ring_period if table.window * table.step < model.ring_period else 0.0
 
 
-def pull_across(model: Model, sums: np.void) -> float:
-    """Return the mean friction across the drive over mu F_N of a body that is free to yield to it.
+def pull_across(model: Model, mean: float) -> float:
+    """Return how far a mean friction across the drive, over mu F_N, is from where it comes to.
 
-    Nothing else pushes it sideways: in a state that lasts the mean is nothing.
+    Nothing else pushes a body sideways that is free to yield: in a state that lasts the mean is
+    nothing.
     """
-    if not (model.vibrates and model.slider.free):
-        return 0.0
-    return abs(float(sums["friction_y"] / sums["steps"]))
+    return abs(float(mean)) if model.vibrates and model.slider.free else 0.0
+
+
+def drifts_sideways(across: float) -> tuple[str, ...]:
+    """Return what a body lacks on which friction still pulls sideways, see `pull_across`."""
+    if not across > FAR:
+        return ()
+    return (
+        f"the body drifts sideways: friction across, which comes to nothing, is {across:.2g} of "
+        "mu F_N in the mean",
+    )
 
 
 def drifts_for(model: Model, across: float) -> float:

@@ -12,9 +12,11 @@ from asperity.tribometer.quantities import (
     Current,
     Duration,
     Frequency,
+    Mass,
     Share,
     Span,
     Speed,
+    Tolerance,
     Torque,
     Velocity,
     Voltage,
@@ -23,6 +25,7 @@ from asperity.units import Quantity
 
 Waveform = Literal["sine", "triangle"]
 Positive = Annotated[float, Quantity("", "a number", "0.18", gt=0)]
+WearRate = Annotated[float, Quantity("m**2/N", "a wear rate", "1e-5 mm3/(N m)", ge=0)]
 
 
 class Plan(Table):
@@ -45,6 +48,13 @@ class Plan(Table):
         Recordings of each file's cells.
     before, shaken, idle : float or str
         Sliding without vibration, with it, and at rest, s.
+    distance : float or str, optional
+        Sliding distance of a run, m: a wear test. In place of ``shaken`` each run slides that far,
+        with discs of its own, which are weighed before, after and on the way.
+    stretches : int
+        Of a wear test: parts of that distance, with a weighing behind each.
+    unshaken : bool
+        Of a wear test: whether every setting has runs without vibration as well.
     sample_rate : float or str
         Of recordings, Hz; the thesis states none.
     order : {'thesis', 'randomised'}
@@ -66,6 +76,9 @@ class Plan(Table):
     before: Duration = 10.0
     shaken: Duration = 10.0
     idle: Duration = 10.0
+    distance: Annotated[float, Quantity("m", "a distance", "1800 m", gt=0)] | None = None
+    stretches: Count = 1
+    unshaken: bool = True
     sample_rate: Annotated[float, Quantity("Hz", "a frequency", "20 kHz", ge=100.0, le=500e3)] = (
         20e3
     )
@@ -117,8 +130,19 @@ class Twin(Table):
         Standard deviation of the current clamps, A.
     brake_resistance : float or str
         Of the coil of a wheel's brake, ohm.
+    wear_steel, wear_bronze : float or str
+        Volume that each disc loses by force and path of one on the other, m2/N; 0: it loses none.
+    weighing_noise : float or str
+        Standard deviation of a weighing, kg.
     seed : int
         Of the noise.
+    motor_tolerance, drag_tolerance, gear_tolerance : float
+        By what share of themselves a real rig's motors may differ in constant and resistance, which
+        warm with them, in drag and in the gear's efficiency, before a recording contradicts.
+    supply_tolerance : float
+        By what share of its volts a supply may give otherwise than it was told.
+    lead_voltage : float or str
+        What may fall in leads and brushes, V.
     """
 
     table: ClassVar[str] = "twin"
@@ -150,7 +174,15 @@ class Twin(Table):
     encoder_lag: Span = 0.2
     current_noise: Current = 0.02
     brake_resistance: Annotated[float, Quantity("ohm", "a resistance", "20 ohm", gt=0)] = 20.0
+    wear_steel: WearRate = 0.0
+    wear_bronze: WearRate = 0.0
+    weighing_noise: Mass = 0.0
     seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    motor_tolerance: Tolerance = 0.1
+    drag_tolerance: Tolerance = 0.25
+    gear_tolerance: Tolerance = 0.25
+    supply_tolerance: Tolerance = 0.02
+    lead_voltage: Voltage = 0.1
 
     @model_validator(mode="after")
     def _rotor(self) -> "Twin":
@@ -188,6 +220,8 @@ class Reduction(Table):
         Of intervals.
     drift : bool
         Whether a slow drift of the torque is estimated, too.
+    weighing_uncertainty : float or str, optional
+        Standard deviation of a weighing, kg; left out, that of the masses about their line.
     """
 
     table: ClassVar[str] = "reduction"
@@ -202,6 +236,7 @@ class Reduction(Table):
     frequency_tolerance: Annotated[float, Quantity("", "a share", "0.01", gt=0, lt=0.5)] = 0.02
     confidence: Annotated[float, Quantity("", "a share", "0.95", gt=0.5, lt=1)] = 0.95
     drift: bool = True
+    weighing_uncertainty: Annotated[float, Quantity("kg", "a mass", "0.1 mg", gt=0)] | None = None
 
     @model_validator(mode="after")
     def _fits(self) -> "Reduction":

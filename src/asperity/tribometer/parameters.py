@@ -18,6 +18,7 @@ from asperity.tribometer.quantities import (
     Ratio,
     Share,
     Temperature,
+    Tolerance,
     Torque,
     Velocity,
     Voltage,
@@ -49,6 +50,9 @@ class Rig(Table):
         Of the wheel's brake, N m, where the rig is a gearset; in place of both.
     bearing_torque_steel, bearing_torque_bronze : float or str
         T_bs and T_ba, N m, thesis (65), (66): what the sensors read with the discs apart.
+    bearing_tolerance : float
+        Share of a disc's torque that its bearings may hold beyond that, before a recording
+        contradicts; less, where a run with the discs apart has told them.
     """
 
     table: ClassVar[str] = "rig"
@@ -61,6 +65,7 @@ class Rig(Table):
     brake_torque: Annotated[float, Quantity("N m", "a torque", "23 N m", gt=0)] | None = None
     bearing_torque_steel: Torque = 0.0
     bearing_torque_bronze: Torque = 0.0
+    bearing_tolerance: Tolerance = 0.1
 
     @model_validator(mode="after")
     def _loaded(self) -> "Rig":

@@ -28,7 +28,7 @@ from asperity.slider.history import History
 from asperity.slider.kernels import condense
 from asperity.slider.longer import needed, until_settled
 from asperity.slider.summary import of_stretches
-from asperity.slider.timetable import march_standing
+from asperity.slider.timetable import march_standing, pull_across
 
 # Seconds between two times of telling how far it is.
 _REPORTS = 0.1
@@ -274,6 +274,8 @@ class BlockMarch:
         powers = power_ledger(sums, start, end)
         means = progress.means(second, force)
         broke = stepper.breakaway is not None
+        across = pull_across(model, sums.friction_y / span / force)
+        standing = march_standing(model, table, residual, broke=broke, means=means, across=across)
         # Its residual has every power in it.
         if not all(map(math.isfinite, (mean, residual, powers.residual))):
             raise ConvergenceError(_NOT_FINITE)
@@ -287,7 +289,7 @@ class BlockMarch:
             friction_min=(sums.friction_x_min, sums.friction_y_min),
             breakaway_time=stepper.breakaway,
             ledger=powers,
-            **march_standing(model, table, residual, broke=broke, means=means)._asdict(),
+            **standing._asdict(),
             residual=residual,
             steps=table.steps,
             cycles=table.cycles,
@@ -308,7 +310,7 @@ class BlockMarch:
         )
         if answer.settled:
             return answer, None
-        return answer, needed(model, table, means, residual, broke=broke)
+        return answer, needed(model, table, means, residual, broke=broke, across=across)
 
 
 def solve_block(

@@ -32,6 +32,7 @@ from asperity.results.settled import Standing, by_what, error_of_step, told, whe
 from asperity.runs import Run
 from asperity.slider import Model, SlideResult
 from asperity.slider.periodic import solve_periodic
+from asperity.slider.timetable import drifts_sideways, pull_across
 from asperity.vibration import Vibration
 
 STEPS = 200
@@ -119,6 +120,8 @@ class Reading:
     #: (4,): Ratio of each body in each window, at the drive's velocity
     windows: tuple[FloatArray, ...]
     late: tuple[float, ...]  #: By how much of the drive's velocity each was slower
+    #: Mean friction across the drive over mu F_N, of each that is free to yield to it
+    across: tuple[float, ...]
     #: (steps, 2): Friction on each in the last cycle, N
     friction: tuple[FloatArray, ...]
     cycles: int  #: In the four windows together
@@ -182,9 +185,13 @@ def settle(problem: BlockProblem, run: Run | None = None) -> SettledBlock:
 
 def _standing(reading: Reading, ratio: float) -> Standing:
     windows = f"{_WINDOWS} windows of {reading.cycles // _WINDOWS} cycles"
-    if reading.apart <= STEADY * abs(ratio):
-        return Standing(True, f"{windows} agree to {STEADY:g} of the ratio")
-    return Standing(False, f"{windows} are apart by {reading.apart:.2g}")
+    drifts = drifts_sideways(max(reading.across))
+    missing = (
+        drifts
+        if reading.apart <= STEADY * abs(ratio)
+        else (f"{windows} are apart by {reading.apart:.2g}", *drifts)
+    )
+    return Standing.of(missing, f"{windows} agree to {STEADY:g} of the ratio")
 
 
 def _notes(problem: BlockProblem, reading: Reading, ratio: float) -> tuple[str, ...]:
@@ -265,8 +272,8 @@ def read_settled(
     length = _SHORTEST
     while True:
         read = [_read(stepper, slider.model, slope, length, between) for stepper in steppers]
-        windows, late, friction = zip(*read, strict=True)
-        reading = Reading(windows, late, friction, _WINDOWS * length)
+        windows, late, across, friction = zip(*read, strict=True)
+        reading = Reading(windows, late, across, friction, _WINDOWS * length)
         if reading.apart <= STEADY * abs(slider.ratio) or length >= _LONGEST:
             return reading
         length *= 2
@@ -287,20 +294,21 @@ def _calmed(
 
 def _read(
     stepper: Stepper, model: Model, slope: float, length: int, between: Callable[[int], None]
-) -> tuple[FloatArray, float, FloatArray]:
+) -> tuple[FloatArray, float, float, FloatArray]:
     """Ratio in each window, brought to the drive's velocity; how much slower the body was.
 
-    And its friction in the last cycle, (steps, 2), N.
+    And the pull across, see `pull_across`, and its friction in the last cycle, (steps, 2), N.
     """
     # The rocking comes round in other than whole cycles. Weights that fade in and out let it
     # cancel within a window, where equal ones would leave what is cut off at its ends.
     weights = np.sin(np.pi * (np.arange(length) + 0.5) / length) ** 2
     read = [_cycle(stepper, model, between) for _ in range(_WINDOWS * length)]
     cycles = np.array([means for means, _ in read])
-    means = np.average(cycles.reshape(_WINDOWS, length, 2), axis=1, weights=weights)
+    means = np.average(cycles.reshape(_WINDOWS, length, 3), axis=1, weights=weights)
     late = 1.0 - means[:, 1] / model.slider.drive_velocity
     ratios = means[:, 0] / model.full_friction + slope * late
-    return ratios, float(late.mean()), read[-1][1]
+    across = pull_across(model, means[:, 2].mean() / model.full_friction)
+    return ratios, float(late.mean()), across, read[-1][1]
 
 
 def _over_a_cycle(slider: SlideResult) -> FloatArray:
@@ -354,12 +362,13 @@ def _cycles(
 
 def _cycle(
     stepper: Stepper, model: Model, between: Callable[[int], None]
-) -> tuple[tuple[float, float], FloatArray]:
-    """Friction along the drive and velocity, averaged over a cycle; and friction, (steps, 2)."""
+) -> tuple[tuple[float, float, float], FloatArray]:
+    """Friction along the drive, velocity and friction across, means of a cycle; and (steps, 2)."""
     stepper.clear()
     begin, place = stepper.state.time, stepper.state.coordinates.place[0]
     rows = _cycles(stepper, model, 1, STEPS, between)
     way = stepper.state.coordinates.place[0] - place
     friction = np.stack([Row(*rows.T).friction_x, Row(*rows.T).friction_y], axis=1)
     velocity = float(way / (stepper.state.time - begin))
-    return (stepper.sums.friction_x / stepper.sums.time, velocity), friction
+    sums = stepper.sums
+    return (sums.friction_x / sums.time, velocity, sums.friction_y / sums.time), friction

@@ -167,6 +167,6 @@ def advantage(dataset: "xr.Dataset") -> "Figure":
         )  # fmt: skip
     _over_k(right, r"$T_{sv}/T_{ss}$")
     right.set(xlabel="velocity ratio $k_v$", xlim=left.get_xlim(), ylim=(0, 1.05))
-    legend(right, loc="center left")
+    legend(right, loc="upper right", fontsize=8)
     right.set_title("(b)", loc="left")
     return figure

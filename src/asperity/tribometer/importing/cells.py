@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from asperity.errors import InputError
 from asperity.tribometer.importing.columns import unit_in
 from asperity.units import to_si
+from asperity.units.measures import measure
 
 SEPARATORS = ("\t", ";", ",", "")
 """What may stand between cells; empty: spaces."""
@@ -164,9 +165,15 @@ def split_heading(heading: str) -> tuple[str, str]:
     --------
     >>> split_heading("Time [s]"), split_heading("CH1 in V"), split_heading("Channel A")
     (('Time', 's'), ('CH1', 'V'), ('Channel A', ''))
+    >>> split_heading("A / mV"), split_heading("U/min"), split_heading("A / B")
+    (('A', 'mV'), ('U/min', ''), ('A / B', ''))
     """
     for shape in _IN_HEADING:
         if found := shape.fullmatch(heading.strip()):
             name, unit = found["name"].strip(), unit_of(found["unit"])
             return name or "Time", unit
+    # A quantity over its unit, as standards write it; without blanks it may be a unit: U/min.
+    name, stroke, over = heading.partition(" / ")
+    if stroke and name.strip() and (unit := unit_of(over)) and measure(unit) is not None:
+        return name.strip(), unit
     return heading, ""

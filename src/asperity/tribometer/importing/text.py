@@ -25,6 +25,7 @@ from asperity.tribometer.importing.cells import (
 )
 from asperity.tribometer.importing.columns import Columns
 from asperity.tribometer.importing.dates import begun_in
+from asperity.tribometer.importing.footer import without_footer
 from asperity.tribometer.importing.heads import (
     ONE_COLUMN,
     Layout,
@@ -74,9 +75,11 @@ def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
     refuse_segments(text, layout, name)
     rows_shown = [cells_of(line, layout.separator) for line in head[layout.begin :]]
     decimal, thousands = marks_of(rows_shown[:_ROWS_LOOKED_AT], layout.separator)
+    counting = [n for n in range(layout.width) if n not in layout.skipped]
+    text, words = without_footer(text, layout.separator, counting)
     frame = _numbers(text, name, layout, decimal, thousands)
-    columns = [n for n in range(layout.width) if n not in layout.skipped and n != layout.time]
-    notes = list(layout.notes)
+    columns = [n for n in counting if n != layout.time]
+    notes = [*layout.notes, *words]
     if decimal == "," and all(map(_THOUSAND.fullmatch, _with_comma(rows_shown[:_ROWS_LOOKED_AT]))):
         notes.append(
             "commas in numbers are taken for decimal commas, though three digits follow each"

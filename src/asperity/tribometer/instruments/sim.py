@@ -23,6 +23,7 @@ from asperity.tribometer.twin import plant_kernels as kernels
 from asperity.tribometer.twin.chain import POINTS, disc_velocity
 from asperity.tribometer.twin.noise import Noise
 from asperity.tribometer.twin.plant import STEP, Plant
+from asperity.tribometer.twin.wearing import Wearing
 
 _OFF = -1.0
 
@@ -58,6 +59,7 @@ class SimulatedRig:
         self.mode: str = plant.pair.rig.mode
         self.waveform: Waveform = "sine"
         self.frequency = 0.0
+        self.wearing = Wearing(plant)
         self._state = np.zeros(1, kernels.STATE)
         self._noise = Noise(plant.twin.seed, kernels.NORMALS)
         angles = np.random.default_rng(plant.twin.seed).uniform(0.0, 2.0 * math.pi, 2)
@@ -82,6 +84,13 @@ class SimulatedRig:
 
     def change(self) -> None:
         """Bring the rig to the present, before something is changed or read."""
+        before, seconds = self.wearing.sliding(self._state[0]), self.now - self._reached
+        self._advance()
+        self._reached = self.now
+        drive = (self.mode, self.waveform, self.frequency) if self.vibrates else None
+        self.wearing.slide((before, self.wearing.sliding(self._state[0])), seconds, drive)
+
+    def _advance(self) -> None:
         if self._interval:
             due = round((self.now - self._begun) / self._interval) - self._sampled
             if due > 0:
@@ -90,7 +99,6 @@ class SimulatedRig:
             steps = round((self.now - self._reached) / STEP)
             if steps > 0:
                 kernels.coast(*self._parts(STEP), self._state[0], STEP, steps)
-        self._reached = self.now
 
     def _parts(self, interval: float) -> tuple[Any, ...]:
         plant = self.plant
@@ -160,6 +168,7 @@ class SimulatedRig:
             "frequency": self.frequency,
             "held": held,
             "noise": self._noise.state(),
+            **self.wearing.state(),
         }
 
     def restore(self, state: dict[str, Any]) -> None:
@@ -170,6 +179,7 @@ class SimulatedRig:
         for name, value in state["held"].items():
             self._state[name] = value
         self._noise.restore(state["noise"])
+        self.wearing.restore(state)
 
 
 class SimulatedClock:
@@ -365,8 +375,8 @@ class SimulatedPerson:
 
     def read(self, text: str, unit: str) -> float:
         """Weigh discs of steel: nothing else is read at a simulated rig."""
-        disc = self._rig.plant.pair.steel if "steel" in text else self._rig.plant.pair.bronze
-        return math.pi * disc.radius**2 * disc.thickness * (disc.density or 7850.0)
+        self._rig.change()
+        return self._rig.wearing.weigh("steel" if "steel" in text else "bronze")
 
 
 def simulated_bench(

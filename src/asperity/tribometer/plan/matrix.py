@@ -2,9 +2,11 @@
 
 import dataclasses
 import itertools
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError, nearest
 from asperity.tribometer.options import Plan, Waveform
 from asperity.tribometer.parameters import Limits
@@ -22,7 +24,7 @@ class Cell:
     number : int
         From 1, in the order of the plan.
     frequency : float
-        Of the vibration, Hz.
+        Of the vibration, Hz; 0: none, in a wear test.
     """
 
     number: int
@@ -45,6 +47,10 @@ class PlannedFile:
         From 1.
     cells : tuple of Cell
         In their order.
+    run : int
+        Of a wear test, from 1: files of one run share their discs. 0: it is none.
+    stretch : int
+        Of the run, from 1.
     """
 
     number: int
@@ -54,6 +60,8 @@ class PlannedFile:
     steel_supply: float
     repeat: int
     cells: tuple[Cell, ...]
+    run: int = 0
+    stretch: int = 0
 
     @property
     def name(self) -> str:
@@ -61,9 +69,9 @@ class PlannedFile:
         return f"file-{self.number:02d}"
 
     @property
-    def setting(self) -> tuple[str, str, str]:
+    def setting(self) -> tuple[str, str, str, int]:
         """What needs the rig rebuilt, cleaned or given new discs."""
-        return self.mode, self.waveform, self.lubricant
+        return self.mode, self.waveform, self.lubricant, self.run
 
 
 def _excluded(plan: Plan) -> list[frozenset[str]]:
@@ -137,13 +145,15 @@ def planned_files(plan: Plan, limits: Limits) -> tuple[PlannedFile, ...]:
     check_plan(plan, limits)
     left_out = _excluded(plan)
     count = len(plan.steel_supplies) * plan.repeats * len(plan.frequencies)
+    if plan.distance is not None:
+        count = (count + plan.unshaken * count // len(plan.frequencies)) * plan.stretches
     rng = np.random.default_rng(plan.seed)
     files: list[PlannedFile] = []
     cells = itertools.count(1)
     for setting in itertools.product(plan.modes, plan.waveforms, plan.lubricants):
         if any(words <= set(setting) for words in left_out):
             continue
-        if len(files) * len(plan.frequencies) + count > _MOST:
+        if sum(len(one.cells) for one in files) + count > _MOST:
             raise InputError(
                 f"the plan has more than {_MOST} cells; leave out values or lower plan.repeats"
             )
@@ -152,10 +162,16 @@ def planned_files(plan: Plan, limits: Limits) -> tuple[PlannedFile, ...]:
             if plan.order == "randomised":
                 frequencies = rng.permutation(frequencies)
             mode, waveform, lubricant = setting
+            if plan.distance is not None:
+                one = PlannedFile(0, mode, lubricant, waveform, volts, repeat, ())
+                files += _worn(plan, one, frequencies, files, cells)
+                continue
             made = tuple(Cell(next(cells), float(frequency)) for frequency in frequencies)
             number = len(files) + 1
             files.append(PlannedFile(number, mode, lubricant, waveform, volts, repeat, made))
-    seconds = len(files) * len(plan.frequencies) * (plan.before + plan.shaken + plan.idle)
+    # A stretch of a distance takes as long as the discs do, which no plan knows.
+    shaken = plan.shaken if plan.distance is None else 0.0
+    seconds = sum(len(one.cells) for one in files) * (plan.before + shaken + plan.idle)
     if not seconds <= _LONGEST:
         raise InputError(
             f"the plan records for {seconds / 86400.0:.3g} days; at most {_LONGEST / 86400.0:g} "
@@ -164,6 +180,27 @@ def planned_files(plan: Plan, limits: Limits) -> tuple[PlannedFile, ...]:
     if not files:
         raise InputError("plan.excluded leaves out every cell; keep one")
     return tuple(files)
+
+
+def _worn(
+    plan: Plan,
+    one: PlannedFile,
+    frequencies: FloatArray,
+    earlier: Sequence[PlannedFile],
+    cells: Iterator[int],
+) -> list[PlannedFile]:
+    """Return the files of a wear test at one supply: a run a frequency, a file a stretch."""
+    made: list[PlannedFile] = []
+    begun, first = len(earlier), earlier[-1].run + 1 if earlier else 1
+    still = [0.0] if plan.unshaken else []
+    for run, frequency in enumerate((*still, *frequencies.tolist()), start=first):
+        for stretch in range(1, plan.stretches + 1):
+            cell = Cell(next(cells), frequency)
+            number = begun + len(made) + 1
+            made.append(
+                dataclasses.replace(one, number=number, cells=(cell,), run=run, stretch=stretch)
+            )
+    return made
 
 
 def _runs(plan: Plan, rng: np.random.Generator) -> list[tuple[float, int]]:

@@ -23,7 +23,7 @@ class PlanResult(Result):
     cell_count: int = quantity("", "", "cells, repeats counted")
     distinct_cells: int = quantity("", "", "different cells, repeats not counted")
     settings: int = quantity("", "", "times the rig is rebuilt or given new discs")
-    recording_time: float = quantity("", "s", "time that is recorded")
+    recording_time: float | None = quantity("", "s", "time that is recorded")
     frequency: FloatArray = quantity("f", "Hz", "frequency of the vibration", dims=("cell",))
     steel_supply: FloatArray = quantity(
         "V_ms", "V", "supply of the steel disc's motor", dims=("cell",)

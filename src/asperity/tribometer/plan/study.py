@@ -6,8 +6,10 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
+from asperity.errors import InputError
 from asperity.runs import Run
 from asperity.tribometer.options import Plan, Reduction, Twin
+from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Limits
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
 from asperity.tribometer.plan.result import PlanResult
@@ -36,12 +38,15 @@ class PlanProblem:
         The simulated rig, where the configuration has one.
     warnings : tuple of str
         Of what will go wrong.
+    reduction : Reduction
+        How recordings will be reduced.
     """
 
     plan: Plan
     files: tuple[PlannedFile, ...]
     plant: Plant | None
     warnings: tuple[str, ...]
+    reduction: Reduction
 
     def named(self, text: str) -> str:
         """Return a sentence of the discs as it is of what the rig has."""
@@ -52,8 +57,26 @@ def prepare(case: Case) -> PlanProblem:
     """Lay out a plan; refuses one beyond its limits."""
     limits = case.get(Limits, Limits())
     plan = case.require(Plan)
+    check_wear(case)
     plant = plant_of(case) if Twin.table in case else None
-    return PlanProblem(plan, planned_files(plan, limits), plant, tuple(warnings(case)))
+    return PlanProblem(
+        plan, planned_files(plan, limits), plant, tuple(warnings(case)),
+        case.get(Reduction, Reduction()),
+    )  # fmt: skip
+
+
+def check_wear(case: Case) -> None:
+    """Refuse a wear test of what is not weighed.
+
+    Raises
+    ------
+    InputError
+        The rig is a worm and its wheel.
+    """
+    if case.require(Plan).distance is not None and pair_of(case).geared:
+        raise InputError(
+            "plan.distance is of discs, which are weighed; of a worm and its wheel leave it out"
+        )
 
 
 def warnings(case: Case) -> list[str]:
@@ -92,7 +115,7 @@ def _shorter(plan: Plan, least: float) -> str:
     return "; ".join(
         f"plan.{key} is {getattr(plan, key):g} s, which should be {least:g} s or more"
         for key in ("before", "shaken")
-        if getattr(plan, key) < least
+        if getattr(plan, key) < least and (key != "shaken" or plan.distance is None)
     )
 
 
@@ -104,7 +127,6 @@ def answer(problem: PlanProblem, run: Run) -> PlanResult:
     ratio, steel, bronze = expected if expected is not None else (None, None, None)
     if ratio is not None and not np.all(np.isfinite(ratio)):
         ratio = None  # of some frequencies no velocity is known
-    a_cell = plan.before + plan.shaken + plan.idle
     return PlanResult(
         planned=files,
         order=plan.order,
@@ -112,7 +134,7 @@ def answer(problem: PlanProblem, run: Run) -> PlanResult:
         cell_count=len(pairs),
         distinct_cells=len(pairs) // plan.repeats,
         settings=len({one.setting for one in files}),
-        recording_time=len(pairs) * a_cell,
+        recording_time=_recorded(problem),
         frequency=np.array([cell.frequency for _, cell in pairs]),
         steel_supply=np.array([one.steel_supply for one, _ in pairs]),
         file_number=np.array([one.number for one, _ in pairs]),
@@ -125,6 +147,23 @@ def answer(problem: PlanProblem, run: Run) -> PlanResult:
         bronze_turns=bronze,
         notes=tuple(map(problem.named, _notes(problem, expected))),
     )
+
+
+def _recorded(problem: PlanProblem) -> float | None:
+    """Time that is recorded, s; of a wear test as the simulated rig slides, where there is one."""
+    plan = problem.plan
+    cells = sum(len(one.cells) for one in problem.files)
+    if plan.distance is None:
+        return cells * (plan.before + plan.shaken + plan.idle)
+    if problem.plant is None:
+        return None
+    seconds = cells * plan.idle
+    for one in problem.files:
+        for cell in one.cells:
+            friction = problem.plant.friction(one.waveform, cell.frequency, mode=one.mode)
+            state = problem.plant.steady(one.steel_supply, plan.bronze_supply, friction)
+            seconds += plan.distance / plan.stretches / abs(state.sliding)
+    return seconds
 
 
 Expected = tuple[FloatArray, FloatArray, FloatArray]
@@ -144,7 +183,7 @@ def _expected(problem: PlanProblem) -> Expected | None:
         state = states[one.steel_supply]
         turns = plan.before / (2.0 * np.pi)
         for cell in one.cells:
-            shaken = plant.sonotrode.velocity(one.mode, cell.frequency)
+            shaken = plant.sonotrode.velocity(one.mode, cell.frequency) if cell.frequency else 0.0
             rows.append(
                 (
                     np.nan if shaken is None or not state.sliding else shaken / state.sliding,
@@ -213,8 +252,22 @@ def _notes(problem: PlanProblem, expected: Expected | None) -> list[str]:
             "in every file the frequencies come in the same order, so that drift and frequency are "
             "confounded; plan.order = 'randomised' tells them apart"
         )
+    if plan.distance is not None:
+        notes += _of_wear(problem)
     if plan.repeats < 2:
         notes.append("each cell is run once: what repeats differ by cannot be told")
+    return notes
+
+
+def _of_wear(problem: PlanProblem) -> list[str]:
+    plan, notes = problem.plan, []
+    if problem.reduction.weighing_uncertainty is None and plan.stretches < 2:
+        notes.append(
+            "a wear rate has no interval where a run is weighed before and after only: give "
+            "reduction.weighing_uncertainty, or plan.stretches of 2 or more"
+        )
+    if not plan.unshaken:
+        notes.append("no run without vibration is planned: what vibration adds cannot be told")
     return notes
 
 

@@ -61,6 +61,13 @@ class Window:
             self._sum += over_time(np.add, used, np.int64)
         self._summed += len(used)
 
+    def join(self, later: "Window") -> None:
+        """Take a window that follows, whose check sum goes on with this one's."""
+        self.crc32 = later.crc32
+        self.samples += later.samples
+        self._sum += later._sum
+        self._summed += later._summed
+
     def means(self) -> FloatArray:
         """Return mean counts behind what was skipped."""
         return self._sum / max(1, self._summed)

@@ -37,6 +37,7 @@ from asperity.tribometer.procedure.driving import Driving
 from asperity.tribometer.procedure.interlock import Interlock
 from asperity.tribometer.procedure.logger import Logger, configuration_of
 from asperity.tribometer.procedure.packer import Packer
+from asperity.tribometer.procedure.sliding import Sliding
 from asperity.tribometer.procedure.steps import Action, file_of
 
 _TRIES = 3
@@ -99,6 +100,7 @@ class Machine:
         units = units_of([one.signal for one in bench.scope.inputs])
         self._preview = Preview(folder, units, simulated=bench.simulated)
         self._approach = Approach(bench, self._new_logger, self._preview.told)
+        self._slides = Sliding(case, self._plan)
         self._driving = Driving(bench, self._plan, self._approach.ran, self._preview.told)
 
     def go(self) -> AsperityError | None:
@@ -146,6 +148,8 @@ class Machine:
         """Say how long it takes: as long as is recorded, or a part of that where simulated."""
         left = sum(one.act == "cell" and one.key not in done for one in self._actions)
         plan = self._plan
+        if plan.distance is not None:
+            return  # How fast discs wear a distance off, they say themselves.
         seconds = left * (plan.before + plan.shaken + plan.idle)
         if not isinstance(self._bench.clock, WallClock):
             seconds *= plan.sample_rate * _SIMULATED_SAMPLE + _SIMULATED_SECOND
@@ -250,7 +254,8 @@ class Machine:
 
     def _waveform(self, action: Action) -> dict[str, Any]:
         one = file_of(action)
-        self._bench.vibration.configure(one.waveform, one.cells[0].frequency)
+        if frequency := one.cells[0].frequency:
+            self._bench.vibration.configure(one.waveform, frequency)
         return {"waveform": one.waveform}
 
     def _trial(self, action: Action) -> dict[str, Any]:
@@ -275,6 +280,9 @@ class Machine:
             pulses = self._pair.drives.encoder_pulses
             checks.check_speeds(running, measured, 2.0 * np.pi / pulses)
             self._driving.still(logger)
+            if self._plan.distance is not None:
+                # Encoders have forgotten it before the sliding is counted.
+                logger.watch(self._slides.idle)
             return {"running": running, "tachometer_rad_per_s": measured}
 
         return self._tried(action, checked)
@@ -313,16 +321,24 @@ class Machine:
             raise AssertionError
         logger, plan = self._recording(one), self._plan
         logger.event("cell", str(cell.number))
-        self._driving.configure(logger, one, cell)
+        if cell.frequency:
+            self._driving.configure(logger, one, cell)
         self._driving.energise(logger, one)
         before = logger.watch(plan.before, skip=min(self._settling, 0.5 * plan.before))
-        self._driving.shake(logger, one, cell)
-        shaken = logger.watch(
-            plan.shaken, skip=min(self._settling, 0.5 * plan.shaken), crc32=before.crc32
-        )
+        if cell.frequency:
+            self._driving.shake(logger, one, cell)
+        told: dict[str, Any] = {}
+        if plan.distance is None:
+            shaken = logger.watch(
+                plan.shaken, skip=min(self._settling, 0.5 * plan.shaken), crc32=before.crc32
+            )
+        else:
+            far = plan.distance / plan.stretches - self._slides.over(logger, before)
+            shaken, slid = self._slides.far(logger, far, before.crc32)
+            told = {"distance_m": plan.distance / plan.stretches - far + slid}
         self._driving.still(logger)
-        if plan.idle:
-            logger.watch(plan.idle)
+        if idle := self._slides.idle:
+            logger.watch(idle)
         # The journal is not to tell of samples that a kill would still cost.
         logger.keep()
         return {
@@ -337,7 +353,7 @@ class Machine:
             "crc32": shaken.crc32,
             "level_before": logger.levels(before),
             "level_with": logger.levels(shaken),
-        }
+        } | told
 
     def _save(self, action: Action) -> dict[str, Any]:
         if self._logger is None:

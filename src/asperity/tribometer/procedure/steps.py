@@ -10,6 +10,8 @@ Read as they are printed, the steps contradict themselves; what is done here ins
 - No step changes the lubricant. It is part of a setting, and each setting has new discs.
 - Step 19 switches the motors off before the vibration. Here it is the vibration first, as when an
   interlock trips.
+- A wear test weighs discs behind every stretch of its distance, and first behind the trial run,
+  whose sliding nobody counts.
 - Step 17 starts the motors before the recording. Here the recording starts first, so that every
   file holds the zeros of the sensors that step 14 asks for.
 """
@@ -102,8 +104,9 @@ class Action:
         if self.cell is None or self.file is None:
             return self.text.rstrip(".")
         one = self.file
+        driven = f"{one.waveform} of {self.cell.frequency:g} Hz, {one.mode}"
         return (
-            f"Cell {self.cell.number}: {one.waveform} of {self.cell.frequency:g} Hz, {one.mode}, "
+            f"Cell {self.cell.number}: {driven if self.cell.frequency else 'no vibration'}, "
             f"{one.lubricant}, {one.steel_supply:g} V"
         )
 
@@ -151,8 +154,12 @@ def _sequence(files: Sequence[PlannedFile]) -> Iterator[Action]:
                 yield from _leaving(f"setting-{number}", before)
             number += 1
             yield from _entering(f"setting-{number}", one, before)
+        if one.stretch and not new:
+            yield from _weighing(f"setting-{number}/stretch-{one.stretch}", one, 26)
         if before is None or new or one.steel_supply != before.steel_supply:
             yield Action(f"{one.name}/trial", (12, 13, 14, 15, 16), "trial", STEPS[13], one)
+        if one.stretch and new:
+            yield from _weighing(f"setting-{number}/stretch-{one.stretch}", one, 2)
         yield Action(f"{one.name}/rest", (17,), "rest", STEPS[17], one)
         for cell in one.cells:
             key = f"{one.name}/cell-{cell.number:03d}"
@@ -169,7 +176,7 @@ def _entering(name: str, one: PlannedFile, before: PlannedFile | None) -> Iterat
     built = 29 if before is not None and one.mode == LONGITUDINAL != before.mode else 3
     steps: tuple[tuple[int, Act, str], ...] = (
         (1, "ask", STEPS[1]),
-        (2, "weigh", STEPS[2]),
+        *(() if one.stretch else ((2, "weigh", STEPS[2]),)),
         (built, "arrange", STEPS[3].format(mode=one.mode)),
         (4, "ask", STEPS[4]),
         (8, "preload", STEPS[8]),
@@ -179,6 +186,14 @@ def _entering(name: str, one: PlannedFile, before: PlannedFile | None) -> Iterat
     )
     for step, act, text in steps:
         yield Action(f"{name}/step-{step}", (step,), act, text, one)
+
+
+def _weighing(name: str, one: PlannedFile, step: int) -> Iterator[Action]:
+    """Take discs out and weigh them, between what nobody has counted the sliding of and what is."""
+    yield Action(f"{name}/step-25", (25,), "ask", STEPS[25], one)
+    yield Action(f"{name}/step-{step}", (step,), "weigh", STEPS[2], one)
+    yield Action(f"{name}/step-3", (3,), "arrange", STEPS[3].format(mode=one.mode), one)
+    yield Action(f"{name}/step-11", (11,), "ask", STEPS[11], one)
 
 
 def _leaving(name: str, one: PlannedFile) -> Iterator[Action]:

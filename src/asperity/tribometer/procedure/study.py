@@ -27,7 +27,7 @@ from asperity.tribometer.options import Plan
 from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Limits, Sonotrode
 from asperity.tribometer.plan.matrix import PlannedFile, planned_files
-from asperity.tribometer.plan.study import warnings
+from asperity.tribometer.plan.study import check_wear, warnings
 from asperity.tribometer.procedure.machine import Machine
 from asperity.tribometer.procedure.result import RunResult
 from asperity.tribometer.procedure.resuming import check_kept
@@ -85,6 +85,7 @@ def prepare(
     plan = case.require(Plan)
     files = planned_files(plan, limits)
     sonotrode = case.require(Sonotrode)
+    check_wear(case)
     inputs_for(case)
     most = plan.sample_rate / _LEAST_SAMPLES_A_CYCLE
     for frequency in plan.frequencies:
@@ -109,7 +110,7 @@ def prepare(
         plant = plant_of(case)
         for one in files:
             for cell in one.cells:
-                if sonotrode.velocity(one.mode, cell.frequency) is None:
+                if cell.frequency and sonotrode.velocity(one.mode, cell.frequency) is None:
                     raise InputError(
                         f"plan.frequencies has {cell.frequency:g} Hz, outside "
                         "sonotrode.frequencies; how fast a simulated disc moves there is not known"

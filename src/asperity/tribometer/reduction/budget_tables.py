@@ -30,7 +30,13 @@ NUMBERS = {
     "sliding_velocity_with": ("sliding velocity with vibration", "mm/s"),
     "k_v": ("velocity ratio", ""),
 }
-"""What has a budget: its name in words and its unit."""
+"""What has a budget in a segment: its name in words and its unit."""
+
+_TOLD = NUMBERS | {
+    "wear_rate": ("volume lost by force and path", "mm3/(N m)"),
+    "wear_rate_by_distance": ("volume lost by force and distance", "mm3/(N m)"),
+}
+"""What has one there, or in a run of a wear test."""
 
 _CSV = (
     "file", "start_s", "number", "unit", "value", "standard_uncertainty", "effective_freedom",
@@ -70,6 +76,10 @@ def not_counted(case: Case, signals: Sequence[str]) -> Iterator[str]:
         "the supply's set voltage, diameters, gear ratios and the bearings' torque are taken as "
         "exact"
     )
+    yield (
+        "what comes into a torque with its motor, as an offset that is not there at rest: a run "
+        "with the discs apart shows it"
+    )
 
 
 def of_segment(budgets: Budgets) -> list[dict[str, Any]]:
@@ -78,7 +88,7 @@ def of_segment(budgets: Budgets) -> list[dict[str, Any]]:
     for name, budget in budgets.items():
         made.append(
             {
-                "number": name, "unit": NUMBERS[name][1], "value": budget.value,
+                "number": name, "unit": _TOLD[name][1], "value": budget.value,
                 "standard_uncertainty": budget.uncertainty, "effective_freedom": budget.freedom,
                 "coverage_factor": budget.coverage_factor, "confidence": budget.confidence,
                 "expanded_uncertainty": budget.expanded,
@@ -103,7 +113,7 @@ def to_csv(rows: Sequence[Row]) -> str:
     for file, start, budgets in rows:
         for name, budget in budgets.items():
             head = (
-                file, start, name, NUMBERS[name][1], budget.value, budget.uncertainty,
+                file, start, name, _TOLD[name][1], budget.value, budget.uncertainty,
                 _finite(budget.freedom), budget.coverage_factor, budget.expanded,
             )  # fmt: skip
             for one in budget.contributions:
@@ -123,11 +133,11 @@ def tables(rows: Sequence[Row], left_out: Sequence[str]) -> tuple[Table, ...]:
 
 
 def summary(
-    rows: Sequence[Row], left_out: Sequence[str], numbers: Sequence[str] = tuple(NUMBERS)
+    rows: Sequence[Row], left_out: Sequence[str], numbers: Sequence[str] = tuple(_TOLD)
 ) -> Table:
     """Return numbers with their uncertainties."""
     lines = [
-        (file, _at(start), f"{NUMBERS[name][0]} {NUMBERS[name][1]}".strip(), _largest(budget),
+        (file, _at(start), f"{_TOLD[name][0]} {_TOLD[name][1]}".strip(), _largest(budget),
          *map(_digits, (budget.value, budget.uncertainty)), _freedom(budget.freedom),
          *map(_digits, (budget.coverage_factor, budget.expanded)))
         for file, start, budgets in rows

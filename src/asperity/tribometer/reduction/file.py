@@ -321,12 +321,16 @@ def _file(
     sliding = np.abs(np.subtract(*pair.rims(steel, bronze)))
     distance = float(sliding.sum() * blocks.length)
     path: float | None = None if pair.geared else distance
+    path_deviation = 0.0  # The same amplifier and sensor err in all segments alike.
     for segment, one in zip(segments, found, strict=True):
         if path is not None and one.k_v_with is not None:
             # All of the vibration, not only the window that is reduced.
             part = sliding[round(segment.start / blocks.length) : segment.shaken.last + 1]
-            share = wear.path_share(one.k_v_with, pair.rig.mode)
-            path += (share - 1.0) * float(part.sum() * blocks.length)
+            slid = float(part.sum() * blocks.length)
+            path += (wear.path_share(one.k_v_with, pair.rig.mode) - 1.0) * slid
+            if one.velocity_amplitude and one.velocity_deviation:
+                doubt = one.velocity_deviation / one.velocity_amplitude
+                path_deviation += wear.path_change(one.k_v_with, pair.rig.mode, doubt) * slid
     losses = {name: wear.mass_loss(recording.events, name) for name in ("steel", "bronze")}
     numbers: dict[str, Any] = {}
     for name, disc in (("steel", pair.steel), ("bronze", pair.bronze)):
@@ -346,5 +350,5 @@ def _file(
     )
     return FileResult(
         file=recording.name, simulated=recording.simulated, distance=distance, path=path,
-        gaps=gaps, **numbers,
+        path_deviation=path_deviation, gaps=gaps, **numbers,
     )  # fmt: skip

@@ -4,15 +4,17 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from asperity.files.store import harmless_cell, write_text
+from asperity.files.store import write_text
 from asperity.results import Quantities, Result, labelled, measured, quantity
 from asperity.results.dataset import along, described
 from asperity.results.files import csv_text
 from asperity.results.interval import numbers_of, value_of
-from asperity.results.quantity import CI95, plain
+from asperity.results.quantity import plain
 from asperity.results.table import Table
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budget_tables
+from asperity.tribometer.reduction.rows import csv_of
+from asperity.tribometer.reduction.wear_result import WearResult, wear_table
 from asperity.tribometer.uncertainty import Budget, Budgeted
 
 if TYPE_CHECKING:
@@ -137,7 +139,15 @@ class SegmentResult(Quantities):
 
 
 class FileResult(Quantities):
-    """What is told of a recording as a whole."""
+    """What is told of a recording as a whole.
+
+    Attributes
+    ----------
+    path_deviation : float
+        Standard deviation of the path by that of the vibration's velocity, m.
+    gaps, findings : tuple of dict
+        As JSON has them.
+    """
 
     file: str = quantity("", "", "recording")
     simulated: bool = quantity("", "", "whether it comes from no rig", default=False)
@@ -153,6 +163,7 @@ class FileResult(Quantities):
     )
     wear_steel: float | None = quantity("K", "", "Archard's coefficient, steel", default=None)
     wear_bronze: float | None = quantity("K", "", "Archard's coefficient, bronze", default=None)
+    path_deviation: float = 0.0
     gaps: tuple[dict[str, Any], ...] = ()
     findings: tuple[dict[str, Any], ...] = ()
 
@@ -171,6 +182,10 @@ class Reduced(Result):
         In the order of recordings and time.
     files : tuple of FileResult
         In the order given.
+    weighed : tuple of dict
+        Wear between two weighings.
+    rates : tuple of WearResult
+        Wear over the distance of each run of a wear test.
     told : bool
         Whether tables and JSON tell what every number is uncertain by; files always do.
     not_counted : tuple of str
@@ -190,13 +205,18 @@ class Reduced(Result):
     )  # fmt: skip
     repeat_freedom: int = quantity("", "", "degrees of freedom of that", default=0)
     weighed: tuple[dict[str, Any], ...] = ()
+    rates: tuple[WearResult, ...] = ()
     told: bool = False
     not_counted: tuple[str, ...] = ()
 
     @property
     def uncertainties(self) -> tuple[budget_tables.Row, ...]:
         """Of each segment that was reduced its file, its start and its budgets."""
-        return tuple((one.file, one.start, one.budgets) for one in self.segments if one.budgets)
+        return (
+            *((one.file, one.start, one.budgets) for one in self.segments if one.budgets),
+            *((f"{one.setting}, {one.disc}", None, one.budgets)
+              for one in self.rates if one.budgets),
+        )  # fmt: skip
 
     def to_json(self) -> dict[str, Any]:
         """Return the segments, and beside them what is told of each recording."""
@@ -219,6 +239,8 @@ class Reduced(Result):
         }  # fmt: skip
         if self.weighed:
             beside["wear_together"] = list(self.weighed)
+        if self.rates:
+            beside["wear_by_distance"] = [one.to_json() for one in self.rates]
         if self.told:
             beside["budgets"] = [
                 {"file": file, "start_s": start, "numbers": budget_tables.of_segment(of)}
@@ -235,7 +257,8 @@ class Reduced(Result):
         files = along("recording", self.files)
         if files:
             files["recording"] = files.pop("file")
-        dataset = dataset.merge(described(**along("segment", self.segments), **files))
+        worn = {f"worn_{name}": one for name, one in along("run", self.rates).items()}
+        dataset = dataset.merge(described(**along("segment", self.segments), **files, **worn))
         each = [(one.file, one.start, one.budgets) for one in self.segments]
         return dataset.merge(budget_tables.variables(each))
 
@@ -287,6 +310,7 @@ class Reduced(Result):
         return (
             Table.of(headings, rows, left=4, remarks=flags),
             *self._intervals(),
+            *((wear_table(self.rates),) if self.rates else ()),
             *(budget_tables.tables(self.uncertainties, self.not_counted) if self.told else ()),
             Table.of(heads, files, remarks=(*remarks, *self.notes)),
         )
@@ -323,6 +347,8 @@ class Reduced(Result):
             "reduce.csv": self.to_csv(), "measurements.csv": self.to_measurements(),
             "budget.csv": budget_tables.to_csv(self.uncertainties),
         }  # fmt: skip
+        if self.rates:
+            texts["wear.csv"] = csv_of(WearResult, self.rates)
         for name, text in texts.items():
             write_text(folder / name, text)
         return [*super().write(folder, pictures=pictures), *texts]
@@ -359,28 +385,11 @@ class Reduced(Result):
 
     def to_csv(self) -> str:
         """Return a row a segment; columns are named as in JSON, intervals by their ends."""
-        entries = [entry for entry in SegmentResult.declared() if entry.in_file]
-        entries = entries if self.segments else []
-        names = ([entry.key.replace(CI95, f"_{end}") for end in _ENDS] if entry.label.is_ends
-                 else [entry.key] for entry in entries)  # fmt: skip
-        rows = [[name for one in names for name in one]]
-        for one in self.segments:
-            found = {entry.name: entry.value for entry in one.entries()}
-            cells = (found[entry.name] or (None, None) if entry.label.is_ends
-                     else [found[entry.name]] for entry in entries)  # fmt: skip
-            rows.append([_cell(one) for several in cells for one in several])
-        return csv_text(rows)
+        return csv_of(SegmentResult, self.segments)
 
 
 def _rounded(value: float | None, digits: int) -> float | None:
     return None if value is None else float(f"{value:.{digits}g}")
-
-
-def _cell(value: Any) -> Any:
-    """Return what a cell of CSV has of a value."""
-    if value is None:
-        return ""
-    return harmless_cell("; ".join(map(str, value)) if isinstance(value, tuple) else value)
 
 
 def _between(worn: Mapping[str, Any]) -> str:

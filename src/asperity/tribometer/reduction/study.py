@@ -15,7 +15,7 @@ from asperity.runs import Run
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.options import Plan, Reduction
 from asperity.tribometer.pairs import pair_of
-from asperity.tribometer.parameters import Rig, Sonotrode
+from asperity.tribometer.parameters import Lubricant, Rig, Sonotrode
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction import wear
 from asperity.tribometer.reduction.blocks import Blocks, blocks_of
@@ -25,6 +25,9 @@ from asperity.tribometer.reduction.file import reduce_file
 from asperity.tribometer.reduction.heard.listen import Listened, listen
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
 from asperity.tribometer.reduction.segments import Segment, running_of, segments_of
+from asperity.tribometer.reduction.wear_rate import Stretch as Worn
+from asperity.tribometer.reduction.wear_rate import wear_rates
+from asperity.tribometer.reduction.wear_result import WearResult
 from asperity.tribometer.sheets import broken_classes
 
 _OFTEN = 0.01  # share of samples
@@ -134,22 +137,52 @@ def answer(series: Series, run: Run) -> Reduced:
             of_file, of_segments = reduce_recording(one)
             files.append(of_file)
             segments += of_segments
-    if not any(segment.quality != REFUSED for segment in segments):
+    deviation, freedom = repeats(segments)
+    pair, notes = pair_of(problem[0].case), list(_notes(problem))
+    journals = list(wear.of_journals([one.recording.path for one in problem], files, notes))
+    rates = tuple(_rates(problem, journals, segments, notes))
+    if not rates and not any(segment.quality != REFUSED for segment in segments):
         raise InputError(_nothing(problem, segments))
     for segment in segments:
         if segment.quality == REFUSED:
             run.notify(f"{segment.file}: {refusal(segment)}")
-    deviation, freedom = repeats(segments)
-    pair, notes = pair_of(problem[0].case), list(_notes(problem))
-    weighed = [
-        *wear.between_weighings(pair, files),
-        *wear.of_journals(pair, [one.recording.path for one in problem], files, notes),
-    ]
+    weighed = [*wear.between_weighings(pair, files)]
+    for weighing, between in journals:
+        weighed += wear.of_weighing(pair, weighing, between)
     return Reduced(
         segments=tuple(segments), files=tuple(files), repeat_deviation=deviation,
         repeat_freedom=freedom, notes=tuple(notes),
-        weighed=tuple(weighed), told=series.budget, not_counted=tuple(_not_counted(problem)),
+        weighed=tuple(weighed), rates=rates, told=series.budget,
+        not_counted=tuple(_not_counted(problem)),
     )  # fmt: skip
+
+
+def _rates(
+    problem: Sequence[Reducible],
+    journals: Sequence[tuple[wear.Weighing, Sequence[FileResult]]],
+    segments: Sequence[SegmentResult],
+    notes: list[str],
+) -> Iterator[WearResult]:
+    """Yield wear rates of the runs of a plan of wear."""
+    cases = {one.recording.name: one.case for one in problem}
+    found = []
+    for weighing, files in journals:
+        names = [one.file for one in files]
+        case = cases[names[0]]
+        if case.get(Plan, Plan()).distance is not None:
+            within = [one for one in segments if one.file in names]
+            oil = case.get(Lubricant)
+            found.append(
+                Worn(weighing, files, within, case.require(Rig).mode, oil.kind if oil else "")
+            )
+    if not found:
+        return
+    given = problem[0].reduction
+    pair = pair_of(problem[0].case)
+    yield from wear_rates(pair, found, given.weighing_uncertainty, given.confidence, notes)
+    notes.append(
+        "wear rates count no uncertainty of the force between the discs and of their density"
+    )
 
 
 def _not_counted(problem: Sequence[Reducible]) -> Iterator[str]:

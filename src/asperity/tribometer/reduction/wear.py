@@ -19,6 +19,30 @@ from asperity.tribometer.reduction.result import FileResult
 from asperity.units import to_si
 
 
+@dataclasses.dataclass(frozen=True)
+class Weighing:
+    """What a pair of discs lost over its recordings.
+
+    Attributes
+    ----------
+    setting : str
+        As the journal names it.
+    masses : mapping of str to tuple of float
+        Of each disc before and behind, kg.
+    files : tuple of str
+        The recordings, in their order.
+    """
+
+    setting: str
+    masses: Mapping[str, tuple[float, float]]
+    files: tuple[str, ...]
+
+    @property
+    def losses(self) -> dict[str, float]:
+        """What each disc lost, kg."""
+        return {disc: first - last for disc, (first, last) in self.masses.items()}
+
+
 def path_share(velocity_ratio: float, mode: str) -> float:
     """Return the path of a vibrating contact over the distance slid.
 
@@ -40,6 +64,13 @@ def path_share(velocity_ratio: float, mode: str) -> float:
     from scipy.special import ellipe
 
     return float(2.0 / math.pi * np.hypot(1.0, k) * ellipe(k * k / (1.0 + k * k)))
+
+
+def path_change(velocity_ratio: float, mode: str, doubt: float) -> float:
+    """Return by what `path_share` changes where k is off by a share of itself, about."""
+    ends = (path_share(velocity_ratio * (1.0 + side * doubt), mode) for side in (1.0, -1.0))
+    above, below = ends
+    return 0.5 * (above - below)
 
 
 def mass_loss(events: Sequence[Event], disc: str) -> float | None:
@@ -70,14 +101,12 @@ def between_weighings(pair: Pair, files: Sequence[FileResult]) -> Iterator[dict[
 
 
 def of_journals(
-    pair: Pair, opened: Sequence[Path], files: Sequence[FileResult], notes: list[str]
-) -> Iterator[dict[str, Any]]:
-    """Yield wear of each disc between two weighings of a run whose recordings are all here.
+    opened: Sequence[Path], files: Sequence[FileResult], notes: list[str]
+) -> Iterator[tuple[Weighing, list[FileResult]]]:
+    """Yield the weighings of runs whose recordings are all here, with what lies between them.
 
     Parameters
     ----------
-    pair : Pair
-        The discs.
     opened : sequence of Path
         Where each recording lies.
     files : sequence of FileResult
@@ -96,9 +125,16 @@ def of_journals(
                 "between them as well, and is not among the recordings"
             )
             continue
-        for disc, loss in weighing.losses.items():
-            worn = _worn(pair, disc, loss, [here[place] for place in places])
-            yield worn | {"setting": weighing.setting, "files": list(weighing.files)}
+        yield weighing, [here[place] for place in places]
+
+
+def of_weighing(
+    pair: Pair, weighing: Weighing, files: Sequence[FileResult]
+) -> Iterator[dict[str, Any]]:
+    """Yield wear of each disc between two weighings."""
+    for disc, loss in weighing.losses.items():
+        worn = _worn(pair, disc, loss, files)
+        yield worn | {"setting": weighing.setting, "files": list(weighing.files)}
 
 
 def _worn(pair: Pair, name: str, loss: float, files: Sequence[FileResult]) -> dict[str, Any]:
@@ -120,26 +156,6 @@ def archard(loss: float | None, disc: Disc, load: float, path: float) -> float |
 
 DISCS = "steel", "bronze"
 _WEIGHED, _AGAIN = 2, 26  # steps of the procedure
-_SIMULATED = "sim", "replay"
-
-
-@dataclasses.dataclass(frozen=True)
-class Weighing:
-    """What a pair of discs lost over its recordings.
-
-    Attributes
-    ----------
-    setting : str
-        As the journal names it.
-    losses : mapping of str to float
-        Of each disc, kg.
-    files : tuple of str
-        The recordings, in their order.
-    """
-
-    setting: str
-    losses: Mapping[str, float]
-    files: tuple[str, ...]
 
 
 def weighings_in(folders: Sequence[Path]) -> tuple[list[tuple[Path, Weighing]], list[str]]:
@@ -161,8 +177,7 @@ def weighings_in(folders: Sequence[Path]) -> tuple[list[tuple[Path, Weighing]], 
 
 
 def _between(lines: Sequence[Line]) -> Iterator[Weighing]:
-    if any(line.get("backend") in _SIMULATED for line in lines):
-        return  # nothing wears there
+    simulated = any(line.get("backend") == "sim" for line in lines)
     before: Line | None = None
     files: dict[str, None] = {}
     for line in lines:
@@ -174,18 +189,24 @@ def _between(lines: Sequence[Line]) -> Iterator[Weighing]:
         elif isinstance(line.get("recording"), str):
             files[line["recording"]] = None
         elif steps == [_AGAIN] and before is not None:
-            losses = dict(_losses(before, line))
-            if losses and files:
+            masses = dict(_masses(before, line))
+            # Simulated discs that wear not at all were not weighed, whatever the journal says.
+            if masses and files and not (simulated and _all_as_before(masses)):
                 setting = str(line.get("action", "")).partition("/")[0]
-                yield Weighing(setting, losses, tuple(files))
-            before = None
+                yield Weighing(setting, masses, tuple(files))
+            # In a wear test the discs go on with the weight they have now.
+            before, files = line, {}
 
 
-def _losses(before: Line, after: Line) -> Iterator[tuple[str, float]]:
+def _all_as_before(masses: Mapping[str, tuple[float, float]]) -> bool:
+    return all(first == last for first, last in masses.values())
+
+
+def _masses(before: Line, after: Line) -> Iterator[tuple[str, tuple[float, float]]]:
     for disc in DISCS:
         first, last = (_mass(one.get(f"{disc}_kg")) for one in (before, after))
         if first is not None and last is not None and math.isfinite(first - last):
-            yield disc, first - last
+            yield disc, (first, last)
 
 
 def _mass(value: Any) -> float | None:

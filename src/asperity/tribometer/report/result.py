@@ -32,6 +32,14 @@ _CHANGES = {
                            "accelerometer where there is one, else by the table of [sonotrode]."),
 }  # fmt: skip
 
+_OF_GEARS = {
+    "torque_change": "Of the worm's torque, at what the brake holds the wheel with. Bars: 95 %.",
+    "power_change": "Of the power that goes into the worm's shaft.",
+    "efficiency_change": "Of the worm's shaft over what its motor takes.",
+    "velocity_amplitude": "Along the worm's axis: by the accelerometer, else by the table of "
+                          "[sonotrode].",
+}  # fmt: skip
+
 
 class Report(Result):
     """A series of tests on one page.
@@ -54,9 +62,11 @@ class Report(Result):
         What that asks for.
     friction : Table or None
         Coefficients of friction, where a standard asks for them.
+    geared : bool
+        Whether a worm and its wheel stand in place of the discs.
     """
 
-    title = "Tests on a disc-on-disc rig"
+    title = "Tests on a rig"
     stem = "report"
     whole = True
 
@@ -72,6 +82,7 @@ class Report(Result):
     left_out: int = quantity("", "", "files and segments that were left out")
     planned: int = quantity("", "", "cells of the plan, repeats counted")
     simulated: bool = quantity("", "", "whether simulated recordings are among them")
+    geared: bool = False
 
     def to_json(self) -> dict[str, Any]:
         """Return what there is, the cells as they were reduced, and why something is not."""
@@ -136,6 +147,11 @@ class Report(Result):
     def pictures(self, folder: Path | None = None) -> tuple[Picture, ...]:
         """Return the pictures, simulated ones marked."""
         dataset = self.reduced.to_dataset()
+        if self.geared:
+            return tuple(
+                Picture(title, changes(dataset, name, label), _OF_GEARS.get(name, ""))
+                for name, (title, label, _) in _CHANGES.items()
+            )
         made = [
             Picture(title, changes(dataset, name, label), caption)
             for name, (title, label, caption) in _CHANGES.items()

@@ -10,8 +10,9 @@ from asperity.errors import AsperityError, InputError, plain
 from asperity.runs import Run
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.deposit import Package
+from asperity.tribometer.geared import GearPair
 from asperity.tribometer.options import Plan
-from asperity.tribometer.pair import BOUNDARY
+from asperity.tribometer.pair import BOUNDARY, Pair
 from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.parameters import Conditions, Lubricant
 from asperity.tribometer.recording import Recording
@@ -62,8 +63,9 @@ def read(
             own = recording.case(known)
             own = dataclasses.replace(own, raw=own.raw | beside).replace(settings)
             found.append(Reducible(recording, own))
-            if pair_of(found[-1].case).geared:
-                raise InputError("it is of a gear rig, and a report is of discs")
+            geared = pair_of(found[-1].case).geared
+            if geared != pair_of(found[0].case).geared:
+                raise InputError("it is of another kind of rig than the first; give each a folder")
             found[-1].case.require(Channels)
         except AsperityError as error:
             if path.stem not in _ANSWERS:
@@ -77,6 +79,11 @@ def read(
         )
         raise InputError(f"{plain(folder)} holds no recording that can be reduced{why}")
     first = found[0].case
+    if standard and pair_of(first).geared:
+        raise InputError(
+            f"--standard {standard} asks for friction and wear of discs; of a worm and its wheel "
+            "leave it out"
+        )
     values = {field.name: getattr(first, field.name) for field in dataclasses.fields(Case)}
     return Gathered(
         **(values | {"source": plain(folder)}), reducible=tuple(found), refused=tuple(refused),
@@ -108,7 +115,8 @@ def answer(problem: Gathered, run: Run) -> Report:
         ),
         friction=friction(problem, reduced.segments) if problem.standard else None,
         reduced=reduced, conditions=tuple(_conditions(problem, reduced.segments)),
-        refused=(*problem.refused, *left), recordings=len(problem.reducible),
+        geared=pair_of(problem).geared, refused=(*problem.refused, *left),
+        recordings=len(problem.reducible),
         measured=sum(one.quality != REFUSED for one in reduced.segments),
         left_out=len(problem.refused) + len(left), planned=_cells(problem),
         simulated=any(one.recording.simulated for one in problem.reducible), notes=reduced.notes,
@@ -129,12 +137,11 @@ def _cells(case: Case) -> int:
 def _conditions(problem: Gathered, segments: Sequence[SegmentResult]) -> Iterator[tuple[str, str]]:
     """Yield what the tests were made under, in words."""
     pair = pair_of(problem)
-    rig, steel, bronze = pair.rig, pair.steel, pair.bronze
-    yield "rig", rig.name
-    yield "steel disc", f"{steel.material}, {1e3 * steel.diameter:g} mm"
-    yield "bronze disc", f"{bronze.material}, {1e3 * bronze.diameter:g} mm"
-    yield "normal force", f"{rig.load:.1f} N"
-    yield "largest Hertz pressure", f"{1e-6 * pair.pressure:.1f} N/mm2"
+    yield "rig", pair.rig.name
+    if isinstance(pair, GearPair):
+        yield from _of_gears(pair)
+    else:
+        yield from _of_discs(pair)
     if Lubricant.table in problem:
         oil = problem.require(Lubricant)
         yield "lubricant", f"{oil.kind} {oil.name}".strip()
@@ -144,3 +151,21 @@ def _conditions(problem: Gathered, segments: Sequence[SegmentResult]) -> Iterato
         yield "film over roughness", f"{min(films):.2g} to {max(films):.2g}: {regime}"
     begun = min(one.recording.start for one in problem.reducible)
     yield "first recording", begun.strftime("%Y-%m-%d %H:%M UTC")
+
+
+def _of_discs(pair: Pair) -> Iterator[tuple[str, str]]:
+    steel, bronze = pair.steel, pair.bronze
+    yield "steel disc", f"{steel.material}, {1e3 * steel.diameter:g} mm"
+    yield "bronze disc", f"{bronze.material}, {1e3 * bronze.diameter:g} mm"
+    yield "normal force", f"{pair.rig.load:.1f} N"
+    yield "largest Hertz pressure", f"{1e-6 * pair.pressure:.1f} N/mm2"
+
+
+def _of_gears(pair: GearPair) -> Iterator[tuple[str, str]]:
+    gearset, own = pair.gearset, pair.geometry
+    yield "gearset", f"{gearset.name}, {own.starts} starts to {own.wheel_teeth} teeth".lstrip(", ")
+    yield "centre distance", f"{own.centre_distance:.4g} mm"
+    yield "worm", pair.steel.material
+    yield "wheel", pair.bronze.material
+    yield "torque of the brake", f"{pair.brake_torque:.4g} N m"
+    yield "normal force, without friction", f"{pair.load:.4g} N"

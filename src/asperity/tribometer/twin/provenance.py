@@ -35,6 +35,9 @@ TWIN: dict[str, tuple[Standing, object, str]] = {
     "drift": ("placeholder", 0.1, ""),
     "encoder_gate": ("placeholder", 1.0, ""),
     "encoder_lag": ("placeholder", 0.2, ""),
+    "wear_steel": ("placeholder", 0.0, "nothing wears"),
+    "wear_bronze": ("placeholder", 0.0, ""),
+    "weighing_noise": ("placeholder", 0.0, ""),
     "brake_resistance": ("placeholder", 20.0, "of gear rigs alone"),
 }
 """By key of ``[twin]``: what the value that ships rests on, that value, and more about it."""

@@ -4,6 +4,7 @@ What vibration changes tells nothing of what is added to a signal before and wit
 do, as well as is known what else is in them: the bearings' torques, and what a motor drags.
 """
 
+import math
 from collections.abc import Collection, Iterator
 
 import numpy as np
@@ -15,12 +16,9 @@ from asperity.tribometer.reduction.heard.material import Material
 from asperity.tribometer.reduction.heard.rest import least_of
 
 _SURE = 5.0  # standard errors
-_BEARING = 0.1  # of a disc's torque, that its bearings may hold beyond what the case tells
-_GAIN = 0.1  # of the torques' ratio, by which it may be off the radii's
-# How well [twin] is taken to know a motor's constant, its drag and its gear's efficiency.
-_MOTOR, _DRAG, _GEAR = 0.1, 0.25, 0.25
-_LEADS = 0.1  # V, that fall in leads and brushes
-_REGULATED = 0.02  # of its volts, that a supply may give otherwise from window to window
+# Of the torques' ratio, by which it may be off the radii's: where calibrations do not tell how
+# well they are known, and where they do.
+_GAIN, _RADII = 0.1, 0.02
 
 
 def levels_of(of: Material, signal: str) -> FloatArray:
@@ -49,12 +47,16 @@ def _sides(of: Material) -> Iterator[Finding]:
     if level < least_of(names[0]):
         return
     rig = of.pair.rig
+    # Either torque tells the force they share, one with its bearings in it, one without.
+    pushed = abs(float(np.median(bronze[:, 0]))) + rig.bearing_torque_bronze
+    shared = min(level, pushed / ratio / (1.0 - rig.bearing_tolerance))
     most = rig.bearing_torque_bronze + ratio * rig.bearing_torque_steel
-    most += 2.0 * ratio * _BEARING * level
+    most += 2.0 * ratio * rig.bearing_tolerance * shared
+    gain = _gain_of(of, names)
     over, under = [], []
     for n in (0, 2):
         left = bronze[:, n] + ratio * steel[:, n]
-        unsure = _GAIN * ratio * np.abs(steel[:, n])
+        unsure = gain * ratio * np.abs(steel[:, n])
         unsure += _SURE * np.hypot(bronze[:, n + 1], ratio * steel[:, n + 1])
         unsure += least_of(names[1])
         over.append(left - unsure - most)
@@ -66,9 +68,17 @@ def _sides(of: Material) -> Iterator[Finding]:
             f"torque_bronze and {ratio:.2f} of torque_steel come to {together:.3g} N m, bearings "
             f"hold 0 to {most:.3g} N m",
             "look at what comes into the torques with the motors, at both calibrations and at "
-            "bearing_torque_steel and bearing_torque_bronze of [rig]",
+            "bearing_torque_steel, bearing_torque_bronze and bearing_tolerance of [rig]",
             names, of.course(names[1]),
         )  # fmt: skip
+
+
+def _gain_of(of: Material, names: Collection[str]) -> float:
+    """Return by what share of itself the ratio of two torques may be off the radii's."""
+    lines = [of.blocks.lines[name] for name in names]
+    if not all(line.gain_deviation for line in lines):
+        return _GAIN
+    return _RADII + _SURE * math.hypot(*(line.gain_deviation / line.gain for line in lines))
 
 
 def _drawn(of: Material, twin: Twin) -> Iterator[Finding]:
@@ -81,12 +91,12 @@ def _drawn(of: Material, twin: Twin) -> Iterator[Finding]:
     told, ratio = twin.gear_efficiency, of.pair.drives.gear_ratio
     load = np.maximum(torque[:, [0, 2]], 0.0)
     slack = _SURE * torque[:, [1, 3]]
-    best, worst = min(1.0, told * (1.0 + _GEAR)), told * (1.0 - _GEAR)
-    drags = twin.motor_drag * (1.0 - _DRAG), twin.motor_drag * (1.0 + _DRAG)
-    low = drags[0] + np.maximum(load - slack, 0.0) / (ratio * best)
-    high = drags[1] + (load + slack) / (ratio * worst)
+    best, worst = min(1.0, told * (1.0 + twin.gear_tolerance)), told * (1.0 - twin.gear_tolerance)
+    least, most = (twin.motor_drag * (1.0 + sign * twin.drag_tolerance) for sign in (-1.0, 1.0))
+    low = least + np.maximum(load - slack, 0.0) / (ratio * best)
+    high = most + (load + slack) / (ratio * worst)
     low, high = (
-        one / ((1.0 + sign * _MOTOR) * twin.motor_constant)
+        one / ((1.0 + sign * twin.motor_tolerance) * twin.motor_constant)
         for one, sign in ((low, 1.0), (high, -1.0))
     )
     seen = current[:, [0, 2]]
@@ -122,9 +132,12 @@ def _runs(of: Material, twin: Twin) -> Iterator[Finding]:
         wanted = twin.motor_resistance * less / twin.motor_constant
         seconds = min(one.count for one in both) * of.blocks.length - of.given.speed_settling
         step = 2.0 * np.pi / (of.pair.drives.encoder_pulses * max(seconds, 1.0))
-        unsure = _SURE * float(np.hypot(w[1], w[3])) + 2.0 * step + _REGULATED * w[0]
-        unsure += 2.0 * _MOTOR * abs(wanted) + twin.motor_resistance * left / twin.motor_constant
-        unsure += _LEADS * abs(less) / max(abs(i[0]), abs(less)) / twin.motor_constant
+        unsure = _SURE * float(np.hypot(w[1], w[3])) + 2.0 * step + twin.supply_tolerance * w[0]
+        unsure += (
+            2.0 * twin.motor_tolerance * abs(wanted)
+            + twin.motor_resistance * left / twin.motor_constant
+        )
+        unsure += twin.lead_voltage * abs(less) / max(abs(i[0]), abs(less)) / twin.motor_constant
         if abs(w[2] - w[0] - wanted) > unsure:
             told.append((place, w[2] - w[0], wanted, w[0]))
     for place, seen, wanted, level in told[:1] if len(told) == len(of.windows) else told:

@@ -11,7 +11,7 @@ from asperity.tribometer.options import Reduction
 from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.blocks import Blocks
-from asperity.tribometer.reduction.heard import acceleration, drive, level, motors, moving
+from asperity.tribometer.reduction.heard import acceleration, drive, level, motors, moving, pulses
 from asperity.tribometer.reduction.heard.acceleration import Heard as Tones
 from asperity.tribometer.reduction.heard.finding import Finding
 from asperity.tribometer.reduction.heard.material import Material
@@ -80,6 +80,7 @@ def listen(
             tones[place] = heard
     found += moving.findings(of, rest)
     found += motors.findings(of)
+    found += pulses.findings(of)
     found += level.findings(of, {name for one in found for name in one.signals})
     found += drive.findings(of)
     found += acceleration.findings(of, tones)

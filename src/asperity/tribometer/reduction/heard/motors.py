@@ -18,10 +18,6 @@ _SLOPES = 0.9, 1.11  # of the torques' changes over that of the radii; exchanged
 _LEVELS = 0.5, 2.0  # of the torques themselves, in which bearings are
 _NO_ANSWER = 0.15  # of that slope, below which a torque does not answer the vibration
 _MORE = 3.0  # times as much does an exchanged signal answer the vibration as the right one
-# How well [twin] is taken to know a motor's constant and resistance, which warm with it, and its
-# gear's efficiency, as shares; and how well a supply is, and what falls in leads and brushes, V.
-_MOTOR, _GEAR = 0.1, 0.25
-_SUPPLY, _LEADS = 0.02, 0.1
 _BENT = 0.03  # by what share the part that a current answers by may differ from cell to cell
 _BEARS = 0.1, 0.02  # that of a torque, and of the torque itself by what its bearings may answer
 _MISFIT = 0.05  # of their supplies, by which speeds that are exchanged miss these at least
@@ -249,12 +245,16 @@ def _turning(of: Material, twin: Twin, disc: str) -> Iterator[Finding]:
         if volts <= 0.0 or not math.isfinite(turns.error) or abs(turns.value) < least_of(name):
             continue
         back, drop = twin.motor_constant * abs(turns.value), 0.0
-        known = _SUPPLY * volts + _LEADS + twin.motor_constant * (_SURE * turns.error + step)
+        known = (
+            twin.supply_tolerance * volts
+            + twin.lead_voltage
+            + twin.motor_constant * (_SURE * turns.error + step)
+        )
         if takes is not None and math.isfinite(takes.error):
             drop = twin.motor_resistance * max(takes.value, 0.0)
             known += twin.motor_resistance * _SURE * takes.error
         # What falls in a motor whose current is not known leaves open how slow it is.
-        known += _MOTOR * math.hypot(back, drop)
+        known += twin.motor_tolerance * math.hypot(back, drop)
         least = volts - known if drop else 0.0
         if not least <= back + drop <= volts + known:
             told.append((place, back, drop, abs(turns.value), volts))
@@ -287,7 +287,8 @@ def _carried(of: Material) -> Iterator[Finding]:
     told = twin.gear_efficiency
     part = 1.0 / (of.pair.drives.gear_ratio * told * twin.motor_constant)
     bounds = (
-        (1.0 - _MOTOR) * told / min(1.0, told * (1.0 + _GEAR)), (1.0 + _MOTOR) / (1.0 - _GEAR),
+        (1.0 - twin.motor_tolerance) * told / min(1.0, told * (1.0 + twin.gear_tolerance)),
+        (1.0 + twin.motor_tolerance) / (1.0 - twin.gear_tolerance),
     )  # fmt: skip
     if share := _misfit(of, found, (_BENT, 0.0), part, bounds, of_it=part):
         yield Finding(

@@ -1,7 +1,7 @@
 /** A number that opens what is behind it: symbol, equation, source, trust. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
 import { Beneath } from "./figure.js";
-import { inWords, symbol } from "./symbols.js";
+import { inWords, symbol, unitOf } from "./symbols.js";
 import { Table } from "./table.js";
 import { digits } from "./units.js";
 import { readable, shown } from "./us.js";
@@ -37,7 +37,7 @@ export function Num({ entry, label = false, count = 5 }) {
     <button type="button" data-key=${entry.key} data-value=${entry.value ?? ""} data-unit=${entry.unit}
       title="where it comes from" aria-haspopup="dialog"
       onClick=${(event) => (asked.value = { entry, button: event.currentTarget })}>
-      <b>${value}</b>${unit ? html` <i>${unit}</i>` : null}
+      <b>${value}</b>${unit ? html` <i>${unitOf(unit)}</i>` : null}
     </button>
   </span>`;
 }
@@ -62,7 +62,8 @@ export function Behind() {
   };
   const rows = entry
     ? [
-        ["symbol", symbol(entry.symbol)], ["exactly", `${[entry.value ?? "none"].flat().join(", ")} ${entry.unit}`],
+        ["symbol", symbol(entry.symbol)],
+        ["exactly", `${[entry.value ?? "none"].flat().join(", ")} ${unitOf(entry.unit)}`],
         ["equation", symbol(entry.equation)], ["equation from", entry.own],
         [entry.trust === "computed" ? "source" : "weakest source of what it follows from", entry.source],
         ["trust", TRUST[entry.trust] ?? entry.trust], ["in --json", entry.key],

@@ -1,9 +1,9 @@
 /** What is around every screen: where to go, the case, what to take along, what went wrong. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
-import { about, forgetCase, loadAbout, post, THERE, useCaseFile } from "./api.js";
+import { about, forgetCase, loadAbout, post, THERE, useAsked, useCaseFile } from "./api.js";
 import { Behind } from "./number.js";
 import { address, called, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
-import { inWords } from "./symbols.js";
+import { inWords, printed } from "./symbols.js";
 import { follow, Units } from "./us.js";
 import { visited } from "./visited.js";
 
@@ -168,6 +168,25 @@ function Save({ toml, unless }) {
     </dialog>`;
 }
 
+/** What is refused as it was given, and what it must be in the units that are shown. @param {string} line */
+const refusal = (line) => line.split(/(?=; it must )/).map((part, at) => (at ? printed(part) : part)).join("");
+
+/**
+ * What mends what is refused, of the screen's case; loaded once something is.
+ * @param {{error: any, now: boolean}} props
+ */
+function Mends({ error, now }) {
+  const { name, settings, setAll, unset } = useCase();
+  const own = useCaseFile(name)?.tables;
+  // What was set when there was an answer, of the same case.
+  const before = useRef({ name, settings: {} });
+  if (now && !error) before.current = { name, settings };
+  const { found } = useAsked(error ? "mend" : "", () => import("./mend.js"));
+  const last = before.current.name === name ? before.current.settings : {};
+  return error && found ? html`<${found.Mending} line=${error.message} own=${own} settings=${settings} before=${last}
+    setAll=${setAll} unset=${unset} />` : null;
+}
+
 /** What a reader of the numbers should know. @param {{notes: string[] | undefined}} props */
 export const Notes = ({ notes }) => notes?.length ? html`<details class="notes">
   <summary>${notes.length === 1 ? "1 note" : `${notes.length} notes`}</summary>
@@ -217,9 +236,10 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
       </div>
     </header>
     <div role="alert" class=${error ? "fault" : ""}>
-      ${error ? html`<p>✗ ${error.message}</p>` : null}
+      ${error ? html`<p>✗ ${refusal(error.message)}</p>` : null}
       ${error && answer?.answer ? html`<p class="says">What is shown below is of before, not of what is set now.</p>`
         : null}
+      ${kinds ? html`<${Mends} error=${error} now=${now} />` : null}
       ${reached.length ? html`<p class="says">
         reached: ${reached.map(([key, value]) => `${key} ${value}`).join(", ")}</p>` : null}
     </div>

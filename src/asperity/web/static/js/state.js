@@ -99,17 +99,20 @@ export const fault = signal("");
 /** Where this tab has been, in order, and where of it it is: what is undone and done again. */
 let trail = [location.hash];
 let at = 0;
-/** Whether the step before, or the next, is one of this screen. */
+/** Whether there is a step to go back, or on again. */
 export const undoable = signal({ undo: false, redo: false });
+/** Screens that were opened with something taken from another: such a step is one to go back from as well. */
+const carried = new Set();
 
 const screenOf = (hash) => hash?.replace(/^#\/?/, "").split("?")[0];
 
 function look() {
-  const same = (hash) => hash !== undefined && screenOf(hash) === screenOf(trail[at]);
-  undoable.value = { undo: same(trail[at - 1]), redo: same(trail[at + 1]) };
+  const step = (from, to) => trail[from] !== undefined && trail[to] !== undefined
+    && (screenOf(trail[from]) === screenOf(trail[to]) || carried.has(trail[to]));
+  undoable.value = { undo: step(at - 1, at), redo: step(at, at + 1) };
 }
 
-/** Go a step of this screen back, or on again. */
+/** Go a step of this screen back, or on again; what was taken from another screen is one. */
 export const undo = () => undoable.peek().undo && history.back();
 export const redo = () => undoable.peek().redo && history.forward();
 
@@ -162,10 +165,12 @@ addEventListener("pagehide", () => timer && ((held = false), write()));
  * Open a screen.
  * @param {string} screen @param {Record<string, string>} params
  * @param {boolean} here whether it takes the place of this one, which nobody goes back to
+ * @param {boolean} taking whether something is taken there, which is undone as any change is
  */
-export function go(screen, params = {}, here = false) {
+export function go(screen, params = {}, here = false, taking = false) {
   if (timer) write();
   route.value = { screen, params };
+  if (taking) carried.add(address(route.value));
   if (!here) return write();
   trail[at] = address(route.value);
   history.replaceState(null, "", trail[at]);

@@ -13,11 +13,16 @@ const SYMBOL = new RegExp(`(?<![A-Za-z0-9_.])(${NAMES}|[A-Za-z]{1,2})(?:_([A-Za-
 const IN_WORDS = new RegExp(
   `(?<![A-Za-z0-9_.])(?:(${NAMES}|[A-Za-z]|Ra)_([A-Za-z0-9]{1,6})(?![A-Za-z0-9_.]\\w|\\w)|(mu)(?= [A-Z]_))`, "g");
 
-/** Units as they are printed: 40 degC is 40 °C, mm^2/s is mm²/s. @param {string} text */
+/** Units as they are printed: 40 degC is 40 °C, mm^2/s is mm²/s. @param {string} [text] */
 const print = (text) => String(text ?? "").replace(/\bdeg([CF])\b/g, "°$1")
   .replace(/(?:\^|\*\*)2\b/g, "²")
   .replace(/(?:\^|\*\*)3\b/g, "³").replace(/(?<=\d |\()u(?=[mAVNs]\b)/g, "µ").replace(/(?<=\d) deg\b/g, "°")
+  .replace(/(?<=(?:\d |\(|\/)(?:[cmuµ]?m|in|ft))[23](?![\w.])/g, (power) => (power === "2" ? "²" : "³"))
   .replace(/\(deg\)/g, "(°)");
+
+/** A unit by itself as it is printed: um is µm, mm2/s is mm²/s. @param {string} [unit] */
+export const unitOf = (unit) => print(unit).replace(/^deg$/, "°").replace(/\bu(?=(?:m|s|rad|in|N|V)(?![a-z]))/g, "µ")
+  .replace(/(?<=[A-Za-z])([23])(?!\d)/g, (_, power) => (power === "2" ? "²" : "³"));
 
 /** The same in the units that the reader is shown. @param {string} text */
 export const printed = (text) => print(inText(text));

@@ -65,7 +65,7 @@ export function amount(value, unit, count = 4) {
 }
 
 /** What is less than so much, in SI, is told in the smaller unit. @type {Record<string, [number, string, number]>} */
-const SMALL = { m: [2.5e-5, "um", 1e6], "m/s": [0.02, "mm/s", 1e3] };
+const SMALL = { m: [2.5e-5, "um", 1e6] };
 
 /** Value and unit as a reader wants them. @returns {[string, string]} */
 export function readable(value, unit, count = 5) {
@@ -117,7 +117,8 @@ export function written(text, count = 5) {
   if (Number.isNaN(number)) return text;
   const found = to(unit.replace("°", "deg"));
   const said = found ? `${digits(number * found[1] + found[2], count)} ${found[0]}` : text;
-  return said.replace(/\bdeg([CF])\b/, "°$1").replaceAll("**2", "²").replaceAll("**3", "³");
+  return said.replace(/\bdeg([CF])\b/, "°$1").replace(/(?<=\d )um\b/, "µm").replaceAll("**2", "²")
+    .replaceAll("**3", "³");
 }
 
 /** What is typed into a box, with the unit that stood there if none is typed. @param {string} typed */

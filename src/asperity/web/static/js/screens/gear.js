@@ -69,7 +69,7 @@ function Travel({ error, setAll }) {
   const valve = useValue("operation.service").text === "valve";
   if (!/through_travel_torque/.test(error?.message ?? "")) return null;
   const [number, unit] = split(torque);
-  const wanted = text(valve ? number / 3 : number, unit);
+  const wanted = valve ? text(Number((number / 3).toPrecision(5)), unit) : torque;
   return Number.isNaN(number) ? null : html`<p><button type="button" class="main"
     onClick=${() => setAll({ "operation.through_travel_torque": wanted })}>
     ${valve ? "a third" : "all"} of it through the travel: ${written(wanted)}</button></p>`;
@@ -82,7 +82,7 @@ function Ratio() {
   const ratio = Number(teeth) / Number(starts);
   // What is set may not be known yet, though an answer that ships is shown.
   const ask = (other) => torque && go("size", { ...caseParams(route.peek().params), ratio: other,
-    output_torque: torque, worm_speed: speed });
+    output_torque: torque, worm_speed: speed }, false, true);
   return html`<div class="field"><label for="ratio">ratio</label>
     <${Box} id="ratio" text=${ratio > 0 && ratio < Infinity ? digits(ratio) : ""} onSet=${ask}
       describedby="ratio-says" />
@@ -136,6 +136,27 @@ const standings = (standing) => Object.entries(standing).flatMap(([name, { word,
   ...(word === "no answer" ? [`${STANDARDS[name]}: ${reasons[0] ?? ""}`] : []),
   ...(outside.length ? [`outside its range: ${STANDARDS[name]} (${outside.join(", ")})`] : []),
 ]);
+
+/** What a reader should know, as the command's last lines say it: film, assumed, from memory, remarks. */
+function notesOf({ assumed, verdict: { film, standing }, ...answer }, entries) {
+  const found = Object.keys(STANDARDS).map((name) => [name, answer[name]]).filter(([, one]) => one);
+  const [memory, count] = [found.filter(([, one]) => one.from_memory?.length),
+    new Set(found.flatMap(([, one]) => one.from_memory ?? [])).size];
+  const symbols = (name, keys) => keys.map((key) => entries[`${name}.${key}`]?.symbol || words(key)).join(", ");
+  const keys = Object.entries(assumed);
+  const said = new Set(Object.values(standing).flatMap(({ reasons }) => reasons));
+  return [
+    ...(film ? [`${film.regime} lubrication: film ${amount(film.thickness_um, "um", 2)}, lambda ${
+      digits(film.lambda, 2)} (wheel as rough as the worm)`] : []),
+    ...(keys.length ? [`${keys.length} assumed, give them to replace that: ${
+      keys.map(([path, how]) => `${words(path.split(".")[1])} (${how})`).join("; ")}`] : []),
+    ...(count ? [`${count} numbers rest on sources from memory, check before use: ${
+      memory.map(([name, one]) => `${STANDARDS[name]} ${symbols(name, one.from_memory)}`).join("; ")}`] : []),
+    ...found.flatMap(([name, one]) => one.notes.filter((each) => !/ fails: /.test(each) && !said.has(each))
+      .map((each) => `${STANDARDS[name]}: ${each}`)),
+    ...answer.notes ?? [],
+  ];
+}
 
 /** The verdict in a sentence; where it fails, how much larger it must be, about, and a button that makes it so. */
 function Headline({ verdict }) {
@@ -233,7 +254,8 @@ export function view() {
     ...each, name: `${STANDARDS[each.standard]}: ${each.name}`, entry: entries[`${each.standard}.${each.key}`],
   }));
   return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${data} error=${error} busy=${busy} late=${late} now=${now}
+      answer=${answer && { ...data, notes: notesOf(answer, entries) }} error=${error}
+      busy=${busy} late=${late} now=${now}
       actions=${html`<${ReportOf} command="rate" body=${body} />`}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
     <${Travel} error=${error} setAll=${setAll} />

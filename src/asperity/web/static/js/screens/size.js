@@ -56,7 +56,7 @@ const limit = (path) => {
 /** Open the gearset with these settings besides. @param {Record<string, string>} settings */
 function apply(settings) {
   const set = Object.entries(settings).map(([path, text]) => [`set.${path}`, text]);
-  go("gear", { ...caseParams(route.peek().params), ...Object.fromEntries(set) });
+  go("gear", { ...caseParams(route.peek().params), ...Object.fromEntries(set) }, false, true);
 }
 
 /** What a case and its settings say beside what is proposed, and its torque through the travel. */
@@ -102,7 +102,7 @@ function Proposals({ found, options, through, parts }) {
     // Not the name of what it was before.
     "gearset.name": `${one.wheel_teeth}:${one.starts}, a ${digits(one.centre_distance_mm, 5)} mm`,
     // That of the case goes with another torque.
-    ...(through && { [THROUGH]: `${digits(torque / parts)} ${unit}` }),
+    ...(through && { [THROUGH]: parts === 1 ? options.output_torque : `${digits(torque / parts)} ${unit}` }),
   });
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
     a = ${amount(one.centre_distance_mm, "mm", 12)}, ${one.wheel_teeth}:${one.starts}, m = ${
