@@ -219,12 +219,15 @@ def page(
     no_browser: Annotated[
         bool, typer.Option("--no-browser", help="Print the address and open nothing.")
     ] = False,
+    units: UnitsOption = "",
 ) -> None:
     """Open the page: see it, turn it, shake it. It is on this machine alone, until Ctrl-C."""
     from asperity.cli.show import print_text
+    from asperity.commands.shown import check_shown
     from asperity.web.serve import serve
 
-    serve(case, port, folder, print_text, browser=not no_browser)
+    check_shown(units, "")
+    serve(case, port, folder, print_text, browser=not no_browser, units=units)
 
 
 @app.command()

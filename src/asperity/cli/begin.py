@@ -15,6 +15,9 @@ from asperity.cli.registry_commands import (
 )
 
 _TORQUE = typer.Option("--output-torque", metavar="TORQUE", help="Of the wheel, as '300 N m'.")
+_POWER = typer.Option(
+    "--input-power", metavar="POWER", help="Of the worm, in place of the torque, as '1.5 kW'."
+)
 _SPEED = typer.Option("--worm-speed", metavar="SPEED", help="As '1500 rpm'.")
 
 
@@ -59,6 +62,7 @@ def size(
         typer.Argument(metavar="CASE", help="What is asked, as asperity new duty begins it."),
     ] = "",
     output_torque: Annotated[str | None, _TORQUE] = None,
+    input_power: Annotated[str | None, _POWER] = None,
     worm_speed: Annotated[str | None, _SPEED] = None,
     ratio: Annotated[
         str,
@@ -88,7 +92,7 @@ def size(
     """
     from asperity.cli.size import size as run
 
-    asked = {"output_torque": output_torque, "worm_speed": worm_speed}
+    asked = {"output_torque": output_torque, "input_power": input_power, "worm_speed": worm_speed}
     shown = units, language
     run(
         case, ratio, asked, settings or (), rank, locks, shown,

@@ -10,6 +10,7 @@ from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, plain
 from asperity.files.store import write_text
+from asperity.rating.load_steps import LOADS
 from asperity.rating.parameters import Operation
 from asperity.runs.asking import typed_line
 from asperity.start import bearing, plastic
@@ -160,7 +161,8 @@ OTHER_FORMS = ("worm_pitch_diameter", "profile_shift")
 """Of what a proposal says."""
 
 _FORMS = {
-    "output_torque": ("output_torque", "input_power", "input_torque"),
+    "output_torque": LOADS,
+    "input_power": LOADS,
     "worm_speed": ("worm_speed",),
 }
 """What of the operation has an option, and what would take its place."""
@@ -169,6 +171,9 @@ _FORMS = {
 def given_to(values: Values, asked: Mapping[str, str | None], settings: Sequence[str]) -> Set[str]:
     """Apply what is asked of the operation, and settings; returns their keys."""
     keys = set()
+    loads = [f"--{key.replace('_', '-')} {asked[key]}" for key in LOADS if asked.get(key)]
+    if len(loads) > 1:
+        raise InputError(f"{loads[1]}: {loads[0]} says what it comes to; keep one of them")
     for setting in settings:
         table, _, name = setting.partition("=")[0].strip().partition(".")
         for key, forms in _FORMS.items():

@@ -365,6 +365,10 @@ class Space:
         shares: FloatArray = (designs[:, self._free] - self.lower[self._free]) / span
         return np.clip(shares, 0.0, 1.0)
 
+    def thickest(self, point: FloatArray) -> FloatArray:
+        """Return a point with the greatest diameter factor in place of its own."""
+        return np.where(self._free == VARIABLES.index("diameter_factor"), 1.0, point)
+
     def gearset_at(self, point: FloatArray) -> Gearset:
         """Return the design at a point as a gearset."""
         old = self.gearset

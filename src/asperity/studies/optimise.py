@@ -40,7 +40,7 @@ from asperity.studies.requirements import Requirements, special_hob
 from asperity.studies.rounding import rounded
 from asperity.studies.search import bounds_of, known_safeties, least_safeties
 from asperity.studies.tradeoff import TradeOff, trade_off
-from asperity.studies.with_shafts import with_shafts
+from asperity.studies.with_shafts import Borne, with_shafts
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -223,6 +223,7 @@ def optimise(
     least: Mapping[str, float] | None = None,
     begin: FloatArray | None = None,
     requirements: Requirements | None = None,
+    borne: Borne | None = None,
 ) -> Optimum:
     """Find the design of the highest efficiency by ISO/TR 14521 that keeps its load capacity.
 
@@ -245,6 +246,9 @@ def optimise(
     requirements : Requirements, optional
         What the design keeps beside its load capacity, even where the gearset does not as it is.
         Its safety is part of ``least``, see `asperity.studies.search.least_safeties`.
+    borne : Borne, optional
+        What shafts and bearings must bear. Each design then takes a hundred times as long, so that
+        the climbs are from the gearset as it is, ``begin``, and the thickest worm alone.
 
     Returns
     -------
@@ -272,11 +276,19 @@ def optimise(
     first = [space.start, *spread(space.dimensions, starts)]
     first += space.best_of_sample("eta_z1_2", **capacity)
     first += [] if begin is None else list(space.points(begin))
-    top = climb(lambda points: space.merit(space.worth(points), capacity), first)
+    if borne is not None:
+        first = [space.start, *space.points(begin)] if begin is not None else first
+        first = [*first, space.thickest(first[-1])]
+
+    def merit(points: FloatArray) -> FloatArray:
+        rows = space.merit(space.worth(points), capacity)
+        return rows if borne is None else np.hstack([rows, borne.room(space.gearset_at, points)])
+
+    top = climb(merit, first)
     if top is None:
         raise space.nothing_keeps()
     design = space.gearset_at(top.point)
-    near = None if least is None else rounded(space, top.point, capacity)
+    near = None if least is None else rounded(space, top.point, capacity, borne)
     before, after = (rate(g, operation, options, folder=folder) for g in (gearset, design))
     made = None
     if near is not None:
@@ -351,13 +363,19 @@ def answer(problem: Problem, _: Run) -> Optimum:
         axis=-1,
     )
 
-    def search(bounds: Bounds | None) -> Optimum:
-        within = *tables[:3], bounds
-        return optimise(*within, folder=gears.folder, least=least, begin=begin, requirements=kept)
+    def search(begin: FloatArray, borne: Borne | None = None) -> Optimum:
+        return optimise(
+            *tables, folder=gears.folder, least=least, begin=begin, requirements=kept, borne=borne
+        )
 
-    best = search(problem.bounds)
+    best = search(begin)
     if problem.rows is not None:
-        best = with_shafts(best, problem.rows, problem.bounds, search, kept.safety)
+        top = best.gearset
+        near = [top.pressure_angle, top.geometry.diameter_factor,
+                1e-3 * top.geometry.axial_module, top.worm_roughness]  # fmt: skip
+        best = with_shafts(
+            best, problem.rows, lambda borne: search(np.array([near]), borne), kept.safety
+        )
     return dataclasses.replace(best, curve=curve)
 
 

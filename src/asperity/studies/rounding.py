@@ -14,6 +14,7 @@ from asperity.gearset.sizing import MODULES as ISO_54
 from asperity.studies.design import VARIABLES, Space
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.series import MODULES as DIN_780
+from asperity.studies.with_shafts import Borne
 
 STEPS = {
     "pressure_angle": 0.1,
@@ -34,7 +35,9 @@ _KEPT = 1e-12
 _SAME = 1e-9
 
 
-def rounded(space: Space, point: FloatArray, least: Mapping[str, float]) -> FloatArray | None:
+def rounded(
+    space: Space, point: FloatArray, least: Mapping[str, float], borne: Borne | None = None
+) -> FloatArray | None:
     """Return the point of the best design near another in numbers that can be made.
 
     Parameters
@@ -45,6 +48,8 @@ def rounded(space: Space, point: FloatArray, least: Mapping[str, float]) -> Floa
         The best of them.
     least : mapping of str to float
         Least torques by key, as in :meth:`Space.merit`.
+    borne : Borne, optional
+        What shafts and bearings must bear.
 
     Returns
     -------
@@ -74,10 +79,11 @@ def rounded(space: Space, point: FloatArray, least: Mapping[str, float]) -> Floa
         points = space.points(designs[inside])
         rows = space.merit(space.worth(points), least)
         kept = np.all(np.isfinite(rows), axis=1) & np.all(rows[:, 1:] >= -_KEPT, axis=1)
-        if kept.any():
-            height = np.where(kept, rows[:, 0], -np.inf)
-            place = int(np.argmax(height))
-            found.append((float(height[place]), module in series, points[place]))
+        order = np.flatnonzero(kept)[np.argsort(-rows[kept, 0], kind="stable")]
+        first = 0 if borne is None else borne.first_of(space.gearset_at, point, points[order])
+        if order.size and first is not None:
+            place = int(order[first])
+            found.append((float(rows[place, 0]), module in series, points[place]))
     if not found:
         return None
     worth = [height + SERIES_IS_WORTH * in_series for height, in_series, _ in found]

@@ -1,40 +1,111 @@
-"""An optimum whose shafts and bearings hold as they did: a thicker worm where the best is too thin.
+"""An optimum whose shafts and bearings hold: what they come to as constraints of the search.
 
-What shafts bear takes too long to find for a search that asks about thousands of designs. A worm
-gets more efficient as it gets thinner, and that is what its shaft bears least: where the best
-design fails it, the least diameter factor is halved down to what holds, each time with a search of
-its own for all that is free besides.
+What shafts bear takes too long to find for a search that asks about thousands of designs. So the
+best design is sought without them, and where it fails them it is sought again from a few starts,
+with each of their rows as a constraint beside all others.
 """
 
 import dataclasses
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
+import numpy as np
+
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.rate import Rated
 from asperity.rating.verdict_rows import Row
-from asperity.studies.design import ASSUMED, Bounds
+from asperity.studies.constraints import Limit
 
 Optimum = Any
 """A `asperity.studies.optimise.Optimum`, whose module imports this one."""
 
 RowsOf = Callable[[Gearset], tuple[Row, ...]]
 
-_HALVED = 5
-"""Times: the diameter factor that holds is met to a thirty-second of its way."""
+_LEAST = -10.0
+_ABOVE = 1e-9
+_ACTIVE = 1e-6
+_ROOM = 1e-7
+_NEAR = 0.02
+_STEP = 1e-4
+_TRIED = 40
+
+
+class Borne(NamedTuple):
+    """What shafts and bearings must have of what is asked of them.
+
+    Attributes
+    ----------
+    rows_of : callable
+        What they come to with a gearset.
+    least : tuple of float
+        Least margin of each row.
+    """
+
+    rows_of: RowsOf
+    least: tuple[float, ...]
+
+    def room(self, gearset_at: Callable[[FloatArray], Gearset], points: FloatArray) -> FloatArray:
+        """Return how much each row has beyond its least, as a share; NaN without an answer.
+
+        Parameters
+        ----------
+        gearset_at : callable
+            The gearset at a point.
+        points : ndarray, shape (designs, variables)
+
+        Returns
+        -------
+        ndarray, shape (designs, rows)
+            ``1 - least / margin``: not below zero where it holds.
+        """
+        found = np.full((len(points), len(self.least)), np.nan)
+        for place, point in enumerate(points):
+            try:
+                rows = self.rows_of(gearset_at(point))
+            except InputError:
+                continue
+            if len(rows) == len(self.least):
+                margins = np.array([row.margin for row in rows])
+                with np.errstate(divide="ignore"):
+                    room = 1.0 - (1.0 + _ABOVE) * np.array(self.least) / margins
+                found[place] = np.maximum(room, _LEAST)
+        return found
+
+    def first_of(
+        self,
+        gearset_at: Callable[[FloatArray], Gearset],
+        point: FloatArray,
+        others: FloatArray,
+    ) -> int | None:
+        """Return the place of the first of other points near one that holds; None: none does.
+
+        Those that fail by the slopes at the point are passed over.
+        """
+        if not len(others):
+            return None
+        steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)
+        around = self.room(gearset_at, np.vstack([point, point + np.diag(steps)]))
+        slopes = (around[1:] - around[0]) / steps[:, None]
+        guessed = around[0] + (np.asarray(others) - point) @ slopes
+        likely = np.flatnonzero(np.all(guessed >= -_NEAR, axis=1))[:_TRIED]
+        for place in likely:
+            if np.all(self.room(gearset_at, others[place][None]) >= 0.0):
+                return int(place)
+        return None
 
 
 def with_shafts(
     best: Optimum,
     rows_of: RowsOf,
-    bounds: Bounds | None,
-    again: Callable[[Bounds], Optimum],
+    again: Callable[[Borne], Optimum],
     safety: float = 1.0,
 ) -> Optimum:
     """Return an optimum with what its shafts come to, and one whose shafts hold where it can be.
 
-    What is required of them is kept or refused: a worm may get thicker than that of the gearset.
+    A row that holds goes on to hold; where one does not as it is, a design is sought in which all
+    hold, and where there is none one in which it falls no further.
 
     Parameters
     ----------
@@ -42,10 +113,9 @@ def with_shafts(
         As it was found without them.
     rows_of : callable
         What shafts and bearings come to with a gearset.
-    bounds : Bounds or None
-        That were searched; None: those that are assumed.
     again : callable
-        Searches within other bounds.
+        Searches with shafts and bearings among the constraints; raises InputError where no design
+        keeps them.
     safety : float
         Times what each row of shafts and bearings asks. Above 1 every row must have that, also
         where it has not as it is.
@@ -56,37 +126,44 @@ def with_shafts(
         Nothing within the bounds has the safety that is required.
     """
     found = _judged(best, rows_of)
-    thin, thick = (one.geometry.diameter_factor for one in (best.after, best.before))
-    free = bounds is None or bounds.diameter_factor[0] < bounds.diameter_factor[1]
-    span, kept = bounds or Bounds(), None
-    held = all(row.margin >= safety for row in found.before.rows)
-    if safety > 1.0 and not held:
-        thick, held = max(thick, span.diameter_factor[1]), True
     if _holds(found, safety):
         return _told(found)
-    if not held or not free or thin >= thick:
-        return _told_of(found, safety)
-    for _ in range(_HALVED):
-        middle = 0.5 * (thin + thick)
-        within = middle, max(middle, span.diameter_factor[1])
+    margins = [row.margin for row in found.before.rows]
+    asked = [(safety,) * len(margins)]
+    if safety <= 1.0 and min(margins) < 1.0:
+        asked.append(tuple(min(margin * (1.0 - _ROOM), 1.0) for margin in margins))
+    for least in asked:
         try:
-            other = _judged(again(dataclasses.replace(span, diameter_factor=within)), rows_of)
+            kept = _judged(again(Borne(rows_of, least)), rows_of)
         except InputError:
-            # Nothing so thick keeps all that is asked.
-            break
-        if _holds(other, safety):
-            kept, thick = other, middle
-        else:
-            thin = middle
-    if kept is None:
-        return _told_of(found, safety)
-    note = (
-        f"q_1 is held at {thick:.4g} and above, where shafts and bearings hold; without that the "
-        f"efficiency of the teeth were {100.0 * found.after.iso14521['eta_z1_2']:.1f} %"
+            # No design has so much.
+            continue
+        return _told(_kept(kept, found, safety))
+    if safety <= 1.0:
+        return _told(found)
+    designs = [found.after, *([found.made] if found.made else [])]
+    row = min((row for one in designs for row in one.rows), key=lambda row: row.margin)
+    raise InputError(
+        f"no design within the bounds gives shafts and bearings {safety:g} times what is "
+        f"asked, requirements.safety; {row.name} by {row.standard} of the best design: {row.stands}"
     )
-    # The other bounds are still those that were assumed.
-    before = [] if bounds is not None else [f"the bounds are assumed: {ASSUMED.note}"]
-    return dataclasses.replace(kept, notes=(*before, *kept.notes, note))
+
+
+def _kept(kept: Optimum, found: Optimum, safety: float) -> Optimum:
+    """Return an optimum under its shafts, with them among its limits and what they cost."""
+    limits = [
+        Limit(
+            f"{row.name} ({row.standard})", row.name, ">=", safety * row.asked, row.value,
+            abs(row.margin / min(safety, before.margin) - 1.0) < _ACTIVE
+            or abs(row.margin / safety - 1.0) < _ACTIVE,
+        )
+        for row, before in zip(kept.after.rows, kept.before.rows, strict=True)
+    ]  # fmt: skip
+    note = (
+        "shafts and bearings are kept; without them the efficiency of the teeth were "
+        f"{100.0 * found.after.iso14521['eta_z1_2']:.1f} %"
+    )
+    return dataclasses.replace(kept, limits=(*kept.limits, *limits), notes=(*kept.notes, note))
 
 
 def _judged(best: Optimum, rows_of: RowsOf) -> Optimum:
@@ -104,22 +181,11 @@ def _holds(best: Optimum, safety: float) -> bool:
     return all(row.margin >= safety for rated in designs for row in rated.rows)
 
 
-def _told_of(best: Optimum, safety: float) -> Optimum:
-    """Return an optimum that does not hold, with notes; refuse it where a safety is required."""
-    if safety <= 1.0:
-        return _told(best)
-    designs = [best.after, *([best.made] if best.made else [])]
-    row = min((row for one in designs for row in one.rows), key=lambda row: row.margin)
-    raise InputError(
-        f"no thicker worm within the bounds gives shafts and bearings {safety:g} times what is "
-        f"asked, requirements.safety; {row.name} by {row.standard} of the best design: {row.stands}"
-    )
-
-
 def _told(best: Optimum) -> Optimum:
     """Return an optimum with a note for each part that does not hold."""
     notes = [
-        f"{row.name} by {row.standard} does not hold: {row.stands}, which the search does not keep"
+        f"{row.name} by {row.standard} does not hold: {row.stands}; no design within the bounds "
+        "was found in which shafts and bearings hold"
         for row in (best.made or best.after).rows
         if not row.holds
     ]

@@ -26,7 +26,13 @@ PORT = 8321
 
 
 def serve(
-    case: str, port: int, folder: Path | None, tell: Callable[[str], None], *, browser: bool
+    case: str,
+    port: int,
+    folder: Path | None,
+    tell: Callable[[str], None],
+    *,
+    browser: bool,
+    units: str = "",
 ) -> None:
     """Serve the page until Ctrl-C.
 
@@ -42,6 +48,8 @@ def serve(
         Takes the address.
     browser : bool
         Whether to open it.
+    units : str
+        That it opens in, ``si`` or ``us``; empty: as its reader chose, or as the case has them.
     """
     import uvicorn
 
@@ -55,6 +63,8 @@ def serve(
     token = token_of(place)
     door = place.resolve() / _DOOR
     asked = {"case": name, "token": token} if name else {"token": token}
+    if units:
+        asked["units"] = units
     address = f"http://{HOST}:{number}/#/{screen}?{urlencode(asked)}"
 
     async def life() -> None:

@@ -36,8 +36,12 @@ function read() {
   const token = params.get("token");
   if (token) take((fresh = token));
   params.delete("token");
+  const units = params.get("units");
+  // As the page was asked to open; what the reader chooses takes its place.
+  if (units) sessionStorage.setItem("asperity-units", units);
+  params.delete("units");
   const found = { screen: path || "home", params: Object.fromEntries(params) };
-  if (token) history.replaceState(null, "", address(found));
+  if (token || units) history.replaceState(null, "", address(found));
   return found;
 }
 

@@ -1,5 +1,7 @@
 /** What the reader is shown: SI, or units of the US as `--units us` has them; what is kept stays as it is written. */
 import { html, signal } from "../vendor/preact.js";
+// First, so that what the address says of units has been read.
+import "./state.js";
 import { digits, readable as inSI, split } from "./units.js";
 
 const KEY = "asperity-units";
@@ -15,7 +17,7 @@ export const US = {
 };
 
 /** What the reader chose, kept by the browser; "" follows the case. */
-const chosen = signal(localStorage.getItem(KEY) ?? "");
+const chosen = signal(sessionStorage.getItem(KEY) ?? localStorage.getItem(KEY) ?? "");
 /** The system that is shown. */
 const system = signal("si");
 let ofCase = "";
@@ -32,6 +34,7 @@ export function follow(said) {
 export function Units() {
   const choose = (event) => {
     chosen.value = event.target.value;
+    sessionStorage.removeItem(KEY);
     localStorage.setItem(KEY, chosen.value);
     look();
   };
