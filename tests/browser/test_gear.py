@@ -95,7 +95,7 @@ def test_the_keyboard_alone_rates_a_gearset_and_tries_a_bar(gear):
     tab_to(gear, "try worm roughness")
     gear.keyboard.press("Enter")
     settled(gear)
-    expect(gear.locator("#field-gearset-worm_roughness")).to_have_value("1.76 um")
+    expect(gear.locator("#field-gearset-worm_roughness")).to_have_value("1.76 µm")
 
 
 def test_what_cannot_be_a_gearset_is_told_in_a_line(gear):
