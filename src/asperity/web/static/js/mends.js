@@ -44,14 +44,15 @@ export const namesIn = (must) => (/one of|allowed:|did you mean|\btakes '/.test(
  * What may stand there instead of what was typed.
  * @param {string} must what the line says behind the value
  * @param {string} typed
- * @param {{example?: string, unit?: string, minimum?: number | null} | undefined} field
+ * @param {{example?: string, default?: string, unit?: string, minimum?: number | null} | undefined} field
  * @returns {string[]} texts that the case takes; none where the line does not tell
  */
 export function offered(must, typed, field) {
   const names = namesIn(must);
   if (names.length) return nearest(names, typed);
-  // What is no number, or may stand at no bound, becomes what the field gives as an example.
-  const example = field?.example && field.example !== typed ? [field.example] : [];
+  // What is no number, or may stand at no bound, becomes what the field has as an example, or the least of a count.
+  const least = /whole number|integer/.test(must) ? String(field?.minimum ?? "") : "";
+  const example = [field?.example || field?.default || least].filter((each) => each && each !== typed);
   const point = typed.replace(/^(\s*[+-]?\d+),(?=\d)/, "$1.");
   const [number, unit] = split(point);
   if (Number.isNaN(number)) return example;
