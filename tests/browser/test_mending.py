@@ -19,7 +19,6 @@ GEAR = [
     ("gearset.wheel_teeth", "59.5", ["59", "60"]),
     ("gearset.starts", "0", ["1"]),
     ("gearset.starts", "abc", None),
-    ("gearset.profile_shift", "3", ["1"]),
     ("gearset.worm_material", "steel", None),
     ("gearset.pressure_angle", "95 deg", None),
     ("gearset.axial_module", "0 mm", None),
