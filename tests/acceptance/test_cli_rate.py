@@ -428,18 +428,27 @@ def test_an_oil_of_ones_own_is_in_a_file_named_on_the_command_line(asperity, tmp
     assert (code, errors.count("\n")) == (2, 1)
 
 
-def test_the_material_and_the_oil_of_the_docs_rate_a_gearset(asperity, tmp_path):
-    page = (Path(__file__).parents[2] / "docs" / "rating.rst").read_text("utf-8")
-    own = page.partition("Materials and oils of your own\n")[2].partition("\nEditions\n")[0]
-    block = re.search(r"code-block:: toml\n\n((?:   .*\n|\n)+)", own)[1]
-    (tmp_path / "ours.toml").write_text(textwrap.dedent(block))
-    settings = [part for text in re.findall(r'--set "([^"]+)"', own) for part in ("--set", text)]
-    ours = ["--materials", tmp_path / "ours.toml"]
+def _of_the_docs(asperity, folder, text):
+    """Rate a gearset with the tables and the settings that stand in a part of the docs."""
+    block = re.search(r"code-block:: toml\n\n((?:   .*\n|\n)+)", text)[1]
+    (folder / "ours.toml").write_text(textwrap.dedent(block))
+    settings = [part for one in re.findall(r'--set "([^"]+)"', text) for part in ("--set", one)]
+    ours = ["--materials", folder / "ours.toml"]
     code, output, errors = asperity(*ours, "rate", "gearset-3", *settings, "--json")
     assert (code, errors) == (0, "")
-    answer = one_object(output)
+    return one_object(output)
+
+
+def test_the_materials_and_the_oil_of_the_docs_rate_a_gearset(asperity, tmp_path):
+    page = (Path(__file__).parents[2] / "docs" / "rating.rst").read_text("utf-8")
+    own = page.partition("Materials and oils of your own\n")[2].partition("\nEditions\n")[0]
+    bronze, _, iron = own.partition("\nAustempered iron")
+    answer = _of_the_docs(asperity, tmp_path, bronze)
     assert all(answer[standard] for standard in ("iso14521", "bs721", "agma6034"))
     assert answer["iso14521"]["E_2_MPa"] == pytest.approx(95000.0)
+    answer = _of_the_docs(asperity, tmp_path, iron)
+    assert (answer["iso14521"] is None, answer["bs721"]) == (False, None)
+    assert answer["iso14521"]["E_2_MPa"] == pytest.approx(165000.0)
 
 
 @pytest.mark.parametrize(("name", "why"), [("nowhere.toml", "no such file"), ("a:b", "':'")])

@@ -85,6 +85,7 @@ def test_a_bar_that_is_tried_gives_the_efficiency_it_promised(gear, server):
 
 
 def test_the_keyboard_alone_rates_a_gearset_and_tries_a_bar(gear):
+    settled(gear)
     before = shown(gear, "iso14521.safety_deflection")
     tab_to(gear, "output torque")
     gear.keyboard.press("Control+A")
@@ -95,7 +96,7 @@ def test_the_keyboard_alone_rates_a_gearset_and_tries_a_bar(gear):
     tab_to(gear, "try worm roughness")
     gear.keyboard.press("Enter")
     settled(gear)
-    expect(gear.locator("#field-gearset-worm_roughness")).to_have_value("1.76 um")
+    expect(gear.locator("#field-gearset-worm_roughness")).to_have_value("1.76 µm")
 
 
 def test_what_cannot_be_a_gearset_is_told_in_a_line(gear):
@@ -429,3 +430,10 @@ def test_what_was_taken_is_called_by_its_own_name_on_the_screen_and_in_its_file(
     called = re.sub(r"[^\w.-]+", "-", name)
     assert download.value.suggested_filename == f"{called}.html"
     assert f"<h1>Gearset: {name}</h1>" in Path(download.value.path()).read_text("utf-8")
+    # What was taken is undone as any change is, and taken again.
+    page.get_by_role("button", name="undo").click()
+    expect(page.get_by_role("heading", name="Size and trade-off")).to_be_visible()
+    page.get_by_role("button", name="redo").click()
+    expect(page.get_by_role("heading", name="Gearset", exact=True)).to_be_visible()
+    settled(page)
+    expect(page.locator("#field-gearset-name")).to_have_value(name)

@@ -90,7 +90,7 @@ def test_the_keyboard_alone_drags_pins_reads_the_table_and_opens_an_origin(slide
     expect(slide.get_by_role("button", name="unpin")).to_be_visible()
     tab_to(slide, "Force left over direction as table")
     slide.keyboard.press("Enter")
-    expect(slide.get_by_role("columnheader", name="direction (deg)")).to_be_visible()
+    expect(slide.get_by_role("columnheader", name="direction (°)")).to_be_visible()
 
 
 def test_what_cannot_be_is_told_in_a_line_that_marks_its_field(slide):

@@ -13,11 +13,12 @@ INCH, POUND_FORCE = 0.0254, 4.4482216152605
 PREFIXES = {"": 1.0, "G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
 SUPERSCRIPT = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 # What a US unit is of the unit that the entry has; of the page's own besides, which are smaller.
-SMALLER = {("m", "µin"): 1e6 / INCH, ("m/s", "in/s"): 1.0 / INCH}
+SMALLER = {("m", "µin"): 1e6 / INCH}
 EVERY = """() => [...document.querySelectorAll("main .num button")].map((button) => ({
   key: button.dataset.key, value: button.dataset.value, of: button.dataset.unit,
   text: button.querySelector("b").textContent,
-  unit: button.querySelector("i")?.textContent.trim() ?? "",
+  unit: (button.querySelector("i")?.textContent.trim() ?? "").replace(/^°$/, "deg").replace(/^°/, "deg")
+    .replaceAll("²", "2").replaceAll("³", "3").replace(/^µm$/, button.dataset.unit === "um" ? "um" : "µm"),
 }))"""
 
 

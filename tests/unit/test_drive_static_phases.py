@@ -22,7 +22,7 @@ def test_of_few_phases_the_slope_is_taken_at_each_and_of_many_at_every_third(
 
     body = SimpleNamespace(body=SimpleNamespace(nodes=1))
     model = SimpleNamespace(
-        sector=body, contact=None, phases=range(phases), courses=courses,
+        sector=body, contact=None, friction=0.1, phases=range(phases), courses=courses,
         resolved=SimpleNamespace(flank=SimpleNamespace(nodes=1, sector=body)),
     )  # fmt: skip
     monkeypatch.setattr(solve, "StaticModel", lambda *_: model)

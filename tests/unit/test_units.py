@@ -160,12 +160,16 @@ def test_the_own_reader_agrees_with_pint_to_the_last_bit_on_every_unit_and_prefi
         ("lbf/in", "N/m"),
         ("degC", "K"),
         ("N\u00b7m", "J"),
+        ("mm**3/(N m)", "m**2/N"),
+        ("W/ (m ** 2 * K)", "kg/s**3/K"),
+        ("kg*m/(s**2 mm**2)", "Pa"),
     ],
 )
 def test_the_own_reader_agrees_with_pint_on_products_and_powers(unit, si):
     for number in ("0.1", "-3.3e-7", "219.12345678901234567", "1e300"):
         whole = registry().Quantity(Decimal(number), unit).to(si)
         assert to_si(f"{number} {unit}", si) == float(whole.magnitude)
+        assert measures.convert(number, unit, si) is not None
 
 
 @pytest.mark.parametrize(
@@ -182,6 +186,8 @@ def test_the_own_reader_agrees_with_pint_on_products_and_powers(unit, si):
         "m**9**9",
         "m**0",
         "m m2x",
+        "m2/(s",
+        "m s/(m/s)s",
         "",
         "fnord",
     ],

@@ -58,6 +58,9 @@ class Drive(Table):
         Teeth of the sector that is condensed, 1, 3, 5, 7 or 9.
     density : {'coarse', 'intermediate', 'fine'}
         Of the teeth's mesh.
+    wheel_body : {'rim', 'web'}
+        What of the wheel gives beside its teeth: the rim of the sector, its inside held; or rim and
+        web of the whole wheel, held at its hub, as ``[blank]`` has them or as is usual.
     threads : {'rigid', 'elastic'}
         Whether the worm's threads give where they are pressed, as a half-space of their steel.
     plastic : bool
@@ -105,6 +108,7 @@ class Drive(Table):
     flanks: Literal["both", "driving"] = "both"
     teeth: Annotated[int, Field(strict=True, ge=1, le=9)] = 5
     density: Literal["coarse", "intermediate", "fine"] = "coarse"
+    wheel_body: Literal["rim", "web"] = "rim"
     threads: Literal["rigid", "elastic"] = "rigid"
     plastic: bool = True
     phases: Annotated[int, Field(strict=True, ge=1, le=360)] = 24

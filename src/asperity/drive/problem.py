@@ -16,6 +16,7 @@ from asperity.errors import InputError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.friction import Friction
 from asperity.gearset import Gearset, Geometry
+from asperity.gearset.blanks import Blanks, WheelBody
 from asperity.rating import Operation, RatingOptions
 from asperity.rating.driven import driven
 from asperity.rating.tables import operation_of
@@ -54,6 +55,8 @@ class DriveProblem:
         None: nothing is said of the electrical side.
     hob, mount, modification, disc
         How the flanks are made and mounted; None: as they should be.
+    blank : Blanks or None
+        Web and hub, where they count; None: as is usual.
     case : Case or None
         Where it comes from.
     """
@@ -71,6 +74,7 @@ class DriveProblem:
     mount: Mount | None = None
     modification: Modification | None = None
     disc: Disc | None = None
+    blank: Blanks | None = None
     case: Case | None = None
 
     def __post_init__(self) -> None:
@@ -121,6 +125,7 @@ class DriveProblem:
                 mount=case.get(Mount),
                 modification=case.get(Modification),
                 disc=case.get(Disc),
+                blank=case.get(Blanks),
                 case=case,
             )
 
@@ -128,6 +133,13 @@ class DriveProblem:
     def geometry(self) -> Geometry:
         """Of the gearset, mm."""
         return self.gearset.require_consistent().geometry
+
+    @functools.cached_property
+    def wheel_body(self) -> WheelBody | None:
+        """Web and hub of the wheel; None where its rim's inside is held."""
+        if self.drive.wheel_body == "rim":
+            return None
+        return WheelBody.of(self.geometry, self.blank)
 
     @property
     def folder(self) -> Path | None:

@@ -4,8 +4,9 @@ A section is points of radius and z, mm. The outside of a body lies to the left 
 seen with the radius to the right and the axis upwards.
 """
 
+import dataclasses
 import math
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, Self
 
 import numpy as np
 
@@ -35,7 +36,9 @@ def _length(example: str, **bounds: float) -> Quantity:
 
 
 class Blanks(Table):
-    r"""What wheel and worm are beside their teeth: in their solids and pictures alone.
+    r"""What wheel and worm are beside their teeth.
+
+    It counts in their solids and pictures, and under load with ``drive.wheel_body = "web"``.
 
     Parameters
     ----------
@@ -126,6 +129,28 @@ def wheel_sizes(geometry: Geometry, blanks: Blanks | None = None) -> dict[str, f
         "web_width": web,
         "bore_chamfer": chamfer,
     }
+
+
+@dataclasses.dataclass(frozen=True)
+class WheelBody:
+    """What is between the rim's inside and what holds the wheel.
+
+    Attributes
+    ----------
+    web_width : float
+        Of the web, mm.
+    hub_radius : float
+        Where it is held, mm; the rim's inside or more: the rim stands on the hub.
+    """
+
+    web_width: float
+    hub_radius: float
+
+    @classmethod
+    def of(cls, geometry: Geometry, blanks: Blanks | None) -> Self:
+        """Return that of a wheel, by `[blank]` or what is usual."""
+        sizes = wheel_sizes(geometry, blanks)
+        return cls(sizes["web_width"], 0.5 * sizes["hub_diameter"])
 
 
 def wheel_section(geometry: Geometry, blanks: Blanks | None = None) -> FloatArray:

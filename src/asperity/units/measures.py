@@ -72,6 +72,9 @@ _FACTOR = re.compile(
     r"(?:(?P<number>[0-9.]+(?:e-?[0-9]+)?)|(?P<name>[^\W\d]\w*|[%\u00b0]))"
     r"(?:\s*(?:\*\*|\^)\s*(?P<power>-?[1-9][0-9]?))?"
 )
+# What is divided by together, and what stands between its factors.
+_DIVISOR = re.compile(r"/\s*\(([^()/]+)\)")
+_TIMES = re.compile(r"\s*(?<!\*)[*\u00b7](?!\*)\s*|(?<![*^\s])\s+(?![*^\s])")
 
 
 class Measure(NamedTuple):
@@ -103,6 +106,7 @@ def measure(text: str, *, numbers: bool = False) -> Measure | None:
     numbers : bool
         Whether numbers other than 1 may stand among them, as they do in a definition.
     """
+    text = _DIVISOR.sub(lambda found: "/" + _TIMES.sub("/", found[1].strip()), text)
     size, powers, end = Decimal(1), Counter[str](), 0
     while end < len(text):
         factor = _FACTOR.match(text, end)

@@ -21,6 +21,9 @@ from asperity.arrays import BoolArray, FloatArray
 from asperity.errors import ConvergenceError
 
 _MOST = 2000
+# Of the projected gradients: powers for the steepest way and what is added, iterations between
+# looks at what is left, and halvings of the approach.
+_POWERS, _ABOVE, _LOOKS, _HALVINGS = 20, 1.1, 10, 60
 _SCALINGS, _ROUNDING = 50, 1e-12
 # Of the gaps of patches that bear, over the approach.
 TOLERANCE = 1e-5
@@ -115,9 +118,76 @@ def bear(
             size_step = abs(step) if step else 1.0 / max(largest, 1e-300)
             clipped[back] = np.clip(clipped[back] - size_step * left[back], 0.0, limit[back])
         force = _loaded(clipped, arm, moment, limit)
+    return _by_projection(gap, deflection, arm, moment, limit, force, tolerance)
+
+
+def _by_projection(
+    gap: FloatArray,
+    deflection: Callable[[FloatArray], FloatArray],
+    arm: FloatArray,
+    moment: float,
+    limit: FloatArray,
+    force: FloatArray,
+    tolerance: float,
+) -> Bearing:
+    """Return what `bear` does, by Nesterov's gradients projected on forces that bear the load.
+
+    Slower and certain: where nearly all that bears is at its cap, conjugate steps go to and fro
+    between two sets of free patches.
+    """
+    sunk = deflection(force)
+    steepness = 0.0
+    for _ in range(_POWERS):
+        steepness = float(np.linalg.norm(sunk))
+        sunk = deflection(sunk / steepness)
+    rate = 1.0 / (_ABOVE * steepness)
+    ahead, momentum, residual = force, 1.0, np.inf
+    for iteration in range(1, _MOST + 1):
+        wanted = ahead - rate * (gap + deflection(ahead))
+        new = _borne(wanted, rate * arm, arm, moment, limit)
+        # Where it goes uphill, momentum begins anew.
+        if _dot(ahead - new, new - force) > 0.0:
+            momentum = 1.0
+        more = 0.5 * (1.0 + np.sqrt(1.0 + 4.0 * momentum**2))
+        ahead = new + (momentum - 1.0) / more * (new - force)
+        force, momentum = new, more
+        if iteration % _LOOKS:
+            continue
+        left = gap + deflection(force)
+        on = np.flatnonzero((force > 0.0) & (force < limit))
+        theta = _level(left[on], arm[on])
+        left -= arm * theta
+        size = max(float(np.abs(gap[on] - arm[on] * theta).max(initial=0.0)), 1e-15)
+        residual = np.sqrt(_dot(left[on], left[on]) / max(1, on.size)) / size
+        if residual <= tolerance and not _wrong(force, left, limit, tolerance * size).any():
+            return Bearing(force, theta, left, _MOST + iteration, residual)
     raise ConvergenceError(
-        "the pressures of the contact were not found", reached={"residual": residual}
+        "the pressures of the contact were not found", reached={"residual": float(residual)}
     )
+
+
+def _borne(
+    wanted: FloatArray, by: FloatArray, arm: FloatArray, moment: float, limit: FloatArray
+) -> FloatArray:
+    """Return the forces nearest to some that are wanted, within their limits, that bear a load."""
+    some = limit > 0.0
+    ends = [-float((wanted / by)[some].max())]
+    reach = 1.0 / float(by[some].max())
+    # Wide enough to bear it: each doubling presses more patches, and those harder.
+    while True:
+        ends.append(ends[0] + reach)
+        if _dot(arm, np.clip(wanted + ends[-1] * by, 0.0, limit)) >= moment:
+            break
+        reach *= 2.0
+        ends.pop()
+    low, high = ends
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if _dot(arm, np.clip(wanted + middle * by, 0.0, limit)) < moment:
+            low = middle
+        else:
+            high = middle
+    return np.clip(wanted + high * by, 0.0, limit)
 
 
 def _dot(one: FloatArray, other: FloatArray) -> float:

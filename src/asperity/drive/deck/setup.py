@@ -76,6 +76,11 @@ class TeethSetup:
             The case makes no drive, or its teeth cannot carry the torque.
         """
         problem = prepare(case, static=True)
+        if problem.wheel_body is not None:
+            raise InputError(
+                "drive.wheel_body is 'web'; a deck holds the inside of the rim: leave it out, or "
+                "take 'rim'"
+            )
         model = StaticModel(problem, run or Run(), phases=1)
         return cls(case.source, problem, model, *_shaken(case))
 

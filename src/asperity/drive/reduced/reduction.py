@@ -66,7 +66,7 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
 
 
 # What of a drive bears on its teeth without vibration.
-_BEARS = ("model", "teeth", "density", "threads", "friction", "effective_radius")
+_BEARS = ("model", "teeth", "density", "wheel_body", "threads", "friction", "effective_radius")
 
 
 def kept_under(problem: DriveProblem) -> str:
@@ -78,6 +78,7 @@ def kept_under(problem: DriveProblem) -> str:
         problem.gearset, problem.hob, problem.mount, problem.modification, problem.disc,
         # Where friction is one number, neither its law nor the speed bears on the teeth.
         *((problem.operation, rating) if drive["friction"] != "constant" else ()),
+        *((problem.blank,) if problem.wheel_body is not None else ()),
         *((problem.operation, problem.friction) if of_speed(problem.friction) else ()),
     )  # fmt: skip
     given = [None if table is None else table.model_dump(mode="json") for table in tables]

@@ -18,6 +18,7 @@ from asperity.drive.resolved.smooth import smoothed
 from asperity.drive.teeth.sector import Sector, lattice
 from asperity.drive.teeth.threads import thread_flexibility
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.flank import FlankGrid
 from asperity.gearset.materials import Material
 
 if TYPE_CHECKING:
@@ -217,16 +218,19 @@ class ExactFlank:
 
 def grid_of(wheel: Wheel) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return exact points of a wheel's flank, as `ExactFlank.grid`."""
-    shares = np.linspace(0.0, 1.0, _ROWS)
-    z = wheel.blank.columns(_COLUMNS)
-    made = wheel.flank(1).at_shares(shares, z)
-    share = np.repeat(shares, z.size)
+    made = exact_grid(wheel)
+    share = np.repeat(np.linspace(0.0, 1.0, _ROWS), _COLUMNS)
     return (
         made.points.reshape(-1, 3) / _MILLIMETRES,
         made.normals.reshape(-1, 3),
         share,
         made.z.reshape(-1) / _MILLIMETRES,
     )
+
+
+def exact_grid(wheel: Wheel) -> FlankGrid:
+    """Return the exact flank at the points of `grid_of`, mm."""
+    return wheel.flank(1).at_shares(np.linspace(0.0, 1.0, _ROWS), wheel.blank.columns(_COLUMNS))
 
 
 def grid_faces() -> IntArray:

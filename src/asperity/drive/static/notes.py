@@ -52,6 +52,13 @@ def rigid_parts(problem: DriveProblem) -> Iterator[str]:
         yield (
             f"rigid: {', '.join(left_out)}; together they can give several times what the teeth do"
         )
+    body = problem.wheel_body
+    yield (
+        "the wheel's rim is held at its inside (drive.wheel_body = 'web': web and hub give as well)"
+        if body is None
+        else f"the wheel is held at its hub of {2.0 * body.hub_radius:.4g} mm, on a web "
+        f"{body.web_width:.4g} mm wide ([blank])"
+    )
     if problem.drive.threads == "rigid":
         yield (
             "the worm's threads are rigid (drive.threads) in torque, deflection and error; in the "

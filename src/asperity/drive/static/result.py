@@ -146,6 +146,9 @@ class StaticResult(OfDrive):
         "", "mm", "length of the contact with the largest pressure on the flank"
     )
     contact_width: float = quantity("", "mm", "its width")
+    flash_temperature: float = quantity(
+        "theta_fl", "K", "largest flash temperature of a contact; no limit is known for worm gears"
+    )
     pressure_nodal: float = quantity(
         "p", "MPa", "largest pressure at a node of the mesh, which grows with a finer one",
         key="pressure_nodal_MPa", shown=False,
@@ -213,6 +216,16 @@ class StaticResult(OfDrive):
     )
     force_face_end_course: FloatArray = quantity(
         "N", "N", "normal force at the ends of the face", dims=_PHASE
+    )
+    flash_temperature_course: FloatArray = quantity(
+        "theta_fl", "K", "largest flash temperature", dims=_PHASE
+    )
+    flash_line_face: FloatArray = quantity(
+        "z", "m", "place along the wheel's axis on the contact with the largest of them",
+        dims=("line",),
+    )  # fmt: skip
+    flash_line: FloatArray = quantity(
+        "theta_fl", "K", "flash temperature along that contact", dims=("line",)
     )
     part: npt.NDArray[np.str_] = quantity(
         "", "", "what gives way", dims=_PART, coordinate=True, only="file"

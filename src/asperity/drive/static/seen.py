@@ -11,6 +11,7 @@ from asperity.contact.candidates.wrench import place_of
 from asperity.drive.resolved.contact import Resolved, ResolvedContact, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
+from asperity.drive.static.flash import Flash
 from asperity.drive.static.pressure import nodal_pressure
 from asperity.drive.static.spread import Spread
 from asperity.drive.teeth.contact import TeethContact
@@ -65,8 +66,9 @@ class Pattern:
 class Seen:
     """What is taken from each phase under the load."""
 
-    def __init__(self, owner: ResolvedContact) -> None:
+    def __init__(self, owner: ResolvedContact, flash: Flash | None = None) -> None:
         self.owner = owner
+        self.flash = flash
         self.pattern = Pattern(owner)
         self.spread = Spread(owner.flank)
         self.weight = self.radius = self.speed = 0.0
@@ -94,6 +96,8 @@ class Seen:
         found = resolved(self.owner, balance)
         self.pattern.keep(found)
         self.spread.take(found)
+        if self.flash is not None:
+            self.flash.take(found)
         peaks = np.array([tooth.peaks() for tooth in found.teeth])
         self.peaks.append(peaks.max(axis=0))
         self.forces.append(np.sum([tooth.forces() for tooth in found.teeth], axis=0))

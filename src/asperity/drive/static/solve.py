@@ -21,6 +21,7 @@ from asperity.drive.resolved.flank import ExactFlank
 from asperity.drive.resolved.strip import ZONES
 from asperity.drive.shafts import compliances_of
 from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
+from asperity.drive.static.flash import Flash
 from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
 from asperity.drive.static.pressure import modulus_of
@@ -67,6 +68,7 @@ def condensed(problem: DriveProblem, run: Run) -> Sector:
         problem.gearset.wheel_material,
         density=drive.density,
         teeth=drive.teeth,
+        body=problem.wheel_body,
         notify=run.notify,
     )
     if drive.threads == "rigid":
@@ -207,7 +209,8 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     """
     model = StaticModel(problem, run)
     load, sector_, contact = problem.load, model.sector, model.contact
-    seen = Seen(model.resolved)
+    flash = Flash(problem, model.resolved.flank, model.friction)
+    seen = Seen(model.resolved, flash)
     less_loaded = [Pattern(model.resolved) for _ in PATTERNS[:-1]]
     count = len(model.phases)
     total = (3 if run.detailed else 2) * count
@@ -265,6 +268,10 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         k_h_alpha=k_h_alpha(forward.tooth_force),
         line_load=seen.spread.line_load / _MILLIMETRES,
         **_pressures(model, seen),
+        flash_temperature=max(flash.course),
+        flash_temperature_course=np.array(flash.course),
+        flash_line_face=problem.gearset.hand_sign * flash.worst.face,
+        flash_line=flash.worst.rise,
         residual=max(forward.residual, frictionless.residual, reversed_.residual),
         teeth_nodes=sector_.body.nodes,
         condense_seconds=sector_.seconds,

@@ -4,7 +4,8 @@ A tooth cut out of the wheel is far too soft, since the rim under it is a cantil
 teeth are condensed on one rim, whose inside is held, and the middle one serves for all: a tooth
 :math:`m` is the middle one turned about the wheel's axis by :math:`m` pitches. What a loaded tooth
 does to its neighbours goes through the rim and is small and smooth: it is taken from the coarse
-mesh for all densities.
+mesh for all densities. So is what rim, web and hub give of a whole wheel
+(`asperity.drive.teeth.whole`), where they count.
 
 Lengths are in m. A tooth's own frame is the wheel's, with the tooth about +Y.
 """
@@ -14,6 +15,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -22,11 +24,13 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.contact.candidates.records import Body
 from asperity.contact.elastic import CondensedBody, ElasticMaterial, condense
 from asperity.contact.interface.surface import ContactSurface, contact_surface
+from asperity.drive.teeth.whole import whole_wheel
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts, contact_counts, tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.flank import FlankGrid
 from asperity.flanks.wheel.frame import turned
+from asperity.gearset.blanks import WheelBody
 from asperity.gearset.materials import WheelMaterial
 from asperity.mesh import HexMesh
 
@@ -83,6 +87,7 @@ def sector(
     *,
     density: str = _COARSE,
     teeth: int = 5,
+    body: WheelBody | None = None,
     notify: Callable[[str], None] | None = None,
 ) -> Sector:
     """Condense a sector of the wheel, or find it among those that are kept.
@@ -97,6 +102,8 @@ def sector(
         Of the flank.
     teeth : int
         Teeth on the rim, an odd number; the middle one serves for all.
+    body : WheelBody, optional
+        Web and hub that the rim of the whole wheel stands on; left out: its inside is held.
     notify : callable, optional
         Takes one line about a kept file that is damaged.
 
@@ -108,43 +115,95 @@ def sector(
     if teeth < 1 or teeth % 2 == 0:
         raise InputError(f"drive.teeth is {teeth}; it must be odd: there is a middle tooth")
     counts = contact_counts(density)
+    made = _whole if body is not None else _on_held_rim
+    middle, neighbours, seconds, residual = made(wheel, material, counts, teeth, body, notify)
+    surface = _own_surface(wheel, counts)
+    grid, row, column = exact = _exact(wheel, surface)
+    # Between the nodes of a coarse mesh its faces lie micrometres off the flank, as much as it
+    # gives way under load: contact is looked for on the flank itself.
+    places = np.ascontiguousarray(grid.points[row, column]) / _MILLIMETRES
+    points = Body.of(surface, middle)._replace(places=places)
+    return Sector(
+        wheel, density, counts, teeth, surface, points, exact, neighbours, seconds,
+        residual,
+    )  # fmt: skip
+
+
+class _Blocks(NamedTuple):
+    """Flexibility of the middle tooth, and what it does to those 1, 2 .. pitches further."""
+
+    own: FloatArray
+    neighbours: tuple[FloatArray, ...]
+    seconds: float = 0.0
+    residual: float = 0.0
+
+
+def _on_held_rim(
+    wheel: Wheel,
+    material: WheelMaterial,
+    counts: Counts,
+    teeth: int,
+    _body: WheelBody | None = None,
+    notify: Callable[[str], None] | None = None,
+) -> _Blocks:
     # One tooth has no neighbours; the others have theirs from the coarse mesh.
-    together = density == _COARSE
+    coarse = contact_counts(_COARSE)
+    together = counts == coarse
     found = _condensed(wheel, material, counts, teeth, together, notify)
     surface = _own_surface(wheel, counts)
     size = len(surface.positions)
     turn = _middle(wheel, teeth)
     middle = _block(found, teeth, size, 0, 0, together, turn, turn)
-    neighbours: tuple[FloatArray, ...] = ()
-    seconds, residual = found.seconds, found.residual
-    if teeth > 1:
-        rim, coarse = found, surface
-        if not together:
-            coarse_counts = contact_counts(_COARSE)
-            rim = _condensed(wheel, material, coarse_counts, teeth, True, notify)
-            coarse = _own_surface(wheel, coarse_counts)
-            seconds, residual = seconds + rim.seconds, max(residual, rim.residual)
-        count = len(coarse.positions)
-        pitch = 2.0 * math.pi / wheel.pair.geometry.wheel_teeth
-        # In the mesh teeth follow one another about -Z: the tooth before is further about +Z.
-        turns = {k: turn @ turned(-k * pitch) for k in (-1, 0, 1)}
-        blocks = (
-            _block(rim, teeth, count, row, column, True, turns[row], turns[column])
-            for row, column in ((1, 0), (1, -1))
-        )
-        to = sparse.kron(_interpolation(coarse, surface), sparse.eye_array(3), format="csr")
-        neighbours = tuple(
-            block if together else np.ascontiguousarray(to @ (to @ block.T).T) for block in blocks
-        )
-    grid, row, column = exact = _exact(wheel, surface)
-    # Between the nodes of a coarse mesh its faces lie micrometres off the flank, as much as it
-    # gives way under load: contact is looked for on the flank itself.
-    places = np.ascontiguousarray(grid.points[row, column]) / _MILLIMETRES
-    body = Body.of(surface, middle)._replace(places=places)
-    return Sector(
-        wheel, density, counts, teeth, surface, body, exact, neighbours, seconds,
-        residual,
-    )  # fmt: skip
+    if teeth == 1:
+        return _Blocks(middle, (), found.seconds, found.residual)
+    if not together:
+        rim = _on_held_rim(wheel, material, coarse, teeth, None, notify)
+        to = _to_finer(wheel, coarse, surface)
+        neighbours = tuple(_taken(to, block) for block in rim.neighbours)
+        seconds, residual = found.seconds + rim.seconds, max(found.residual, rim.residual)
+        return _Blocks(middle, neighbours, seconds, residual)
+    pitch = 2.0 * math.pi / wheel.pair.geometry.wheel_teeth
+    # In the mesh teeth follow one another about -Z: the tooth before is further about +Z.
+    turns = {k: turn @ turned(-k * pitch) for k in (-1, 0, 1)}
+    neighbours = tuple(
+        _block(found, teeth, size, row, column, True, turns[row], turns[column])
+        for row, column in ((1, 0), (1, -1))
+    )
+    return _Blocks(middle, neighbours, found.seconds, found.residual)
+
+
+def _whole(
+    wheel: Wheel,
+    material: WheelMaterial,
+    counts: Counts,
+    teeth: int,
+    body: WheelBody | None,
+    notify: Callable[[str], None] | None = None,
+) -> _Blocks:
+    """The same of a whole wheel; a finer tooth is that of the sector, on the coarse one's wheel."""
+    assert body is not None
+    coarse = contact_counts(_COARSE)
+    one, surface = own_mesh(wheel, coarse), _own_surface(wheel, coarse)
+    elastic = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, DENSITY)
+    own, *further = whole_wheel(one, surface, body, wheel.pair.geometry, elastic, notify)
+    if counts == coarse:
+        return _Blocks(own, tuple(further))
+    held = _on_held_rim(wheel, material, coarse, teeth, None, notify)
+    found = _on_held_rim(wheel, material, counts, teeth, None, notify)
+    to = _to_finer(wheel, coarse, _own_surface(wheel, counts))
+    middle = found.own + _taken(to, own - held.own)
+    neighbours = tuple(_taken(to, block) for block in further)
+    return _Blocks(middle, neighbours, found.seconds, found.residual)
+
+
+def _to_finer(wheel: Wheel, coarse: Counts, surface: ContactSurface) -> sparse.csr_array:
+    between = _interpolation(_own_surface(wheel, coarse), surface)
+    return sparse.csr_array(sparse.kron(between, sparse.eye_array(3), format="csr"))
+
+
+def _taken(to: sparse.csr_array, block: FloatArray) -> FloatArray:
+    """A block of the coarse flank at the nodes of a finer one."""
+    return np.ascontiguousarray(to @ (to @ block.T).T)
 
 
 def right_handed(wheel: Wheel) -> Wheel:

@@ -36,6 +36,10 @@ from asperity.sources import Source
 
 _TOUCH = 1e-9
 _ZERO_CELSIUS = 273.15
+_HERTZ = (
+    "Hertzian pressures are those of contact lines that all give alike, edges left out; what a "
+    "gear bears under load, with its edges, asperity drive --static resolves"
+)
 _CUSTOMARY = {
     "disc.diameter": f"{1e3 * parameters.DISC_DIAMETER:g} mm",
     "disc.profile_radius": f"{parameters.DISC_PROFILE_RADIUS:g} modules",
@@ -289,14 +293,14 @@ def _load(case: Case, gearset: Gearset) -> tuple[Load | None, list[str]]:
     except InputError as error:
         return None, [f"no load on the contact lines, for want of a torque: {error}"]
     if operation.oil_temperature is not None:
-        return Load.of(gearset, operation, operation.oil_temperature), []
+        return Load.of(gearset, operation, operation.oil_temperature), [_HERTZ]
     try:
         rated = rate_case(case, ("iso14521",)).iso14521
     except InputError as error:
         return None, [f"no load on the contact lines, for want of the oil's temperature: {error}"]
     sump = float(rated["theta_S_degC"]) if rated is not None else 0.0
     note = f"oil at {sump:.4g} degC, from the heat balance of ISO/TR 14521"
-    return Load.of(gearset, operation, sump + _ZERO_CELSIUS), [note]
+    return Load.of(gearset, operation, sump + _ZERO_CELSIUS), [_HERTZ, note]
 
 
 def _wear(case: Case) -> float | None:

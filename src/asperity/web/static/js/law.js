@@ -55,6 +55,8 @@ export function Law({ work, segments }) {
       ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
       ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],
       ["what the data tell", sure]]} />
-    <p class="says">χ² ${digits(found.chi2, 4)} at ${found.dof} ${found.dof === 1 ? "degree" : "degrees"}${" "}
-      of freedom, ${found.points} ${found.points === 1 ? "measurement" : "measurements"}.</p>`;
+    <p class="says">χ² ${digits(found.chi2, 4)}, ${found.points} ${
+      found.points === 1 ? "measurement" : "measurements"}, ${
+      found.dof > 0 ? `${found.dof} ${found.dof === 1 ? "degree" : "degrees"} of freedom.`
+      : "no degree of freedom: as many parameters as measurements tell nothing of how well the law fits."}</p>`;
 }

@@ -51,7 +51,8 @@ export function ticks(low, high, log, count) {
 export function scale(lists, { log, range, margin = 0 }, from, to) {
   const known = lists.flat().filter((value) => number(value) && (!log || value > 0));
   let [low, high] = range ?? (known.length ? [Math.min(...known), Math.max(...known)] : [0, 1]);
-  if (low === high) [low, high] = log ? [low / 2, high * 2] : [low - 1, high + 1];
+  if (low === high) [low, high] = log ? [low / 2, high * 2]
+    : [-1, 1].map((side) => low + side * (Math.abs(low) / 10 || 1));
   else if (!range && !log) [low, high] = [low - margin * (high - low), high + margin * (high - low)];
   const share = (value) => (log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low));
   const at = (value) => from + share(value) * (to - from);

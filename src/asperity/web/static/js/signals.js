@@ -93,7 +93,8 @@ export function Signals({ time, signals, segments, settling_s: answered, duratio
 function Line({ label, time, values, along, top }) {
   const known = values.filter((value) => value !== null);
   const [low, high] = [Math.min(...known), Math.max(...known)];
-  const up = { at: (value) => top + ROW - 14 - ((ROW - 28) * (value - low)) / (high - low || 1) };
+  // Beneath the least of it is room for its name.
+  const up = { at: (value) => top + ROW - 24 - ((ROW - 38) * (value - low)) / (high - low || 1) };
   const end = (value) => html`<text class="tick" x=${LEFT - 6} y=${up.at(value) + 4}
     text-anchor="end">${digits(value, 3)}</text>`;
   return html`<g class="row-of"><path class="trace" d=${path(time, values, { at: along }, up)} />

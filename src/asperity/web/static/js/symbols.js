@@ -13,7 +13,7 @@ const SYMBOL = new RegExp(`(?<![A-Za-z0-9_.])(${NAMES}|[A-Za-z]{1,2})(?:_([A-Za-
 const IN_WORDS = new RegExp(
   `(?<![A-Za-z0-9_.])(?:(${NAMES}|[A-Za-z]|Ra)_([A-Za-z0-9]{1,6})(?![A-Za-z0-9_.]\\w|\\w)|(mu)(?= [A-Z]_))`, "g");
 
-/** Units as they are printed: 40 degC is 40 °C, mm^2/s is mm²/s. @param {string} text */
+/** Units as they are printed: 40 degC is 40 °C, mm^2/s is mm²/s. @param {string} [text] */
 const print = (text) => String(text ?? "").replace(/\bdeg([CF])\b/g, "°$1")
   .replace(/(?:\^|\*\*)2\b/g, "²")
   .replace(/(?:\^|\*\*)3\b/g, "³").replace(/(?<=\d |\()u(?=[mAVNs]\b)/g, "µ").replace(/(?<=\d) deg\b/g, "°")

@@ -10,10 +10,10 @@ import { placeOf } from "./work.js";
 export const ANY = "any";
 
 /**
- * A picture that a job left, fetched once it is seen.
- * @param {{id: string, file: string, alt: string, kind: string}} props
+ * A picture that a job left, fetched once it is seen; `made`: how it is read, where it is no file of its own.
+ * @param {{at: string, alt: string, kind: string, made?: (answer: Response) => Promise<Blob>}} props
  */
-export function Drawn({ id, file, alt, kind }) {
+export function Drawn({ at, alt, kind, made = (answer) => answer.blob() }) {
   const box = useRef(null);
   const [seen, setSeen] = useState(false);
   useEffect(() => {
@@ -21,9 +21,9 @@ export function Drawn({ id, file, alt, kind }) {
     const watch = new IntersectionObserver(([entry]) => entry.isIntersecting && setSeen(true));
     watch.observe(box.current);
     return () => watch.disconnect();
-  }, [file]);
-  const path = seen ? placeOf(id, encodeURIComponent(file)) : "";
-  const source = useAddress(useAsked(path, async (leave) => (await fetchRaw(path, leave)).blob()).found);
+  }, [at]);
+  const path = seen ? at : "";
+  const source = useAddress(useAsked(path, async (leave) => made(await fetchRaw(path, leave))).found);
   return html`<div class=${kind} ref=${box}>${source ? html`<img src=${source} alt=${alt} />` : null}</div>`;
 }
 
@@ -69,5 +69,6 @@ export function Told({ work }) {
     ${told.tables.map((each, at) => html`<${One} key=${at} ...${each} name=${`table ${at + 1}`} />`)}
     <div class="grid">${pictures.map((file) => html`<figure class="plot" key=${file}>
       <figcaption>${named(file)}</figcaption>
-      <${Drawn} id=${work.id} file=${file} kind="drawn-by" alt=${`${named(file)}, drawn`} /></figure>`)}</div>`;
+      <${Drawn} at=${placeOf(work.id, encodeURIComponent(file))} kind="drawn-by"
+        alt=${`${named(file)}, drawn`} /></figure>`)}</div>`;
 }

@@ -19,7 +19,7 @@ export const valueIn = (section, { speed, pressed }) =>
 export function playing(picture, { geometry, mode, speed, pressed, range }) {
   const section = sectionOf(geometry);
   const valueAt = valueIn(section, { speed, pressed });
-  const places = Array.from({ length: 2 * DOTS + 1 }, (_, n) => (n - DOTS) * section.pitch * 0.8);
+  const places = Array.from({ length: 2 * DOTS + 1 }, (_, n) => (n - DOTS + 0.5) * section.pitch);
   const core = section.apart - section.root;
   const put = (name, key, value) => picture.querySelector(`[data-of=${name}]`)?.setAttribute(key, value);
   return (seconds) => {

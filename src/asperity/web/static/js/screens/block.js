@@ -1,6 +1,6 @@
 /** An elastic block: what it settles to beside a rigid body, and the pressure under it. */
 import { html, useMemo } from "../../vendor/preact.js";
-import { fetchRaw, useAsked } from "../api.js";
+import { commandLine, fetchRaw, useAsked } from "../api.js";
 import { span } from "../colours.js";
 import { Deformed } from "../deformed.js";
 import { AllKeys, Amplitude, Field, Slider, useValue } from "../form.js";
@@ -40,7 +40,7 @@ export function view() {
   return html`<${Screen} title="Elastic block" kinds=${["block"]} first="block-shaken-along" start=${START}
     lead="The same body, elastic: meshed with solid elements, pressed, pulled and shaken."
     error=${firstError(settled, marched)} actions=${html`<${Report} work=${settled} />`}
-    answer=${{ ...taken, notes: [] }}>
+    answer=${{ ...taken, notes: [], command: both(taken.command, name && commandLine("block", ask("march"))) }}>
     <div class="columns headed moving">
       <section class="controls" aria-label="what is set">
         <${Mesh} ...${mesh} />
@@ -65,6 +65,9 @@ export function view() {
     </div>
   <//>`;
 }
+
+/** What gives both answers of the screen. */
+const both = (settle, march) => (settle && march ? `${settle} && ${march}` : settle);
 
 const PACKED = "frames.bin";
 

@@ -137,6 +137,27 @@ const standings = (standing) => Object.entries(standing).flatMap(([name, { word,
   ...(outside.length ? [`outside its range: ${STANDARDS[name]} (${outside.join(", ")})`] : []),
 ]);
 
+/** What a reader should know, as the command's last lines say it: film, assumed, from memory, remarks. */
+function notesOf({ assumed, verdict: { film, standing }, ...answer }, entries) {
+  const found = Object.keys(STANDARDS).map((name) => [name, answer[name]]).filter(([, one]) => one);
+  const [memory, count] = [found.filter(([, one]) => one.from_memory?.length),
+    new Set(found.flatMap(([, one]) => one.from_memory ?? [])).size];
+  const symbols = (name, keys) => keys.map((key) => entries[`${name}.${key}`]?.symbol || words(key)).join(", ");
+  const keys = Object.entries(assumed);
+  const said = new Set(Object.values(standing).flatMap(({ reasons }) => reasons));
+  return [
+    ...(film ? [`${film.regime} lubrication: film ${amount(film.thickness_um, "um", 2)}, lambda ${
+      digits(film.lambda, 2)} (wheel as rough as the worm)`] : []),
+    ...(keys.length ? [`${keys.length} assumed, give them to replace that: ${
+      keys.map(([path, how]) => `${words(path.split(".")[1])} (${how})`).join("; ")}`] : []),
+    ...(count ? [`${count} numbers rest on sources from memory, check before use: ${
+      memory.map(([name, one]) => `${STANDARDS[name]} ${symbols(name, one.from_memory)}`).join("; ")}`] : []),
+    ...found.flatMap(([name, one]) => one.notes.filter((each) => !/ fails: /.test(each) && !said.has(each))
+      .map((each) => `${STANDARDS[name]}: ${each}`)),
+    ...answer.notes ?? [],
+  ];
+}
+
 /** The verdict in a sentence; where it fails, how much larger it must be, about, and a button that makes it so. */
 function Headline({ verdict }) {
   const { first, safeties, holds, moved_by: levers } = verdict;
@@ -233,7 +254,8 @@ export function view() {
     ...each, name: `${STANDARDS[each.standard]}: ${each.name}`, entry: entries[`${each.standard}.${each.key}`],
   }));
   return html`<${Screen} title="Gearset" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${data} error=${error} busy=${busy} late=${late} now=${now}
+      answer=${answer && { ...data, notes: notesOf(answer, entries) }} error=${error}
+      busy=${busy} late=${late} now=${now}
       actions=${html`<${ReportOf} command="rate" body=${body} />`}
       lead="A worm gearset rated by three standards at once: whether it holds, what fails first, what moves it.">
     <${Travel} error=${error} setAll=${setAll} />

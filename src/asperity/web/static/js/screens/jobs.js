@@ -5,7 +5,7 @@ import { belongsTo } from "../belongs.js";
 import { copy, Screen } from "../shell.js";
 import { address, go } from "../state.js";
 import { Drawn } from "../told.js";
-import { Files, left } from "../work.js";
+import { Files, left, placeOf } from "../work.js";
 
 /** In the order in which they are listed; what waits stands beside what runs. */
 const SIGNS = { running: "▶", queued: "…", stopped: "❚❚", done: "✓", failed: "✗" };
@@ -42,14 +42,23 @@ export function view() {
   <//>`;
 }
 
+/** The drawing of a gearset, which stands in its answer. @param {Response} answer */
+const drawing = async (answer) => new Blob([(await answer.json()).svg.gearset], { type: "image/svg+xml" });
+
 /** A small picture of what a job left; nothing where it left none. */
-function Picture({ job: { id, command, case: name, files, state } }) {
-  const file = state === "done" ? files.find((each) => each.endsWith(".png")) : "";
-  return file ? html`<${Drawn} id=${id} file=${file} kind="small" alt=${`what ${command} ${name} drew`} />` : null;
+function Picture({ job: { id, command, files, state }, name }) {
+  const file = files.find((each) => each.endsWith(".png"));
+  const alt = `what ${command} ${name} drew`;
+  return state !== "done" ? null
+    : file ? html`<${Drawn} at=${placeOf(id, encodeURIComponent(file))} kind="small" alt=${alt} />`
+    : command === "rate" ? html`<${Drawn} at=${`/api/jobs/${id}/answer`} kind="small" alt=${alt} made=${drawing} />`
+    : null;
 }
 
 function Job({ job, jobs, act }) {
-  const { id, command, case: name, state, done, total, error, notes, line } = job;
+  const { id, command, case: of, asked, state, done, total, error, notes, line } = job;
+  // As the gearset that was taken.
+  const name = asked?.settings?.["gearset.name"] ?? of;
   const running = state === "running";
   const button = (said, run, kind) => html`<button type="button" class=${kind} aria-label=${`${said}: ${line}`}
     onClick=${run}>${said}</button>`;
@@ -61,7 +70,7 @@ function Job({ job, jobs, act }) {
     event.preventDefault();
     go(there.screen, there.params);
   };
-  return html`<li class="panel"><${Picture} job=${job} />
+  return html`<li class="panel"><${Picture} job=${job} name=${name} />
     <p><b>${there ? html`<a href=${address(there)} onClick=${open}>${command} ${name}</a>`
       : `${command} ${name}`}</b> <span class=${`state ${state}`}>${SIGNS[state]} ${left(job)}</span></p>
     ${running ? html`<progress aria-label=${`${command} ${name}`} max=${total || 1}

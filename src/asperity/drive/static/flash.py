@@ -1,0 +1,143 @@
+r"""Flash temperature along the contacts of loaded teeth, by Blok.
+
+Where a band of width :math:`2b` that carries :math:`w` by length slides at :math:`v_g`, both bodies
+rolling through it at :math:`u_1` and :math:`u_2` across, it is warmer than both by at most
+
+.. math:: \vartheta_{fl} = 1.11\,\frac{\mu\,w\,v_g}{(B_1\sqrt{u_1} + B_2\sqrt{u_2})\sqrt{2b}},
+    \qquad B = \sqrt{k\,\varrho\,c} ,
+
+heat as an ellipse over the width, shared so that both have the same highest temperature, and both
+faster than heat spreads. :math:`w` and :math:`2b` are those of the resolved pressures across each
+place along a contact, speeds those of the flank's exact kinematics there.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.drive.problem import DriveProblem
+from asperity.drive.resolved.contact import Resolved, ToothPressure
+from asperity.drive.resolved.flank import ExactFlank, exact_grid
+from asperity.flanks.meshing.kinematics import kinematics
+from asperity.sources import Source
+
+BLOK = Source(
+    "H. Blok, Proc. General Discussion on Lubrication, IMechE 2 (1937), 222-235; the factor is "
+    "that of ISO/TR 13989-1:2000",
+    "from memory", "1.11 met by integrating moving bands of heat",
+)  # fmt: skip
+SHARE = 1.11
+"""Of a band of elliptic heat."""
+
+_STEEL = 45.0, 7850.0, 470.0
+_WHEELS: Mapping[str, tuple[float, float, float]] = {
+    "tin bronze": (55.0, 8700.0, 380.0),
+    "aluminium bronze": (42.0, 7600.0, 440.0),
+    "grey iron": (50.0, 7200.0, 500.0),
+    "nodular iron": (34.0, 7100.0, 510.0),
+    "plastic": (0.25, 1400.0, 1500.0),
+}
+"""Conductivity, W/(m K), density, kg/m3, and heat capacity, J/(kg K), of each kind of wheel."""
+THERMAL = Source("handbooks of metals and plastics, means of each kind", "from memory")
+
+_MILLI = 1e-3
+
+
+def effusivity(conductivity: float, density: float, heat_capacity: float) -> float:
+    """Return :math:`B`, the thermal contact coefficient, J/(m2 K s^0.5), from SI values."""
+    return math.sqrt(conductivity * density * heat_capacity)
+
+
+def flash_temperature(
+    friction: float,
+    line_load: FloatArray,
+    sliding: FloatArray,
+    rolling: tuple[FloatArray, FloatArray],
+    width: FloatArray,
+    effusivities: tuple[float, float],
+) -> FloatArray:
+    """Return Blok's flash temperature of bands, K.
+
+    Parameters
+    ----------
+    friction : float
+        Coefficient of friction.
+    line_load, sliding : ndarray
+        N/m and m/s.
+    rolling : tuple of 2 ndarray
+        Speeds of worm and wheel across the bands, m/s, of any sign.
+    width : ndarray
+        Of the bands, m.
+    effusivities : tuple of 2 float
+        Of worm and wheel, J/(m2 K s^0.5).
+    """
+    carried = sum(b * np.sqrt(np.abs(u)) for b, u in zip(effusivities, rolling, strict=True))
+    return np.asarray(SHARE * friction * line_load * sliding / (carried * np.sqrt(width)))
+
+
+class Line(NamedTuple):
+    """Flash temperatures along a contact."""
+
+    face: FloatArray  #: (k,): Place along the wheel's axis, m
+    rise: FloatArray  #: (k,): K
+
+
+class Flash:
+    """The flash temperatures of a pitch.
+
+    Parameters
+    ----------
+    problem : DriveProblem
+        Its speed and materials.
+    flank : ExactFlank
+        Of a tooth.
+    friction : float
+        Coefficient of friction.
+    """
+
+    def __init__(self, problem: DriveProblem, flank: ExactFlank, friction: float) -> None:
+        self._flank, self._friction, self._speed = flank, friction, problem.worm_speed
+        family = problem.gearset.wheel_material.family
+        self._effusivities = effusivity(*_STEEL), effusivity(*_WHEELS[family])
+        self.course: list[float] = []  #: Largest of each phase, K
+        self.worst = Line(np.zeros(0), np.zeros(0))  #: Of the contact with the largest
+
+    @functools.cached_property
+    def _motion(self) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Speeds at the points of the exact flank: sliding, worm and wheel across, m/s."""
+        wheel = self._flank.sector.wheel
+        motion = kinematics(wheel.pair, exact_grid(wheel), 1, self._speed)
+        one, other = motion.worm_rolling, motion.wheel_rolling
+        return _MILLI * motion.sliding_speed.ravel(), _MILLI * one.ravel(), _MILLI * other.ravel()
+
+    def take(self, found: Resolved) -> None:
+        """Take the pressures of a phase."""
+        lines = [self._along(tooth) for tooth in found.teeth]
+        hottest = max(lines, key=lambda line: float(line.rise.max(initial=0.0)))
+        self.course.append(float(hottest.rise.max(initial=0.0)))
+        if self.course[-1] >= max(self.course):
+            self.worst = hottest
+
+    def _along(self, tooth: ToothPressure) -> Line:
+        strip = tooth.strip
+        shape, (across, along) = strip.frame.shape, strip.frame.spacing
+        force = tooth.force.reshape(shape)
+        on = force.sum(axis=0) > 0.0
+        whole = force.sum(axis=0)[on]
+        share, z = (
+            (force * values.reshape(shape)).sum(axis=0)[on] / whole
+            for values in (strip.share, strip.points[:, 2])
+        )
+        at = self._flank.nearest(np.clip(share, 0.0, 1.0), z)
+        sliding, one, other = self._motion
+        rise = flash_temperature(
+            self._friction, whole / along, sliding[at], (one[at], other[at]),
+            across * (force > 0.0).sum(axis=0)[on], self._effusivities,
+        )  # fmt: skip
+        return Line(z, rise)

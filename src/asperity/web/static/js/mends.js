@@ -1,0 +1,72 @@
+/** What may stand instead of a value that is refused, read from the line that refuses it. */
+import { digits, inUnit, split } from "./units.js";
+
+const QUOTED = /'([^']*)'/g;
+/** Of a list, so many that are nearest to what was typed. */
+const NEAREST = 3;
+/** So many different letters make another word. */
+const FAR = 0.5;
+
+/** How many letters must be changed, put in or left out to make one word of another. */
+function apart(one, other) {
+  let row = Array.from({ length: other.length + 1 }, (_, at) => at);
+  for (let at = 0; at < one.length; at += 1) {
+    const next = [at + 1];
+    for (let k = 0; k < other.length; k += 1) {
+      next.push(Math.min(next[k] + 1, row[k + 1] + 1, row[k] + Number(one[at] !== other[k])));
+    }
+    row = next;
+  }
+  return row[other.length];
+}
+
+/** The names of a list that are nearest to a word, all of a short list; those that have the word in them first. */
+function nearest(names, typed) {
+  const word = typed.toLowerCase();
+  const far = (name) => (word && name.toLowerCase().includes(word) ? 0
+    : apart(word, name.toLowerCase()) / Math.max(word.length, name.length));
+  const sorted = names.toSorted((one, other) => far(one) - far(other));
+  return names.length <= NEAREST + 2 ? sorted : sorted.filter((name) => far(name) <= FAR).slice(0, NEAREST);
+}
+
+/** The least and the greatest that a line allows, as texts with units; "" where it names none, or not itself. */
+function bounds(must) {
+  const end = (pattern) => pattern.exec(must)?.[1].trim() ?? "";
+  const AMOUNT = String.raw`([+-]?[\d.]+(?:e[+-]?\d+)? ?[^\s;,]*?)(?= and |;|,|$)`;
+  return [end(new RegExp(`(?:at least|from) ${AMOUNT}`)), end(new RegExp(`(?:at most|up to) ${AMOUNT}`))];
+}
+
+/** The names that a line allows, or means. */
+export const namesIn = (must) => (/one of|allowed:|did you mean|\btakes '/.test(must)
+  ? [...must.matchAll(QUOTED)].map(([, name]) => name) : []);
+
+/**
+ * What may stand there instead of what was typed.
+ * @param {string} must what the line says behind the value
+ * @param {string} typed
+ * @param {{example?: string, default?: string, unit?: string, minimum?: number | null} | undefined} field
+ * @returns {string[]} texts that the case takes; none where the line does not tell
+ */
+export function offered(must, typed, field) {
+  const names = namesIn(must);
+  if (names.length) return nearest(names, typed);
+  // What is no number, or may stand at no bound, becomes what the field has as an example, or the least of a count.
+  const least = /whole number|integer/.test(must) ? String(field?.minimum ?? "") : "";
+  const example = [field?.example || field?.default || least].filter((each) => each && each !== typed);
+  const point = typed.replace(/^(\s*[+-]?\d+),(?=\d)/, "$1.");
+  const [number, unit] = split(point);
+  if (Number.isNaN(number)) return example;
+  if (/whole number|integer/.test(must)) {
+    return [...new Set([Math.floor(number), Math.ceil(number)])]
+      .filter((each) => each >= (field?.minimum ?? 1)).map(String);
+  }
+  if (/positive|above 0\b/.test(must) && number < 0) return [`${digits(-number, 12)} ${unit}`.trim()];
+  const [low, high] = bounds(must);
+  const beyond = (bound, way) => bound && way * (inUnit(point, split(bound)[1]) - split(bound)[0]) > 0;
+  if (beyond(low, -1)) return [low];
+  if (beyond(high, 1)) return [high];
+  // A unit that is none of this, or none at all.
+  const usual = split(field?.example)[1] || field?.unit || "";
+  if (/ such as /.test(must) && usual && unit !== usual) return [`${digits(number, 12)} ${usual}`];
+  return point === typed ? example : [point];
+}

@@ -1,0 +1,105 @@
+"""What is refused comes with buttons that mend it: each offers what the case takes."""
+
+from urllib.parse import urlencode
+
+import pytest
+from apparatus.browser import answered, settled
+from playwright.sync_api import expect
+
+GEAR = [
+    ("operation.worm_speed", "abc", ["1440 rpm"]),
+    ("operation.worm_speed", "1450 U/min", ["1450 rpm"]),
+    ("operation.output_torque", "-366 N m", ["366 N m"]),
+    ("operation.output_torque", "366 kg", ["366 N m"]),
+    ("operation.oil_temperature", "100 furlong", ["100 degC"]),
+    ("operation.oil_temperature", "-400 degF", None),
+    ("operation.lubricant", "ISO VG 150 mineraal", ["ISO VG 150 mineral"]),
+    ("operation.lubricant", "polyglycol", None),
+    ("operation.seals", "1,5", ["1", "2"]),
+    ("gearset.wheel_teeth", "59.5", ["59", "60"]),
+    ("gearset.starts", "0", ["1"]),
+    ("gearset.starts", "abc", None),
+    ("gearset.worm_material", "steel", None),
+    ("gearset.pressure_angle", "95 deg", None),
+    ("gearset.axial_module", "0 mm", None),
+]
+BODY = [
+    ("vibration.elevation", "-5 deg", ["0 deg"]),
+    ("vibration.elevation", "4 rad", ["180 deg"]),
+    ("vibration.frequency", "4", ["4 kHz"]),
+    ("vibration.velocity_ratio", "-3", ["3"]),
+    ("friction.mu", "-0.2", ["0.2"]),
+    ("friction.mu", "0,3", ["0.3"]),
+    ("friction.mu", "0", None),
+    ("friction.mu", "300", ["100"]),
+    ("friction.model", "lugree", None),
+    ("slider.mass", "0 kg", None),
+    ("slider.mass", "abc", None),
+    ("slider.normal_force", "30 mm", ["30 N"]),
+    ("solve.method", "settled", None),
+]
+"""What is typed, and what is offered instead; None: whatever the case takes."""
+
+
+def refused(page, screen, case, path, text):
+    """Set a text as the field of its key would, and wait until it is refused."""
+    there = urlencode({"case": case, f"set.{path}": text})
+    page.evaluate("there => { location.hash = there; }", f"/{screen}?{there}")
+    settled(page)
+    expect(page.locator(".fault").first).to_contain_text(path)
+
+
+@pytest.mark.parametrize(
+    ("screen", "command", "case", "table"),
+    [("gear", "rate", "gearset-3", GEAR), ("slide", "slide", "pin-on-disc", BODY)],
+)
+def test_what_is_refused_has_a_button_whose_value_is_taken(
+    seen, server, screen, command, case, table
+):
+    page = seen.open(screen, case=case)
+    settled(page)
+    for path, text, offered in table:
+        refused(page, screen, case, path, text)
+        buttons = page.locator(".mending button.main")
+        expect(buttons.first).to_be_visible()
+        told = [each.get_attribute("data-text") for each in buttons.all()]
+        assert offered is None or told == offered, (path, text, told)
+        for one in told:
+            words = ["asperity", command, case, "--set", f"{path}={one}", "--json"]
+            assert answered(words, server.folder), (path, one)
+        buttons.first.click()
+        settled(page)
+        expect(page.locator(".fault")).to_have_count(0)
+        assert f"set.{path}={told[0]}" in page.evaluate(
+            "decodeURIComponent(location.hash).replaceAll('+', ' ')"
+        )
+        assert page.locator("[aria-invalid=true]").count() == 0
+
+
+def test_a_word_that_is_near_none_of_a_list_leaves_the_list_and_the_way_back(seen):
+    page = seen.open("gear", case="gearset-3")
+    settled(page)
+    refused(page, "gear", "gearset-3", "operation.lubricant", "butter")
+    page.get_by_label("all for lubricant").select_option("ISO VG 320 mineral")
+    settled(page)
+    expect(page.locator(".fault")).to_have_count(0)
+    expect(page.locator("#field-operation-lubricant")).to_have_value("ISO VG 320 mineral")
+    # A bound that the key takes may make no gearset: the way back is still there.
+    refused(page, "gear", "gearset-3", "gearset.wheel_teeth", "0")
+    page.get_by_role("button", name="wheel teeth 3").click()
+    settled(page)
+    expect(page.locator(".mending")).to_contain_text("wheel teeth, 3")
+    page.get_by_role("button", name="without wheel teeth").or_(
+        page.get_by_role("button", name="back to 60")
+    ).first.click()
+    settled(page)
+    expect(page.locator(".fault")).to_have_count(0)
+    # What was set leads to a line about another key: it is named, and goes back.
+    page.locator("#field-gearset-centre_distance").fill("0.3 mm")
+    page.locator("#field-gearset-centre_distance").press("Enter")
+    settled(page)
+    expect(page.locator(".mending")).to_contain_text("centre distance, 0.3 mm")
+    expect(page.locator("#field-gearset-centre_distance")).to_have_attribute("aria-invalid", "true")
+    page.get_by_role("button", name="back to 74.93 mm").click()
+    settled(page)
+    expect(page.locator(".fault")).to_have_count(0)
