@@ -26,14 +26,9 @@ PORT = 8321
 
 
 def serve(
-    case: str,
-    port: int,
-    folder: Path | None,
-    tell: Callable[[str], None],
-    *,
+    case: str, port: int, folder: Path | None, tell: Callable[[str], None], units: str = "", *,
     browser: bool,
-    units: str = "",
-) -> None:
+) -> None:  # fmt: skip
     """Serve the page until Ctrl-C.
 
     Parameters
@@ -46,10 +41,8 @@ def serve(
         Where cases, uploads and jobs are; None: where the case is, or the working directory.
     tell : callable
         Takes the address.
-    browser : bool
-        Whether to open it.
-    units : str
-        That it opens in, ``si`` or ``us``; empty: as its reader chose, or as the case has them.
+    units, browser : str, bool
+        What it opens in, empty: as its reader chose or the case has it; and whether to open it.
     """
     import uvicorn
 
@@ -62,10 +55,8 @@ def serve(
     number = listening.getsockname()[1]
     token = token_of(place)
     door = place.resolve() / _DOOR
-    asked = {"case": name, "token": token} if name else {"token": token}
-    if units:
-        asked["units"] = units
-    address = f"http://{HOST}:{number}/#/{screen}?{urlencode(asked)}"
+    query = urlencode({k: v for k, v in (("case", name), ("token", token), ("units", units)) if v})
+    address = f"http://{HOST}:{number}/#/{screen}?{query}"
 
     async def life() -> None:
         page = Page(Folder(place))
