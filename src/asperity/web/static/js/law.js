@@ -49,7 +49,9 @@ export function Law({ work, segments }) {
   const most = Math.max(...found.residuals.map(Math.abs));
   return html`<p class="big">The law <b>${found.law}</b> misses what was measured by at most${" "}
       <b>${digits(most, 2)}</b> of its standard deviations.</p>
-    ${data ? html`<${Against} data=${data} segments=${segments} />` : null}
+    ${data ? html`<${Against} data=${data} segments=${segments} />
+      <p class="says">Bars are of 95 %, and count how uncertain the conditions are as well, such as the amplitude, where
+        the measurements tell: so they are wider than those of the change by itself.</p>` : null}
     <${Table} region="parameters" rows=${found.parameters} columns=${[
       ["parameter", ({ key }) => key, "row"],
       ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
