@@ -57,6 +57,35 @@ method = "periodic"
 """
 
 
+TWO_CYCLES = """
+[slider]
+drive_velocity = "0.37867 mm/s"
+normal_force = "1.02092 N"
+mass = "0.1324 g"
+drive_stiffness = "1045402 N/m"
+drive_damping = "3.212047 N s/m"
+lateral = "free"
+[friction]
+model = "lugre"
+mu = 0.09931
+max_deflection = "56.64 nm"
+law = "vector"
+static_mu = 0.154636
+stribeck_velocity = "1.303273 mm/s"
+contact_damping = "4.43901 N s/m"
+[normal]
+law = "linear"
+control = "force"
+stiffness = "307364 N/m"
+damping_ratio = 0.127578
+[vibration]
+frequency = "24041.95 Hz"
+velocity_ratio = 5.12572
+direction = "199.6 deg"
+elevation = "90 deg"
+"""
+
+
 def pin(*settings):
     return solve(Model.from_case(read_case("normal-pin", TABLES, settings)), history=False)
 
@@ -166,6 +195,22 @@ def test_nothing_is_said_of_friction_at_its_limit_where_a_body_comes_to_it(ratio
     assert answer.settled
     assert answer.ratio == pytest.approx(1.0, abs=1e-9)
     assert not answer.notes
+
+
+def test_a_march_that_repeats_every_second_cycle_is_not_taken_for_the_state_of_one_beside_it(
+    tmp_path,
+):
+    """Pressed above its resonance, LuGre: stable states over one cycle and two, 0.002 apart."""
+    path = tmp_path / "two.toml"
+    path.write_text(TWO_CYCLES)
+    found = [
+        solve(Model.from_case(read_case(path, TABLES, (f"solve.method={how}",))), history=False)
+        for how in ("periodic", "march")
+    ]
+    assert all(one.settled for one in found)
+    assert found[0].ratio == pytest.approx(found[1].ratio, abs=2e-4)
+    assert found[0].ratio == pytest.approx(1.5033, abs=1e-3)
+    assert any("with the ratio 1.505" in note for note in found[0].notes)
 
 
 def test_nor_where_the_drive_still_rings_when_it_is_looked_at_first():

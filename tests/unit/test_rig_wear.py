@@ -120,11 +120,12 @@ def test_one_stretch_that_is_not_there_leaves_the_others_to_themselves(run):
     assert any("file-02.nc lies between them" in note for note in found.notes)
 
 
-def weighed(masses, ways, doubt=0.0):
+def weighed(masses, ways, doubt=0.0, unknown=()):
     """Stretches of a run of the steel disc, by its masses in mg and the ways between."""
     for place, way in enumerate(ways):
         pair = 1e-6 * masses[place], 1e-6 * masses[place + 1]
-        file = FileResult(file=f"{place}", distance=way, path=2.0 * way, path_deviation=doubt * way)
+        path = None if place in unknown else 2.0 * way
+        file = FileResult(file=f"{place}", distance=way, path=path, path_deviation=doubt * way)
         weighing = wear.Weighing("setting-1", {"steel": pair}, (f"{place}",))
         yield Stretch(weighing, [file], [], "transverse", "oil")
 
@@ -248,3 +249,18 @@ def test_a_plan_says_what_its_weighings_will_not_tell():
     assert "a wear rate has no interval" in told
     assert "what vibration adds cannot be told" in told
     assert "wear rate" not in " ".join(planned().notes)
+
+
+def test_where_one_vibration_is_not_known_there_is_no_rate_by_path():
+    pair, notes = pair_of_the_rig(), []
+    masses, ways = [10.0, 9.0, 8.0, 7.0], [1.0, 1.0, 1.0]
+    (known,) = wear_rates(pair, list(weighed(masses, ways)), 1e-10, 0.95, notes)
+    assert not notes
+    run = list(weighed(masses, ways, unknown=(1,)))
+    (found,) = wear_rates(pair, run, 1e-10, 0.95, notes)
+    assert (found.path, found.wear_rate, found.archard) == (None, None, None)
+    assert found.wear_rate_by_distance.value == known.wear_rate_by_distance.value
+    assert "nor so the path; its wear rate is by distance alone" in notes[0]
+    assert wear.path_of([FileResult(file="0", distance=1.0, path=2.0)]) == 2.0
+    # A zero is a path that is known: nobody slid.
+    assert wear.path_of([FileResult(file="0", distance=0.0, path=0.0)]) == 0.0

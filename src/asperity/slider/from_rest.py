@@ -21,6 +21,7 @@ from asperity.slider.steady import fading_rate
 _SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
 _NEAR = 0.02  # of mu F_N, that a march may be from the state that it comes to
+_THERE = 1e-4  # of mu F_N, that it is from a state whose cycles it repeats already
 _NEARER = 0.9  # of how far it was, where a march is on its way
 _GONE = 1.0  # time constants of a contact's ringing, from which on a march comes nearer
 _TAKEN_UP = 1.2
@@ -186,12 +187,14 @@ def alike_after(last: FloatArray, period: int) -> bool:
 
 def _repeating(body: Cycle, last: FloatArray) -> Cycle | None:
     """Return the state next to where a march is, over as many cycles as its last ones repeat."""
-    for period in _PERIODS:
-        if period > 1 and not alike_after(last, period):
-            continue
+    alike = [period for period in _PERIODS if alike_after(last, period)]
+    # Beside a state over two cycles to which it has come there may be a stable one over one.
+    tried = [(period, _THERE) for period in alike] + [(1, _NEAR)]
+    tried += [(period, _NEAR) for period in alike if period > 1]
+    for period, near in tried:
         found = body.copied()
         found.repeat(period)
-        if found.find(-1) and abs(ratio_of(found) - float(np.mean(last))) <= _NEAR:
+        if found.find(-1) and abs(ratio_of(found) - float(np.mean(last))) <= near:
             return found
     return None
 

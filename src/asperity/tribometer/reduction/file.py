@@ -322,23 +322,25 @@ def _file(
     distance = float(sliding.sum() * blocks.length)
     path: float | None = None if pair.geared else distance
     path_deviation = 0.0  # The same amplifier and sensor err in all segments alike.
+    shaken = 0.0
     for segment, one in zip(segments, found, strict=True):
-        if path is not None and one.k_v_with is not None:
-            # All of the vibration, not only the window that is reduced.
-            part = sliding[round(segment.start / blocks.length) : segment.shaken.last + 1]
-            slid = float(part.sum() * blocks.length)
-            path += (wear.path_share(one.k_v_with, pair.rig.mode) - 1.0) * slid
-            if one.velocity_amplitude and one.velocity_deviation:
-                doubt = one.velocity_deviation / one.velocity_amplitude
-                path_deviation += wear.path_change(one.k_v_with, pair.rig.mode, doubt) * slid
+        # All of the vibration, not only the window that is reduced.
+        part = sliding[round(segment.start / blocks.length) : segment.shaken.last + 1]
+        slid = float(part.sum() * blocks.length)
+        shaken += slid
+        if path is None or one.k_v_with is None:
+            path = None  # discs were shaken, and nobody knows how much
+            continue
+        path += (wear.path_share(one.k_v_with, pair.rig.mode) - 1.0) * slid
+        if one.velocity_amplitude and one.velocity_deviation:
+            doubt = one.velocity_deviation / one.velocity_amplitude
+            path_deviation += wear.path_change(one.k_v_with, pair.rig.mode, doubt) * slid
     losses = {name: wear.mass_loss(recording.events, name) for name in ("steel", "bronze")}
     numbers: dict[str, Any] = {}
     for name, disc in (("steel", pair.steel), ("bronze", pair.bronze)):
         loss = losses[name]
         numbers[f"mass_loss_{name}"] = None if loss is None else 1e6 * loss
-        numbers[f"wear_{name}"] = (
-            None if path is None else wear.archard(loss, disc, pair.load, path)
-        )
+        numbers[f"wear_{name}"] = wear.archard(loss, disc, pair.load, path)
     if levels is not None:
         numbers |= {
             "runout_steel": 100.0 * levels.runout[0], "runout_bronze": 100.0 * levels.runout[1],
@@ -350,5 +352,5 @@ def _file(
     )
     return FileResult(
         file=recording.name, simulated=recording.simulated, distance=distance, path=path,
-        path_deviation=path_deviation, gaps=gaps, **numbers,
+        path_deviation=path_deviation, shaken_distance=shaken, gaps=gaps, **numbers,
     )  # fmt: skip

@@ -14,7 +14,7 @@ from asperity.results.table import Table
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budget_tables
 from asperity.tribometer.reduction.rows import csv_of
-from asperity.tribometer.reduction.wear_result import WearResult, wear_table
+from asperity.tribometer.reduction.wear_result import WearResult, path_told, wear_table
 from asperity.tribometer.uncertainty import Budget, Budgeted
 
 if TYPE_CHECKING:
@@ -145,6 +145,8 @@ class FileResult(Quantities):
     ----------
     path_deviation : float
         Standard deviation of the path by that of the vibration's velocity, m.
+    shaken_distance : float
+        Sliding distance with vibration, m.
     gaps, findings : tuple of dict
         As JSON has them.
     """
@@ -164,6 +166,7 @@ class FileResult(Quantities):
     wear_steel: float | None = quantity("K", "", "Archard's coefficient, steel", default=None)
     wear_bronze: float | None = quantity("K", "", "Archard's coefficient, bronze", default=None)
     path_deviation: float = 0.0
+    shaken_distance: float = 0.0
     gaps: tuple[dict[str, Any], ...] = ()
     findings: tuple[dict[str, Any], ...] = ()
 
@@ -292,7 +295,7 @@ class Reduced(Result):
             )
         remarks = [
             f"{one['disc']} disc{_between(one)}: {one['mass_loss_mg']:.3g} mg lost over "
-            f"{one['distance_m']:.3g} m of sliding, {one['path_m']:.3g} m with the vibration's path"
+            f"{one['distance_m']:.3g} m of sliding, {path_told(one['path_m'])}"
             + (f": Archard's K is {one['archard']:.3g}" if one["archard"] is not None else "")
             for one in self.weighed
         ]

@@ -140,16 +140,23 @@ def of_weighing(
 def _worn(pair: Pair, name: str, loss: float, files: Sequence[FileResult]) -> dict[str, Any]:
     disc: Disc = pair.steel if name == "steel" else pair.bronze
     distance = sum(one.distance for one in files)
-    path = sum(one.path or one.distance for one in files)
+    path = path_of(files)
     return {
         "disc": name, "mass_loss_mg": 1e6 * loss, "distance_m": distance, "path_m": path,
         "archard": archard(loss, disc, pair.load, path),
     }  # fmt: skip
 
 
-def archard(loss: float | None, disc: Disc, load: float, path: float) -> float | None:
+def path_of(files: Sequence[FileResult]) -> float | None:
+    """Return the path of discs over recordings, m; None where that of one is not known."""
+    paths = [one.path for one in files]
+    known = [path for path in paths if path is not None]
+    return sum(known) if len(known) == len(paths) else None
+
+
+def archard(loss: float | None, disc: Disc, load: float, path: float | None) -> float | None:
     """Return Archard's coefficient of a mass loss in kg; None where something is not known."""
-    if loss is None or disc.density is None or disc.hardness is None or path <= 0.0:
+    if loss is None or disc.density is None or disc.hardness is None or not path or path <= 0.0:
         return None
     return loss / disc.density * disc.hardness / (load * path)
 

@@ -11,7 +11,7 @@ from asperity.tribometer.calibration import Line, fitted_line
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.parameters import Disc
 from asperity.tribometer.reduction.result import FileResult, SegmentResult
-from asperity.tribometer.reduction.wear import DISCS, Weighing
+from asperity.tribometer.reduction.wear import DISCS, Weighing, path_of
 from asperity.tribometer.reduction.wear_result import WearResult
 from asperity.tribometer.uncertainty import Budget, Budgeted, Cause, Contribution
 
@@ -101,31 +101,47 @@ def _of_run(
 ) -> WearResult:
     masses = [run[0].weighing.masses[name][0]]
     ways: dict[str, list[float]] = {"distance": [0.0], "path": [0.0]}
-    doubt = 0.0
+    doubt, known = 0.0, True
     for one in run:
         masses.append(one.weighing.masses[name][1])
         ways["distance"].append(ways["distance"][-1] + sum(of.distance for of in one.files))
-        gone = sum(of.distance if of.path is None else of.path for of in one.files)
-        ways["path"].append(ways["path"][-1] + gone)
+        gone = path_of(one.files)
+        known = known and gone is not None
+        ways["path"].append(ways["path"][-1] + (gone or 0.0))
         doubt += sum(of.path_deviation for of in one.files)
-    path = ways["path"][-1]
+    path = ways["path"][-1] if known else None
+    distance = ways["distance"][-1]
     rates: dict[str, Budgeted | None] = dict.fromkeys(("path", "distance"))
     if disc.density is None:
         notes.append(f"{name} disc of {setting}: no density is given, and so no wear rate")
-    elif (why := _unknown(masses, uncertainty)) and path > 0.0:
+    elif (why := _unknown(masses, uncertainty)) and distance > 0.0:
         notes.append(f"{name} disc of {setting}: {why}")
-    elif path > 0.0:
+    elif distance > 0.0:
         by_volume = -_TO_MM3 / (disc.density * pair.load)
-        for way, off in (("path", doubt / path), ("distance", 0.0)):
+        if path is None:
+            refused = [
+                f"{one.file} at {one.start or 0.0:.0f} s"
+                for of in run for one in of.segments if one.k_v_with is None
+            ]  # fmt: skip
+            notes.append(
+                f"{name} disc of {setting}: k is not known of the vibration of "
+                f"{', '.join(refused)}, nor so the path; its wear rate is by distance alone"
+            )
+        offs = {} if path is None else {"path": doubt / path}
+        for way, off in (offs | {"distance": 0.0}).items():
             line = _line(ways[way], masses, uncertainty)
             rates[way] = _rate(line, by_volume, off, uncertainty, confidence)
+    if path is None and (alone := rates["distance"]) is not None:
+        notes[-1] += f", {alone.value:.4g} ({alone.low:.4g} to {alone.high:.4g}) mm3/(N m)"
     rate = rates["path"]
     hardness = disc.hardness
     shaken = [one.commanded for of in run for one in of.segments if one.commanded is not None]
     return WearResult(
         disc=name, setting=setting, mode=run[0].mode, lubricant=run[0].lubricant,
         frequency=shaken[0] if shaken else 0.0, weighings=len(masses),
-        distance=ways["distance"][-1], path=path, mass_loss=1e6 * (masses[0] - masses[-1]),
+        distance=distance, path=path,
+        shaken_distance=sum(file.shaken_distance for one in run for file in one.files),
+        mass_loss=1e6 * (masses[0] - masses[-1]),
         wear_rate=rate, wear_rate_by_distance=rates["distance"],
         archard=None if rate is None or hardness is None else rate.value / _TO_MM3 * hardness,
     )  # fmt: skip

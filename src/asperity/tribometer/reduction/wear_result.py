@@ -22,7 +22,8 @@ class WearResult(Quantities):
     frequency: float = quantity("f", "Hz", "frequency of the vibration; 0: none")
     weighings: int = quantity("", "", "weighings")
     distance: float = quantity("s", "m", "sliding distance")
-    path: float = quantity("", "m", "path of the discs on each other, vibration counted")
+    shaken_distance: float = quantity("", "m", "sliding distance with vibration")
+    path: float | None = quantity("", "m", "path of the discs on each other, vibration counted")
     mass_loss: float = quantity("", "mg", "mass lost from the first weighing to the last")
     wear_rate: Budgeted | None = measured(
         "k", _UNIT, "volume lost by force and path", key="wear_rate_mm3_per_Nm"
@@ -61,16 +62,25 @@ def ratios(rates: Sequence[WearResult]) -> Iterator[str]:
         # Halves of intervals, as of a product of independent numbers.
         half = math.hypot((a.high - a.value) / b.value, ratio * (b.high - b.value) / b.value)
         yield (
-            f"{one.disc} disc, {one.frequency:g} Hz {one.mode}: over the same distance "
+            f"{one.disc} disc, {one.frequency:g} Hz {one.mode}: over the same distance, "
+            f"{100.0 * one.shaken_distance / one.distance:.3g} % of it shaken, "
             f"{ratio:.3g} ({ratio - half:.3g} to {ratio + half:.3g}) times the wear without "
-            f"vibration, on {one.path / one.distance:.3g} times the path"
+            "vibration"
+            + ("" if one.path is None else f", on {one.path / one.distance:.3g} times the path")
         )
+
+
+def path_told(path: float | None) -> str:
+    """Return a path in words, m; None where it is not known."""
+    if path is None:
+        return "on a path that is not known, since k is not of every vibration"
+    return f"{path:.3g} m with the vibration's path"
 
 
 def wear_table(rates: Sequence[WearResult]) -> Table:
     """Return a row for each disc of each run, and below what vibration changes."""
     rows = [
-        (one.setting, one.disc, *(f"{number:.4g}" for number in (
+        (one.setting, one.disc, *("" if number is None else f"{number:.4g}" for number in (
             one.frequency, one.distance, one.path)), f"{one.mass_loss:.3g}",
          *("" if number is None else f"{number:.4g}" for number in (
              *numbers_of(one.wear_rate), one.archard)))

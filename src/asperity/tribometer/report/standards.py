@@ -19,6 +19,7 @@ from asperity.tribometer.parameters import Conditions, Disc, Lubricant
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.blocks import lines_of
 from asperity.tribometer.reduction.result import REFUSED, FileResult, Reduced, SegmentResult
+from asperity.tribometer.reduction.wear import path_of
 from asperity.tribometer.signals import SIGNALS
 
 STANDARDS = {
@@ -162,8 +163,8 @@ def _parameters(
               if one and one.value]  # fmt: skip
     yield "sliding speed", _range(speeds, "mm/s")
     yield "sliding distance", f"{sum(one.distance for one in files):.4g} m"
-    paths = [one.path for one in files if one.path]
-    yield "path with vibration", f"{sum(paths):.4g} m" if paths else MISSING
+    path = path_of(files)
+    yield "path with vibration", f"{path:.4g} m" if path else MISSING
     yield (
         "sliding radius",
         f"{1e3 * pair.steel.radius:g} mm (steel), " + (f"{1e3 * pair.bronze.radius:g} mm (bronze)"),
