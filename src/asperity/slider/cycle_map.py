@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from typing import TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.slider import kernels as k
@@ -25,6 +26,8 @@ _Kind = TypeVar("_Kind")
 UNSTABLE = 1.0 + 1e-3
 _PUSH = 1e-3
 _WATCHED = 64  # cycles of a march that is pushed
+_FEW = 4  # of them, after which a drive force that keeps this share of what is allowed has told it
+_CLEARLY = 0.1
 _LASTING = 1.0 - 1e-5  # a multiplier by differences is as exact
 _SURE = 1.0 + 2e-5  # above which it is not 1
 _LONGER = 64, 4  # times the cycles, and times these: over which a slow growth is told
@@ -163,20 +166,29 @@ class Cycle:
         """Whether a disturbance of a state lasts, and the drive force follows it."""
         if not _LASTING <= growth <= UNSTABLE:
             return False
-        ratio = float(self.body.sums["drive_force"] / self.body.sums["steps"])
-        # A ring of the drive comes and goes with its sign: what both sides share is what it does.
-        mode = _mode(self.jacobian)
-        means = [
-            mean
-            for push in (_FAR_PUSH, -_FAR_PUSH)
-            for _, mean in self.pushed(push * mode, _WATCHED)
-        ]
         most = _SAME_RATIO if self.q is not None else _SAME_IN_PLANE
-        return not abs(float(np.mean(means)) - ratio) <= most
+        mode = _mode(self.jacobian)
+        if self.q is None and mode.imag.any():
+            # A ring. What it does by its square turns twice as fast: a quarter of it apart, a few
+            # cycles tell the most of that. What creeps, or bounces, may do so much later.
+            parts = mode.real, mode.imag
+            if all(abs(self._shift(part, _FEW)) <= _CLEARLY * most for part in parts):
+                return False
+        return not abs(self._shift(mode.real, _WATCHED)) <= most
+
+    def _shift(self, mode: FloatArray, cycles: int) -> float:
+        """How far the mean drive force over mu F_N is off the state's in cycles after a push.
+
+        A ring of the drive comes and goes with its sign: what both sides share is what it does.
+        """
+        means = [
+            mean for push in (_FAR_PUSH, -_FAR_PUSH) for _, mean in self.pushed(push * mode, cycles)
+        ]
+        return float(np.mean(means) - self.body.sums["drive_force"] / self.body.sums["steps"])
 
     def _marched(self, growth: float) -> float:
         """Return how much a push grows a cycle in a march, to the worse side, for what it may."""
-        worst, mode = 0.0, _mode(self.jacobian)
+        worst, mode = 0.0, _mode(self.jacobian).real
         half = round(0.5 * min(max(math.log(_GONE) / math.log(growth), _WATCHED), _MOST_WATCHED))
         for push in (_PUSH, -_PUSH):
             # The mode may turn round slowly: the most of a time tells more than its end.
@@ -256,10 +268,10 @@ def _growth(jacobian: FloatArray) -> float:
     return float(np.abs(np.linalg.eigvals(jacobian + np.eye(len(jacobian)))).max())
 
 
-def _mode(jacobian: FloatArray) -> FloatArray:
+def _mode(jacobian: FloatArray) -> npt.NDArray[np.complex128]:
     """Return what has the largest multiplier, its largest number 1."""
     growths, modes = np.linalg.eig(jacobian + np.eye(len(jacobian)))
     mode = modes[:, int(np.argmax(np.abs(growths)))]
     # Turned so that its real part is its most.
-    found: FloatArray = (mode / mode[np.argmax(np.abs(mode))]).real
+    found: npt.NDArray[np.complex128] = mode / mode[np.argmax(np.abs(mode))]
     return found
