@@ -53,10 +53,11 @@ from asperity.runs import Run
 
 LOAD = 366.0
 OWN_FRICTION = 0.1349
-GEARSET_3 = ("friction.model=coulomb", f"friction.mu={OWN_FRICTION}")
+GEARSET_3 = ("friction.model=coulomb", f"friction.mu={OWN_FRICTION}", "drive.threads=rigid")
 GEARSET_2 = (
     "gearset.centre_distance=60 mm", "gearset.axial_module=1.69492 mm",
     "operation.output_torque=100 N m", "friction.model=coulomb", "friction.mu=0.149",
+    "drive.threads=rigid",
 )  # fmt: skip
 ONE_TOOTH = ("drive.teeth=1",)
 PHASES = 12

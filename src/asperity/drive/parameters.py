@@ -61,8 +61,10 @@ class Drive(Table):
     wheel_body : {'rim', 'web'}
         What of the wheel gives beside its teeth: the rim of the sector, its inside held; or rim and
         web of the whole wheel, held at its hub, as ``[blank]`` has them or as is usual.
-    threads : {'rigid', 'elastic'}
-        Whether the worm's threads give where they are pressed, as a half-space of their steel.
+    threads : {'elastic', 'rigid'}
+        Whether the worm's threads give where they are pressed, as a half-space of their steel, as
+        they do in the resolved pressures; rigid ones deflect a fifth less, as models with a rigid
+        worm do.
     plastic : bool
         Whether pressures of loaded teeth end at the hardness of the wheel, as its edges flow; false
         for elastic ones.
@@ -109,7 +111,7 @@ class Drive(Table):
     teeth: Annotated[int, Field(strict=True, ge=1, le=9)] = 5
     density: Literal["coarse", "intermediate", "fine"] = "coarse"
     wheel_body: Literal["rim", "web"] = "rim"
-    threads: Literal["rigid", "elastic"] = "rigid"
+    threads: Literal["rigid", "elastic"] = "elastic"
     plastic: bool = True
     phases: Annotated[int, Field(strict=True, ge=1, le=360)] = 24
     friction: Literal["constant", "iso14521"] = "constant"

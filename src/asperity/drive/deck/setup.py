@@ -70,12 +70,14 @@ class TeethSetup:
     def from_case(cls, case: Case, run: Run | None = None) -> "TeethSetup":
         """Gather the tables of a case; its teeth are condensed if none are kept.
 
+        The worm is rigid, whatever ``drive.threads`` says: a deck has its flanks as a surface.
+
         Raises
         ------
         InputError
             The case makes no drive, or its teeth cannot carry the torque.
         """
-        problem = prepare(case, static=True)
+        problem = _with_rigid_threads(prepare(case, static=True))
         if problem.wheel_body is not None:
             raise InputError(
                 "drive.wheel_body is 'web'; a deck holds the inside of the rim: leave it out, or "
@@ -231,12 +233,17 @@ def turned_about(
     )
 
 
+def _with_rigid_threads(problem: DriveProblem) -> DriveProblem:
+    drive = problem.drive.model_copy(update={"threads": "rigid"})
+    return dataclasses.replace(problem, drive=drive)
+
+
 def _shaken(case: Case) -> tuple[DriveProblem | None, str]:
     """Return a case's drive under a vibration that a deck can make, or why there is none."""
     if Vibration.table not in case:
         return None, ""
     try:
-        problem = DriveProblem.from_case(case)
+        problem = _with_rigid_threads(DriveProblem.from_case(case))
     except InputError as error:
         return None, str(error)
     vibration, shape = problem.vibrated

@@ -59,11 +59,13 @@ def rigid_parts(problem: DriveProblem) -> Iterator[str]:
         else f"the wheel is held at its hub of {2.0 * body.hub_radius:.4g} mm, on a web "
         f"{body.web_width:.4g} mm wide ([blank])"
     )
-    if problem.drive.threads == "rigid":
-        yield (
-            "the worm's threads are rigid (drive.threads) in torque, deflection and error; in the "
-            "pressures they give as a half-space"
-        )
+    yield (
+        "the worm's threads are rigid (drive.threads) in torque, deflection and error; in the "
+        "pressures they give as a half-space"
+        if problem.drive.threads == "rigid"
+        else "the worm's threads give as a half-space (drive.threads); what they bend as "
+        "cantilevers is left out"
+    )
 
 
 def _pressures(problem: DriveProblem, seen: Seen) -> Iterator[str]:
