@@ -3,6 +3,8 @@
 import itertools
 import math
 import pickle
+import tomllib
+from importlib.resources import files
 from types import SimpleNamespace
 
 import numpy as np
@@ -16,7 +18,7 @@ from asperity.flanks.parameters import Mount
 from asperity.sweep import read_grid
 from asperity.thesis.contact.derivatives import Before, scheme
 from asperity.thesis.contents import CLAIMS
-from asperity.thesis.drive import claims
+from asperity.thesis.drive import claims, fine
 from asperity.thesis.drive.appendix_e import (
     Subroutine,
     advance,
@@ -26,7 +28,16 @@ from asperity.thesis.drive.appendix_e import (
 )
 from asperity.thesis.drive.marches import from_start
 from asperity.thesis.drive.sets import AMPLITUDE, RATIOS, SPEED, conditions
-from asperity.thesis.drive.simulations import BASE, FACTORS, OURS, PARTS, of_set, varied
+from asperity.thesis.drive.simulations import (
+    BASE,
+    FACTORS,
+    MESHES,
+    OURS,
+    PARTS,
+    of_set,
+    on_mesh,
+    varied,
+)
 
 
 def test_the_table_of_points_that_ships_has_the_thesis_s_simulations():
@@ -151,6 +162,25 @@ def test_every_exhibit_of_the_marches_names_what_it_needs_and_its_commands():
         assert needed, name
         assert all(one.command().startswith("asperity drive drive-") for one in needed)
     assert len({one.task.name for one in (*PARTS["figure 7.13"](False), *of_set(3))}) == 33
+
+
+@pytest.mark.slow
+def test_the_fine_mesh_that_is_kept_is_the_one_that_is_condensed():
+    kept = tomllib.loads(files("asperity.thesis.drive").joinpath("fine.toml").read_text("utf-8"))
+    assert tomllib.loads("\n".join(fine.lines(fine.computed()))) == kept
+
+
+def test_the_mesh_study_has_three_densities_at_every_velocity_ratio_and_marches_each_as_named():
+    each = [on_mesh(name) for name in MESHES]
+    assert {len(group) for group in each} == {len(RATIOS)}
+    turns = []
+    for name, group in zip(MESHES, each, strict=True):
+        drive = read_case(BASE, case_tables(), group[0].settings).require(Drive)
+        turns.append(drive.deflection)
+        assert name == MESHES[-1] or drive.density == name
+        assert name == MESHES[0] or group[0].name.endswith(f"drive.density={name}")
+    assert [turn is None for turn in turns] == [True, True, False]
+    assert turns[-1][2] == pytest.approx((366.0, 435e-6), rel=1e-2)
 
 
 def test_at_a_tenth_of_the_sliding_speed_hardly_anything_happens():

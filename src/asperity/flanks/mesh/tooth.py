@@ -110,11 +110,17 @@ def _expected(text: str) -> str:
     )
 
 
+def flank_height(wheel: Wheel) -> float:
+    """Return the height of a flank along its slant at mid-face, mm."""
+    g = wheel.pair.geometry
+    height = (g.wheel_throat_diameter - g.wheel_root_diameter) / 2.0 - g.clearance
+    return height / math.cos(g.axial_pressure_angle)
+
+
 def counts(wheel: Wheel, size: float) -> Counts:
     """Return how many hexahedra an element size on the flank makes of a tooth; size in mm."""
     g = wheel.pair.geometry
-    height = (g.wheel_throat_diameter - g.wheel_root_diameter) / 2.0 - g.clearance
-    slant = height / math.cos(g.axial_pressure_angle)
+    slant = flank_height(wheel)
     thickness = math.pi * g.axial_module / 2.0
 
     def cells(length: float, least: int) -> int:

@@ -1,6 +1,7 @@
 """Claims 7.2, 7.3, 7.7, 7.10, 7.15 and 7.17: the gearset marched under vibration."""
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from asperity.thesis.drive.sets import (
 from asperity.thesis.drive.simulations import (
     ACTUATOR,
     BASE,
-    TRIED,
+    MESHES,
     Simulation,
     meshes,
     of_set,
@@ -34,7 +35,6 @@ from asperity.thesis.products import ARITHMETIC, FITTED, NOT_TESTABLE, Finding
 from asperity.thesis.rating.printed import EFFICIENCY
 from asperity.thesis.rating.rated import GEARSET_2, GEARSET_3
 
-_MESHES = ("coarse", "intermediate")
 _NEAR = 0.03
 """Of a torque that is reconstructed."""
 
@@ -46,7 +46,6 @@ _FIRST = 50
 _APART = 0.1
 _CLEAR = 0.03
 """A difference of two ratios that a figure would show clearly."""
-_TRIED = TRIED
 
 
 def _parted(runs: "list[Shaken]") -> str:
@@ -107,48 +106,61 @@ def _static() -> Finding:
 def _densities() -> Finding:
     teeth = meshes()
     found = [one.loaded() for one in teeth]
-    torques = np.array([one.torque for one in found])
-    deflections = np.array([one.deflection for one in found])
-    errors = np.array([one.error for one in found])
-    pressures = np.array([one.pressure for one in found])
-    runs = [on_mesh(name) for name in _MESHES]
-    shaken = [[run.shaken() for run in group] for group in runs]
+    runs = {name: on_mesh(name) for name in MESHES}
+    shaken = [[run.shaken() for run in group] for group in runs.values()]
     ratios = np.array([[one.ratio for one in group] for group in shaken])
-    apart = np.ptp(ratios, axis=0)
-    settled = np.array([[one.settled for one in group] for group in shaken]).min(axis=0)
+    settled = np.min([[one.settled for one in group] for group in shaken], axis=0).astype(bool)
+    steps = np.abs(np.diff(ratios, axis=0))  # coarse to intermediate, intermediate to fine
+    first, second = (step[settled].max(initial=0.0) for step in steps)
+    nearer = int((steps[1] < steps[0])[settled].sum())
+    places = [RATIOS.index(k) for k in (5.0, RATIOS[-1])]
     shown = (
-        f"{' and '.join(f'{ratio:.3f}' for ratio in both)} at k_w = {k:g}"
-        + ("" if ends else ", not both settled")
-        for both, k, ends in zip(ratios.T, _TRIED, settled, strict=True)
+        f"{', '.join(f'{ratio:.3f}' for ratio in ratios[:, at])} at k_w = {RATIOS[at]:g}"
+        + ("" if settled[at] else ", not all settled")
+        for at in places
     )
+    loose = ", ".join(f"{k:g}" for k, ends in zip(RATIOS, settled, strict=True) if not ends)
+
+    def each(values: Iterable[float], form: str) -> str:
+        return " and ".join(format(value, form) for value in values)
+
     return Finding.judged(
         {},
-        f"ratio under vibration on the coarse and the intermediate mesh {'; '.join(shown)}",
+        f"ratio under vibration on the coarse, intermediate and fine mesh {'; '.join(shown)}",
         "The element sizes of Table 7.4 and the faceted flanks that were meshed are lost. On exact "
-        "flanks, which are the same on every mesh, two densities give one ratio where both have "
-        f"settled, within {apart[settled].max(initial=0.0):.4f}; where flanks hammer and one has "
-        "not, each has one of its own, as states do that differ by nothing else (figure 7.14). "
-        "What the density could change is how far the teeth deflect, and that is "
-        + " and ".join(f"{1e6 * d:.0f}" for d in deflections)
-        + " urad with the shaft's twist on the coarse and the intermediate mesh; static torques "
-        + " and ".join(f"{torque:.3f}" for torque in torques)
-        + " N m, transmission errors "
-        + " and ".join(f"{1e6 * e:.0f}" for e in errors)
-        + f" urad with {' and '.join(str(one.nodes) for one in found)} nodes a flank. What does "
-        "change is the pressure at nodes, "
-        + " and ".join(f"{1e-9 * p:.1f}" for p in pressures)
-        + " GPa: contact is narrower than the elements. The fine mesh is dear and not tried here; "
-        "docs, Loaded teeth, has it.",
-        {f"torque_{name}_Nm": t for name, t in zip(_MESHES, torques.tolist(), strict=True)}
-        | {
-            f"deflection_{name}_urad": 1e6 * d
-            for name, d in zip(_MESHES, deflections.tolist(), strict=True)
+        "flanks, which are the same on every mesh, three densities of one family (figure 7.11) "
+        f"are at most {first:.3f} of the ratio apart from coarse to intermediate and {second:.3f} "
+        f"from intermediate to fine, at the {settled.sum()} of {len(RATIOS)} velocity ratios where "
+        f"all three have settled; intermediate and fine are the closer pair at {nearer} of these. "
+        + (f"At k_w = {loose} flanks hammer and one or more have not settled: there each has a "
+           "ratio of its own, as states do that differ by nothing else (figure 7.14). "
+           if loose else "")
+        + "What the density changes is how far the teeth deflect under load, "
+        f"{each((1e6 * one.deflection for one in found), '.0f')} urad with the shaft's twist on "
+        "the coarse and the intermediate mesh; static torques "
+        f"{each((one.torque for one in found), '.3f')} N m, transmission errors "
+        f"{each((1e6 * one.error for one in found), '.0f')} urad, pressures at nodes "
+        f"{each((1e-9 * one.pressure for one in found), '.1f')} GPa: contact is narrower than the "
+        "elements. The fine mesh's deflection is kept with the package, since it is dear: "
+        "drive.density = 'fine' gives it.",
+        {
+            f"{what}_{name}_{unit}": scale * getattr(one, what)
+            for what, unit, scale in (("torque", "Nm", 1.0), ("deflection", "urad", 1e6))
+            for name, one in zip(MESHES, found, strict=False)
         }
-        | {f"ratio_apart_at_k_w_{k:g}": d for k, d in zip(_TRIED, apart.tolist(), strict=True)},
-        [*teeth, *(run for group in runs for run in group)],
+        | {
+            f"ratio_{name}_at_k_w_{RATIOS[at]:g}": float(own[at])
+            for name, own in zip(MESHES, ratios, strict=True)
+            for at in places
+        }
+        | {
+            "most_apart_coarse_to_intermediate": float(first),
+            "most_apart_intermediate_to_fine": float(second),
+        },
+        [*teeth, *(run for group in runs.values() for run in group)],
         verdict=NOT_TESTABLE,
         assumed=assumed(),
-    )
+    )  # fmt: skip
 
 
 @claim("7.3")

@@ -14,9 +14,10 @@ from asperity.thesis.drive.sets import RATIOS, SHAKEN, UNSHAKEN, conditions
 from asperity.thesis.drive.simulations import (
     ACTUATOR,
     COULOMB,
-    CUT_OUT,
+    MESHES,
     Simulation,
     of_set,
+    on_mesh,
     simulation,
 )
 from asperity.thesis.exhibits import Computed, figure
@@ -67,7 +68,7 @@ def _read(groups: dict[str, Sequence[Simulation]]) -> Computed:
 
 @figure("7.12", drawings.ratios)
 def _meshes() -> Computed:
-    dataset, how = _read({"sector of five": of_set(3), "tooth cut out": of_set(3, CUT_OUT)})
+    dataset, how = _read({name: on_mesh(name) for name in MESHES})
     point = described(thesis=((), SHAKEN / UNSHAKEN, "1", "ratio of the thesis at k_w = 20"))
     return dataset.merge(point), how
 

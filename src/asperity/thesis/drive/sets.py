@@ -3,6 +3,9 @@
 import dataclasses
 import math
 
+BASE = "drive-thesis"
+"""Gearset 3 with its shaft and load; what is set of it is the vibration, speed and load."""
+
 AMPLITUDE, SPEED = 0.16e-3, 1510.8e-3
 """Of set 3: the worm's amplitude, m, and the flanks' sliding speed, m/s; thesis 7.2.4."""
 

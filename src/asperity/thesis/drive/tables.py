@@ -2,10 +2,11 @@
 
 import math
 
-from asperity.flanks.mesh.tooth import DENSITIES, element_size
+from asperity.flanks.mesh.tooth import contact_counts, flank_height
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.thesis.drive.claims import GEAR
 from asperity.thesis.drive.sets import conditions
+from asperity.thesis.drive.simulations import BASE, MESHES
 from asperity.thesis.exhibits import table
 from asperity.thesis.flanks.meshing import pair_of
 from asperity.thesis.products import Grid
@@ -49,16 +50,23 @@ def _state() -> Grid:
 @table("7.4")
 def _sizes() -> Grid:
     wheel = Wheel.cut(pair_of(GEAR))
-    coarse = element_size(wheel, "coarse")
+    height, face = flank_height(wheel), wheel.pair.geometry.wheel_face_width
+    coarse = contact_counts(MESHES[0])
     return Grid.of(
-        list(DENSITIES),
+        [(name, contact_counts(name)) for name in MESHES],
         {
-            "mesh": str,
-            "thesis, % of the coarse one": lambda name: {"coarse": 100, "intermediate": 75}.get(
-                name, 50
+            "mesh": lambda row: row[0],
+            "thesis, % of the coarse one": lambda row: {"coarse": 100, "intermediate": 75}.get(
+                row[0], 50
             ),
-            "here, % of the coarse one": lambda name: 100.0 * element_size(wheel, name) / coarse,
-            "wheel, mm": lambda name: element_size(wheel, name),
+            "here over the height, % of the coarse one": lambda row: (
+                100.0 * coarse.flank / row[1].flank
+            ),
+            "along the face, % of the coarse one": lambda row: 100.0 * coarse.face / row[1].face,
+            "elements over the height": lambda row: row[1].flank,
+            "along the face": lambda row: row[1].face,
+            "over the height, mm": lambda row: height / row[1].flank,
+            "along the face, mm": lambda row: face / row[1].face,
         },
-        *(f"{GEAR.command()} --density {name}" for name in DENSITIES),
+        *(f"asperity drive {BASE} --static --set drive.density={name}" for name in MESHES),
     )

@@ -146,7 +146,8 @@ def densities(dataset: "xr.Dataset") -> "Figure":
         own = dataset.sel(density=name)
         paint(axes, Shape.read(dataset, name), {0: BRONZE}, _TOOTH, edges=0.2)
         axes.set_title(
-            f"{letter}) {name}: {float(own['element_size']):.2f} mm,\n"
+            f"{letter}) {name}: {float(own['element_height']):.2f} x "
+            f"{float(own['element_width']):.2f} mm,\n"
             f"{int(own['elements'])} hexahedra a tooth"
         )
     return figure

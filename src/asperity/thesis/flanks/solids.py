@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.flanks.export.worm import mounted_worm, worm_body
-from asperity.flanks.mesh.tooth import DENSITIES, element_size, tooth
+from asperity.flanks.mesh.tooth import CONTACT_FLANKS, contact_counts, flank_height, tooth
 from asperity.flanks.wheel.enveloped import FlankGrid, Wheel, WheelFlank
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
@@ -128,18 +128,30 @@ def _topology() -> Computed:
 
 @figure("7.11", drawings.densities)
 def _densities() -> Computed:
-    meshes = {name: _mesh(name, 1) for name in DENSITIES}
+    numbers = {name: contact_counts(name) for name in CONTACT_FLANKS}
+    meshes = {name: tooth(_wheel(), counts) for name, counts in numbers.items()}
     variables: dict[str, Any] = {}
     for name, mesh in meshes.items():
         variables |= Shape.of_mesh(mesh).variables(name)
-    size = [element_size(_wheel(), name) for name in DENSITIES]
+    wheel = _wheel()
+    height, face = flank_height(wheel), wheel.pair.geometry.wheel_face_width
+    at = ("density",)
     count = [len(mesh.cells) for mesh in meshes.values()]
     least = [float(mesh.scaled_jacobian().min()) for mesh in meshes.values()]
     dataset = described(
-        density=(("density",), np.array(list(DENSITIES), dtype=object), "1", "mesh density"),
-        element_size=(("density",), size, "mm", "element size on the flank"),
-        elements=(("density",), count, "1", "hexahedra of a tooth"),
-        scaled_jacobian=(("density",), least, "1", "least scaled Jacobian"),
+        density=(at, np.array(list(meshes), dtype=object), "1", "mesh density"),
+        element_height=(
+            at, [height / each.flank for each in numbers.values()], "mm",
+            "of an element over the height of the flank",
+        ),
+        element_width=(
+            at, [face / each.face for each in numbers.values()], "mm",
+            "of an element along the face",
+        ),
+        elements=(at, count, "1", "hexahedra of a tooth"),
+        scaled_jacobian=(at, least, "1", "least scaled Jacobian"),
         **variables,
-    )
-    return dataset, [f"{_FLANK} --density {name} --out out/flank" for name in DENSITIES]
+    )  # fmt: skip
+    return dataset, [
+        f"asperity drive drive-thesis --static --set drive.density={name}" for name in meshes
+    ]
