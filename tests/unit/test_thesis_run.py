@@ -247,6 +247,9 @@ def test_a_number_asks_for_all_that_have_it_in_the_order_of_the_page():
         "claim 2.7", "figure 2.7", "figure 4.17",
     ]  # fmt: skip
     assert [one.name for one in select(["3.2"])] == ["claim 3.2", "figure 3.2", "table 3.2"]
+    of_a_chapter = [one.number.partition(".")[0] for one in select(["3"])]
+    assert set(of_a_chapter) == {"3"}
+    assert [one for one in select([]) if one.number.startswith("3.")] == select(["3"])
     assert len(select([])) == len(CLAIMS) + len(FIGURES) + len(TABLES)
 
 

@@ -3,7 +3,7 @@ r"""One body that is pressed, lifts and lands while it slides: the loop of `marc
 Across the plane it is a leapfrog too: the height lives at whole steps, its velocity half-way
 between, and the load at a node takes the mean of the velocities around it, of which the later one
 follows from the load: a linear equation, for the damping is linear in the velocity. In the plane
-nothing changes but the limit of friction, which follows the load.
+nothing changes but the limit of friction (LuGre's dampings go with it), which follows the load.
 
 Heights are in units of the penetration's length (`asperity.normal`), loads in units of
 :math:`W`, both in steps of time.

@@ -146,7 +146,7 @@ def everything() -> list[Exhibit]:
 
 
 def select(only: Sequence[str]) -> list[Exhibit]:
-    """Return the exhibits of some numbers, all for none.
+    """Return the exhibits of some numbers, or of chapters such as ``7``; all for none.
 
     Raises
     ------
@@ -154,10 +154,15 @@ def select(only: Sequence[str]) -> list[Exhibit]:
         There is nothing of such a number.
     """
     numbers = {exhibit.number for exhibit in everything()}
+    chapters = {chapter_of(number) for number in numbers}
     for number in only:
-        if number not in numbers:
+        if number not in numbers | chapters:
             raise InputError(
                 f"{number!r} is neither a figure nor a table nor a claim that is reproduced"
                 f"{nearest(number, sorted(numbers, key=_order))}"
             )
-    return [exhibit for exhibit in everything() if not only or exhibit.number in only]
+    return [
+        exhibit
+        for exhibit in everything()
+        if not only or exhibit.number in only or chapter_of(exhibit.number) in only
+    ]

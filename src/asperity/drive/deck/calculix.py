@@ -34,6 +34,12 @@ def _deck(setup: TeethSetup) -> Iterator[str]:
     yield "*HEADING"
     yield f"Loaded teeth: {setup.name.replace(',', ' ')}"
     yield from (f"** {line}" for line in setup.notes())
+    law = setup.problem.friction.model
+    if law != "coulomb":
+        yield (
+            f"** Friction is Coulomb's: the law of the case, {law}, is not in this deck, since "
+            "CalculiX takes none of a user's. Once all slides, as at the end, the two are one."
+        )
     yield "** Run: ccx teeth"
     yield from mesh_lines(wheel, "C3D8I", element_set=WHEEL)
     yield from mesh_lines(
