@@ -158,3 +158,17 @@ def test_it_ends_after_so_many_turns():
     found = solve.answer(solve.prepare(case(), revolutions="10"), Run())
     assert found.revolutions == pytest.approx(10.0, rel=1e-12)
     assert found.depth_max < 1.0
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_a_wheel_beds_in_and_goes_on_to_the_bit_from_where_it_was_left")
+def test_a_wheel_of_an_oversized_hob_beds_in_to_bear_as_one_of_the_worm_s_own_size():
+    """Where it ends is known beforehand: the worm has worn the wheel to its own shape."""
+    small = "drive.phases=4", "modification.tip_relief=30 um"
+    own = read_case("drive-screw", case_tables(), (*small, "hob.oversize=1", "hob.tilt=0 deg"))
+    ends_at = solve.answer(solve.prepare(own, revolutions="1e-3"), Run()).pressure_mean_new
+    worn = solve.answer(
+        solve.prepare(read_case("drive-screw", case_tables(), small), depth="100 um"), Run()
+    )
+    assert worn.pressure_mean_new > 1.7 * ends_at
+    assert worn.pressure_mean == pytest.approx(ends_at, rel=0.1)

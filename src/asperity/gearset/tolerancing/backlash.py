@@ -27,6 +27,7 @@ from asperity.gearset.tolerancing.warmth import Warmth
 from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
 
+GEOMETRY = "by geometry"
 _MICROMETRES = 1e3
 _ARCMINUTES = 60.0 * 180.0 / math.pi
 
@@ -241,6 +242,12 @@ class Backlash(NamedTuple):
         parts = (f"{part.name} {part.least:.4g} to {part.greatest:.4g} um" for part in self.parts)
         yield f"on the mean circle: {'; '.join(parts)}"
         yield "likely: 99.7 % of assemblies whose deviations are normal, by the squares"
+        if self.by == GEOMETRY:
+            yield (
+                "straight flanks and a hob as large as the worm are taken: exact ones may leave "
+                "tens of um less, at wide centre distances and of a larger hob; asperity flank "
+                "has them"
+            )
         off = self.allowances
         yield (
             f"centre distance +-{1e3 * off.centre_distance:.4g} um ({off.words['centre_distance']})"
@@ -302,7 +309,7 @@ def backlash(gearset: Gearset, given: Tolerances, wear: float | None = None) -> 
     allowed = Allowances.of(g, given)
     off = 2.0 * _MICROMETRES * allowed.centre_distance * math.tan(g.axial_pressure_angle)
     parts = (*thickness_parts(g, allowed), Part("centre distance", -off, 0.0, off))
-    return assembled(gearset, given, allowed, parts, Interval.of(parts), wear, by="by geometry")
+    return assembled(gearset, given, allowed, parts, Interval.of(parts), wear, by=GEOMETRY)
 
 
 def assembled(

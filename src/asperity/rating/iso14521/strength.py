@@ -101,7 +101,7 @@ def form_factor(axial_module: s.m_x1, root_thickness: s.s_ft2) -> Real:
 
 
 @formula(
-    symbol="Y_K", equation="1 for s_K >= 2 m_x1, else 1.043 ln(5.218 m_x1/s_K)", source=s.ONE_SOURCE
+    symbol="Y_K", equation="1 if s_K >= 2 m_x1 else 1.043 ln(5.218 m_x1/s_K)", source=s.ONE_SOURCE
 )
 def rim_factor(axial_module: s.m_x1, rim_thickness: s.s_K) -> Real:
     """Rim thickness factor of the tooth root; jumps by 0.02 % at two modules.
