@@ -204,7 +204,8 @@ def test_a_block_is_marched_and_its_pressure_shown(seen, server):
     # Both answers of the screen are handed out, settled and marched.
     both = copied(page)
     words = both[both.index("&&") + 1 :]
-    assert "solve.method=march" in words and "solve.method=settled" in both
+    assert "solve.method=march" in words
+    assert "solve.method=settled" in both
     answer = answered([*words, "--json"], server.folder)
     marched = page.get_by_label("Marched in time").locator("[data-key=ratio]").first
     ratio = float(marched.get_attribute("data-value"))

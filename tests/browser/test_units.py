@@ -17,8 +17,9 @@ SMALLER = {("m", "µin"): 1e6 / INCH}
 EVERY = """() => [...document.querySelectorAll("main .num button")].map((button) => ({
   key: button.dataset.key, value: button.dataset.value, of: button.dataset.unit,
   text: button.querySelector("b").textContent,
-  unit: (button.querySelector("i")?.textContent.trim() ?? "").replace(/^°$/, "deg").replace(/^°/, "deg")
-    .replaceAll("²", "2").replaceAll("³", "3").replace(/^µm$/, button.dataset.unit === "um" ? "um" : "µm"),
+  unit: (button.querySelector("i")?.textContent.trim() ?? "")
+    .replace(/^°$/, "deg").replace(/^°/, "deg").replaceAll("²", "2").replaceAll("³", "3")
+    .replace(/^µm$/, button.dataset.unit === "um" ? "um" : "µm"),
 }))"""
 
 
