@@ -196,3 +196,13 @@ def test_the_first_page_asks_three_questions_and_knows_what_was_open_last(seen):
     page.wait_for_timeout(2000)
     page.get_by_role("link", name="Start", exact=True).click()
     expect(page.get_by_label("open last").get_by_role("link", name="Gearset")).to_be_visible()
+
+
+def test_the_first_page_has_cases_to_begin_with_which_open_on_their_screen(seen):
+    page = seen.open("home")
+    begin = page.get_by_label("begin with a case")
+    expect(begin.get_by_role("heading", level=3)).to_have_count(5)
+    begin.get_by_role("link", name="valve-actuator").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("Drive")
+    settled(page)
+    expect(page).to_have_url(re.compile("case=drive-actuator"))

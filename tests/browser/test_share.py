@@ -133,6 +133,8 @@ def test_what_took_long_is_shared_with_its_pictures_and_its_command_gives_it_aga
     case = tmp_path / "again.toml"
     case.write_text(page.locator("#case").inner_text())
     _, command, _, *rest = shlex.split(page.locator(".says code").first.inner_text())
+    # Of a screen with two answers the first command is that of the numbers asked for here.
+    rest = rest[: rest.index("&&")] if "&&" in rest else rest
     # What was set stands in the case.
     sets = {at for at, word in enumerate(rest) if word == "--set"}
     rest = [word for at, word in enumerate(rest) if not {at, at - 1} & sets and word != "--json"]

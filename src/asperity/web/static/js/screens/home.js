@@ -1,6 +1,7 @@
 /** The first page: three questions, each with what answers it in motion, and what was open last. */
 import { html } from "../../vendor/preact.js";
-import { go } from "../state.js";
+import { about } from "../api.js";
+import { address, go } from "../state.js";
 import { lastOpened } from "../visited.js";
 
 /** Slanted threads and teeth, as many as make one turn of the picture. */
@@ -52,6 +53,24 @@ const Link = ({ screen, children, name }) => html`<a href=${`#/${screen}`} class
     go(screen);
   }}>${children}</a>`;
 
+/** Screens whose cases are handed out here, by the kind of case that they open, which is their name. */
+const KINDS = [["gear", "Worm gearsets"], ["drive", "Gearsets, shaken"], ["slide", "Bodies, shaken"],
+  ["block", "Elastic blocks"], ["rig", "Rigs"]];
+/** So many of a kind. */
+const SHOWN = 3;
+
+/** Cases to begin with, of the folder first; each opens on its screen. */
+function Begin() {
+  const groups = KINDS.map(([screen, said]) => ({ screen, said, cases: (about.value?.cases ?? [])
+    .filter(({ kind }) => kind === screen).toSorted((one, other) => Number(one.shipped) - Number(other.shipped)) }));
+  const some = groups.filter(({ cases }) => cases.length);
+  return some.length ? html`<section class="panel" aria-label="begin with a case"><h2>Begin with a case</h2>
+    <div class="begin">${some.map(({ screen, said, cases }) => html`<div key=${screen}><h3>${said}</h3>
+      <ul class="plain">${cases.slice(0, SHOWN).map(({ name, alias, title }) => html`<li key=${name}>
+        <a href=${address({ screen, params: { case: name } })}>${alias || name}</a>${" "}
+        <span class="says">${title}</span></li>`)}</ul></div>`)}</div></section>` : null;
+}
+
 export function view() {
   const last = lastOpened();
   return html`<h1>What would you like to know?</h1>
@@ -63,5 +82,6 @@ export function view() {
       </section>`)}</div>
     ${last.length ? html`<section class="panel" aria-label="open last"><h2>Open last</h2>
       <ul class="plain">${last.map(({ title, says, hash }) => html`<li key=${hash}>
-        <a href=${hash}>${title}</a> <span class="says">${says}</span></li>`)}</ul></section>` : null}`;
+        <a href=${hash}>${title}</a> <span class="says">${says}</span></li>`)}</ul></section>` : null}
+    <${Begin} />`;
 }
