@@ -75,6 +75,8 @@ LISTED = (
     ("densities, expansion, heat", "gearset.tolerancing.warmth:EXPANSION",
      "gearset.tolerancing.warmth:EXPANSION_SOURCE"),
     ("densities, expansion, heat", "rating.housing:HEAT", "rating.housing:HEAT_SOURCE"),
+    ("densities, expansion, heat", 18, "drive.static.flash:THERMAL"),
+    ("flash temperature: its factor", 1, "drive.static.flash:BLOK"),
     ("supply and ultrasound of a drive", "drive.motor:LOWEST_VOLTAGE", "drive.motor:SUPPLY"),
     ("supply and ultrasound of a drive", 2, "drive.motor:ULTRASOUND"),
 )  # fmt: skip
