@@ -20,6 +20,7 @@ PASSING = {
     "file",
     "cached",
     "closure",
+    "condense_seconds",
     "power_residual",
     "residual",
     "torque_balance",
