@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 
 import pytest
 
@@ -32,10 +33,10 @@ def test_without_tolerances_nothing_is_said_of_them(asperity):
 def test_rate_says_the_backlash_new_warm_and_worn(asperity):
     sets = SET, "tolerances.centre_distance=js7", SET, "tolerances.fit=C", SET, TEMPERATURES
     screen = asperity("rate", "gearset-2", *sets)[1]
-    (line,) = (text for text in screen.splitlines() if text.startswith("backlash "))
-    assert "arcmin at the wheel" in line
-    assert "warm" in line
-    assert "more when worn" in line
+    assert screen.count("\nbacklash by geometry ") == 1
+    line = " ".join(screen.partition("\nbacklash by geometry ")[2].split())
+    said = r"[\d.]+ to [\d.]+ arcmin at the wheel; [\d.]+ less warm; [\d.]+ more when worn"
+    assert re.match(said, line)
     answer = json.loads(asperity("rate", "gearset-2", "--json", *sets)[1])["backlash"]
     assert answer["by"] == "by geometry"
     assert answer["new"]["normal_min_um"] == pytest.approx(74.0)

@@ -21,6 +21,8 @@ PASSING = {
     "cached",
     "closure",
     "condense_seconds",
+    "condensed_from_cache",
+    "ms_per_increment",
     "power_residual",
     "residual",
     "torque_balance",

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from asperity.drive.static.flash import _WHEELS, effusivity, flash_temperature
+from asperity.drive.static.flash import HEAT, effusivity, flash_temperature
+from asperity.gearset.masses import DENSITY
 
 
 def highest(heat, width, speed, effusivity):
@@ -50,7 +51,10 @@ def test_both_bodies_take_the_heat_that_makes_them_equally_warm():
 
 def test_every_kind_of_wheel_spreads_heat_as_such_bodies_do():
     # A plastic's surface is an order warmer than a metal's.
-    found = {name: effusivity(*values) for name, values in _WHEELS.items()}
+    found = {
+        kind: effusivity(conductivity, DENSITY.get(kind, 1400.0), heat_capacity)
+        for kind, (conductivity, heat_capacity) in HEAT.items()
+    }
     plastic = found.pop("plastic")
     assert 500.0 < plastic < 1000.0
     assert all(10e3 < each < 15e3 for each in found.values())

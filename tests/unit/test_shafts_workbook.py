@@ -116,11 +116,9 @@ def test_the_workbook_of_a_rating_has_them_on_the_same_inputs(tmp_path):
         assert again != pytest.approx(told(found)[place], rel=1e-3)
 
 
-def test_a_rated_torque_above_every_part_is_a_load_of_the_sheet(tmp_path):
-    found, sheets = beside_the_rating(tmp_path, "operation.output_torque='400 N m'")
-    assert held(sheets, found) > 80
-    sheets.change("output_torque", 440.0 / 400.0)
-    moved, known = told(solved("operation.output_torque='440 N m'")), {}
+def check_at_rest(sheets, found, moved):
+    """Static safeties of a sheet that was changed are those of the case that is loaded more."""
+    moved, known = told(moved), {}
     rows = {cells[3]: row for row, cells in sheets.rows("worm shaft")}
     rests = [place for place in moved if place[0] == "worm shaft" and "static" in place[1]]
     assert rests
@@ -130,17 +128,18 @@ def test_a_rated_torque_above_every_part_is_a_load_of_the_sheet(tmp_path):
         assert again < 0.95 * told(found)[place]
 
 
+def test_a_rated_torque_above_every_part_is_a_load_of_the_sheet(tmp_path):
+    found, sheets = beside_the_rating(tmp_path, "operation.output_torque='400 N m'")
+    assert held(sheets, found) > 80
+    sheets.change("output_torque", 440.0 / 400.0)
+    check_at_rest(sheets, found, solved("operation.output_torque='440 N m'"))
+
+
 def test_the_application_factor_is_a_cell_of_the_sheet(tmp_path):
     found, sheets = beside_the_rating(tmp_path, "operation.application_factor=1.5")
     assert held(sheets, found) > 80
     sheets.change("operation.application_factor", 1.2)
-    moved, known = told(solved("operation.application_factor=1.8")), {}
-    rows = {cells[3]: row for row, cells in sheets.rows("worm shaft")}
-    rests = [place for place in moved if place[0] == "worm shaft" and "static" in place[1]]
-    assert rests
-    for place in rests:
-        again = sheets.value(("worm shaft", "B", rows[place[1]]), known)
-        assert again == pytest.approx(moved[place], rel=1e-11)
+    check_at_rest(sheets, found, solved("operation.application_factor=1.8"))
 
 
 def test_a_mesh_that_is_moved_in_the_sheet_is_moved_in_the_case(tmp_path):

@@ -25,6 +25,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.contact import Resolved, ToothPressure
 from asperity.drive.resolved.flank import ExactFlank, exact_grid
 from asperity.flanks.meshing.kinematics import kinematics
+from asperity.gearset.masses import DENSITY
 from asperity.sources import Source
 
 BLOK = Source(
@@ -35,15 +36,16 @@ BLOK = Source(
 SHARE = 1.11
 """Of a band of elliptic heat."""
 
-_STEEL = 45.0, 7850.0, 470.0
-_WHEELS: Mapping[str, tuple[float, float, float]] = {
-    "tin bronze": (55.0, 8700.0, 380.0),
-    "aluminium bronze": (42.0, 7600.0, 440.0),
-    "grey iron": (50.0, 7200.0, 500.0),
-    "nodular iron": (34.0, 7100.0, 510.0),
-    "plastic": (0.25, 1400.0, 1500.0),
+HEAT: Mapping[str, tuple[float, float]] = {
+    "steel": (45.0, 470.0),
+    "tin bronze": (55.0, 380.0),
+    "aluminium bronze": (42.0, 440.0),
+    "grey iron": (50.0, 500.0),
+    "nodular iron": (34.0, 510.0),
+    "plastic": (0.25, 1500.0),
 }
-"""Conductivity, W/(m K), density, kg/m3, and heat capacity, J/(kg K), of each kind of wheel."""
+"""Conductivity, W/(m K), and heat capacity, J/(kg K), of worm and wheel by kind."""
+_PLASTIC = 1400.0  # kg/m3
 THERMAL = Source("handbooks of metals and plastics, means of each kind", "from memory")
 
 _MILLI = 1e-3
@@ -52,6 +54,11 @@ _MILLI = 1e-3
 def effusivity(conductivity: float, density: float, heat_capacity: float) -> float:
     """Return :math:`B`, the thermal contact coefficient, J/(m2 K s^0.5), from SI values."""
     return math.sqrt(conductivity * density * heat_capacity)
+
+
+def _of_kind(kind: str) -> float:
+    conductivity, heat_capacity = HEAT[kind]
+    return effusivity(conductivity, DENSITY.get(kind, _PLASTIC), heat_capacity)
 
 
 def flash_temperature(
@@ -104,7 +111,7 @@ class Flash:
     def __init__(self, problem: DriveProblem, flank: ExactFlank, friction: float) -> None:
         self._flank, self._friction, self._speed = flank, friction, problem.worm_speed
         family = problem.gearset.wheel_material.family
-        self._effusivities = effusivity(*_STEEL), effusivity(*_WHEELS[family])
+        self._effusivities = _of_kind("steel"), _of_kind(family)
         self.course: list[float] = []  #: Largest of each phase, K
         self.worst = Line(np.zeros(0), np.zeros(0))  #: Of the contact with the largest
 

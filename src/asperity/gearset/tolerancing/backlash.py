@@ -150,7 +150,8 @@ class Backlash(NamedTuple):
             return Number.of(value, ".3g", f"{key}.{path}")
 
         said: list[str] = [
-            "backlash ", number(new.least, "new.wheel_min_arcmin"), " to ",
+            "backlash by geometry " if self.by == GEOMETRY else "backlash ",
+            number(new.least, "new.wheel_min_arcmin"), " to ",
             number(new.greatest, "new.wheel_max_arcmin"), " arcmin at the wheel",
         ]  # fmt: skip
         if self.warmth is not None:
