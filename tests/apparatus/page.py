@@ -132,7 +132,7 @@ class Served:
         """Return a process of a kind."""
         return next(pid for pid, what in self.children().items() if what == kind)
 
-    def close(self, number=signal.SIGINT, within=30.0):
+    def close(self, number=signal.SIGINT, within=120.0):
         """End it; returns what it printed besides its address, and its complaints."""
         if self.process.poll() is None:
             self.process.send_signal(number)
