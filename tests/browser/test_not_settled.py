@@ -74,8 +74,16 @@ def two_ways(found, data):
         found["answer"]["rankings"] = {key: ["axial"] for key in found["answer"]["rankings"]}
 
 
+def three_amplitudes(found, data):
+    """Have a creep not settle, nor three of its amplitudes."""
+    has_not(found, data)
+    if data:
+        many = len(found["amplitude"]["values"])
+        found["settled_over"] = found["amplitude"] | {"values": [1.0] * (many - 3) + [0.0] * 3}
+
+
 def test_a_drive_that_coasts_has_no_verdict_and_saves_nothing(loose):
-    page = loose("drive", drive=has_not, directions=two_ways, locking=has_not)
+    page = loose("drive", drive=has_not, directions=two_ways, locking=three_amplitudes)
     ratio = page.locator(".headline").first
     expect(ratio.locator(".large")).to_contain_text("(")
     expect(ratio).to_contain_text("✗ not settled")
