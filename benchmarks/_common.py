@@ -1,10 +1,19 @@
-"""What the benchmarks share: one core, the shortest of some runs, and a report with its bounds."""
+"""What the benchmarks share: one core, the shortest of some runs, and a report with its bounds.
 
+Those that compare with an earlier commit also share how its sources come out of git, and how a
+program is run with them and with ours in turn.
+"""
+
+import io
 import json
 import os
 import resource
+import subprocess
 import sys
+import tarfile
+import tempfile
 import time
+from pathlib import Path
 
 ONE_CORE = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
 
@@ -26,6 +35,32 @@ def best(function, repeats=3, clock=time.thread_time):
         function()
         times.append(clock() - began)
     return min(times)
+
+
+def in_turn(commit, program, *arguments, rounds):
+    """What a program prints as JSON with a commit's package and with ours, in so many rounds each.
+
+    Nothing at all where git does not have the commit. A program runs in a process of its own.
+    """
+    here = Path(__file__).resolve().parents[1]
+    then, now = [], []
+    with tempfile.TemporaryDirectory() as folder:
+        line = ["git", "archive", commit, "src", "cases"]
+        packed = subprocess.run(line, cwd=here, capture_output=True).stdout
+        if not packed:
+            print(f"git has no {commit} here: nothing to measure against")
+            return then, now
+        with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
+            archive.extractall(folder, filter="data")
+        for _ in range(rounds):
+            for sources, printed in ((Path(folder) / "src", then), (here / "src", now)):
+                environment = {**os.environ, **ONE_CORE, "PYTHONPATH": str(sources)}
+                line = [sys.executable, "-c", program, *arguments]
+                done = subprocess.run(
+                    line, env=environment, capture_output=True, text=True, check=True
+                )
+                printed.append(json.loads(done.stdout))
+    return then, now
 
 
 def finish(report, *, most=None, least=None, wanted=None):

@@ -7,16 +7,9 @@ none of the tables that came since may take a tenth longer.
 """
 
 import argparse
-import io
-import json
-import os
-import subprocess
-import sys
-import tarfile
-import tempfile
-from pathlib import Path
 
-HERE = Path(__file__).resolve().parents[1]
+from _common import in_turn
+
 CASES = ("gearset-2", "gearset-3", "gearset-3b")
 ROUNDS, CALLS = 7, 30
 MOST = 1.10
@@ -44,32 +37,15 @@ print(json.dumps({"rate": timed(rate_case), "brief": timed(lambda case: of[id(ca
 """
 
 
-def measured(sources):
-    """Return the least times of a tree: by what is done, of each case, s."""
-    environment = {**os.environ, "PYTHONPATH": str(sources), "OMP_NUM_THREADS": "1"}
-    line = [sys.executable, "-c", RATING, " ".join(CASES), str(CALLS)]
-    done = subprocess.run(line, env=environment, capture_output=True, text=True, check=True)
-    return json.loads(done.stdout)
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument(
         "commit", nargs="?", default="d9f2ffef~1", help="that is rated with in turn"
     )
-    given = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        line = ["git", "archive", given.commit, "src", "cases"]
-        packed = subprocess.run(line, cwd=HERE, capture_output=True).stdout
-        if not packed:
-            print(f"git has no {given.commit} here: nothing to measure against")
-            return 0
-        with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-            archive.extractall(folder, filter="data")
-        then, now = [], []
-        for _ in range(ROUNDS):
-            then.append(measured(Path(folder) / "src"))
-            now.append(measured(HERE / "src"))
+    commit = parser.parse_args().commit
+    then, now = in_turn(commit, RATING, " ".join(CASES), str(CALLS), rounds=ROUNDS)
+    if not then:
+        return 0
     over = False
     for what in ("rate", "brief"):
         for place, case in enumerate(CASES):
