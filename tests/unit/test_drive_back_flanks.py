@@ -19,6 +19,7 @@ def test_patterns_of_a_drive_that_runs_backwards_are_of_the_flanks_behind(monkey
         raise TooDeepError
 
     monkeypatch.setattr(solve, "TeethContact", Contact)
+    monkeypatch.setattr(solve, "Equilibrium", lambda contact, compliance: contact)
     monkeypatch.setattr(solve, "Pattern", lambda resolved: SimpleNamespace(evaluate=None))
     monkeypatch.setattr(solve, "touching_angles", lambda contact, phases: None)
     monkeypatch.setattr(solve, "sweep", too_deep)
