@@ -269,3 +269,27 @@ def test_friction_on_twice_the_step_is_that_of_a_body_that_runs_on_it():
         body.kept["sums"], 1,
     )  # fmt: skip
     assert told == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_two_phase_scheme_tells_what_a_march_in_steps_twice_as_long_differs_by():
+    settings = "solve.method=march", "solve.scheme=two-phase"
+    short, long = (
+        solve(
+            Model.from_case(read_case("table-4.3", TABLES, [*settings, f"solve.step={step} us"])),
+            history=False,
+        )
+        for step in (2, 4)
+    )
+    assert short.step_error == pytest.approx(abs(long.ratio - short.ratio), rel=0.1)
+
+
+def test_a_triangle_is_halved_as_it_is_sampled_anew():
+    for settings in (["vibration.waveform=triangle"], ["vibration.waveform=square"]):
+        _, cycle = at_its_state(*settings, name="normal-pin")
+        along, up = cycle.halves()
+        anew, up_anew = cycle.waves(2 * (len(cycle.increments) - 1), 0.5 * cycle.step)
+        assert along == pytest.approx(anew, abs=1e-14)
+        assert up == pytest.approx(up_anew, abs=1e-14)
+        assert cycle._straight == ("triangle" in settings[0])
+        cycle.repeat(2)
+        assert cycle.halves()[0] == pytest.approx([*anew[:-1], *anew], abs=1e-14)
