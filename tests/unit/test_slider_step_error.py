@@ -283,13 +283,22 @@ def test_the_two_phase_scheme_tells_what_a_march_in_steps_twice_as_long_differs_
     assert short.step_error == pytest.approx(abs(long.ratio - short.ratio), rel=0.1)
 
 
-def test_a_triangle_is_halved_as_it_is_sampled_anew():
-    for settings in (["vibration.waveform=triangle"], ["vibration.waveform=square"]):
-        _, cycle = at_its_state(*settings, name="normal-pin")
-        along, up = cycle.halves()
-        anew, up_anew = cycle.waves(2 * (len(cycle.increments) - 1), 0.5 * cycle.step)
-        assert along == pytest.approx(anew, abs=1e-14)
-        assert up == pytest.approx(up_anew, abs=1e-14)
-        assert cycle._straight == ("triangle" in settings[0])
-        cycle.repeat(2)
-        assert cycle.halves()[0] == pytest.approx([*anew[:-1], *anew], abs=1e-14)
+@pytest.mark.parametrize(
+    ("name", "settings", "straight"),
+    [
+        ("table-4.3", (), True),
+        ("normal-pin", (), True),
+        ("normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg"), False),
+        ("normal-pin", ("vibration.waveform=square", "vibration.rise_time=3 us"), False),
+    ],
+)
+def test_a_triangle_is_halved_as_it_is_sampled_anew(name, settings, straight):
+    _, cycle = at_its_state("vibration.waveform=triangle", *settings, name=name)
+    halves = cycle.halves()
+    anew = cycle.waves(2 * (len(cycle.increments) - 1), 0.5 * cycle.step)
+    assert cycle._straight == straight
+    for found, expected in zip(halves, anew, strict=True):
+        assert found == pytest.approx(expected, abs=1e-14)
+    cycle.repeat(2)
+    for found, expected in zip(cycle.halves(), anew, strict=True):
+        assert found == pytest.approx([*expected[:-1], *expected], abs=1e-14)
