@@ -189,15 +189,15 @@ class Cycle:
                 return False
         return not abs(self._shift(mode.real, _WATCHED)) <= most
 
-    def _shift(self, mode: FloatArray, cycles: int, last: int = 0) -> float:
-        """How far the mean force of a push's cycles, or of those from a last on, is off the state's.
+    def _shift(self, mode: FloatArray, cycles: int, since: int = 1) -> float:
+        """How far the mean force of cycles after a push, from one of them on, is off the state's.
 
         A ring of the drive comes and goes with its sign: what both sides share is what it does.
         """
         means = [
             mean
             for push in (_FAR_PUSH, -_FAR_PUSH)
-            for _, mean in list(self.pushed(push * mode, cycles))[max(last - 1, 0) :]
+            for _, mean in list(self.pushed(push * mode, cycles))[since - 1 :]
         ]
         return float(np.mean(means)) - self._mean_force(self.body.sums)
 
