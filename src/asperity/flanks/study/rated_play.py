@@ -50,6 +50,11 @@ class Made:
         """Return it of a case."""
         return cls(case.get(Hob), case.get(Mount), case.get(Modification), case.get(Disc))
 
+    @property
+    def fits(self) -> bool:
+        """Whether the hob is the worm, which then fills the wheel's spaces as it is mounted."""
+        return self.hob is None and self.mount is None and self.modification is None
+
     def pair(self, gearset: Gearset) -> Pair:
         """Return the pair of a gearset; raises InputError."""
         return Pair.of(gearset, self.hob, self.mount, self.modification, self.disc)
@@ -60,6 +65,7 @@ class _Asked:
     key: tuple[object, ...]
     pair: Pair = dataclasses.field(compare=False)
     given: Tolerances = dataclasses.field(compare=False)
+    fits: bool = dataclasses.field(compare=False)
 
 
 @functools.lru_cache(maxsize=_KEPT)
@@ -67,6 +73,8 @@ def _mounted(asked: _Asked) -> tuple[Mounted, float]:
     """Return how a pair may be mounted, and the worm's turn with nothing off, rad."""
     pair = asked.pair
     wheel = Wheel.cut(pair)
+    if asked.fits:
+        return Mounted.of(pair, wheel, asked.given), 0.0
     if pair.backlash is None:
         turn = worm_turn(both(lambda side: touching(pair, wheel.flank(side))))
         return Mounted.of(pair, wheel, asked.given), turn
@@ -107,7 +115,7 @@ def exact_backlash(
     tables: tuple[Table | None, ...] = (*vars(made).values(), given)
     texts = tuple(None if table is None else table.model_dump_json() for table in tables)
     key = gearset.geometry, gearset.flank, gearset.hand, texts
-    mounted, turn = _mounted(_Asked(key, made.pair(gearset), given))
+    mounted, turn = _mounted(_Asked(key, made.pair(gearset), given, made.fits))
     return mounted.backlash(gearset, given, turn, wear)
 
 
