@@ -26,18 +26,17 @@ from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 from asperity.gearset.tolerancing.allowances import fit_backlash
 from asperity.gearset.tolerancing.backlash import backlash
-from asperity.gearset.tolerancing.table import Tolerances
+from asperity.gearset.tolerancing.table import Temperatures, Tolerances
 from asperity.gearset.tolerancing.warmth import Warmth
 
 OFFS = 'tolerances.thread=["-40 um", "-70 um"]', 'tolerances.tooth=["-50 um", "-100 um"]'
 GIVEN = Tolerances(centre_distance="js7", thread=["-40 um", "-70 um"], tooth=["-50 um", "-100 um"])
 ASSEMBLIES, PARTS = 10_000, 100
 THREAD, TOOTH = (40.0, 70.0), (50.0, 100.0)
-A100_HOBS, SHIPPED = (None, 1.05), ("gearset-3", "actuator-duty")
-MADE = [("A100", hob) for hob in A100_HOBS] + [
-    (case, hob) for case in SHIPPED for hob in (None, 1.05, 1.12)
-]
-"""Gearsets, and by how much their hob is larger than the worm: None, it is the worm."""
+SHIPPED = "gearset-3", "actuator-duty"
+MADE = [("A100", None), ("A100", 1.05), ("gearset-3", "own"), *(
+    (case, hob) for case in SHIPPED for hob in (None, 1.05))]  # fmt: skip
+"""Gearsets, and by how much their hob is larger than the worm: None, it is; "own", the case's."""
 
 
 @functools.cache
@@ -45,21 +44,24 @@ def gearset_of(name):
     return A100 if name == "A100" else read_case(name, case_tables()).require(Gearset)
 
 
+def hob_of(name, oversize):
+    if oversize == "own":
+        return read_case(name, case_tables()).require(Hob)
+    return None if oversize is None else Hob(oversize=oversize)
+
+
 @functools.cache
 def mounted(name="A100", oversize=1.05):
-    pair = Pair.of(gearset_of(name), None if oversize is None else Hob(oversize=oversize))
+    pair = Pair.of(gearset_of(name), hob_of(name, oversize))
     return Mounted.of(pair, Wheel.cut(pair), GIVEN)
 
 
 @functools.cache
 def interval(name="A100", oversize=1.05):
     """What a rating says of it: by the command where the gearset ships."""
-    hob = None if oversize is None else Hob(oversize=oversize)
     if name == "A100":
-        return exact_backlash(A100, Made(hob), GIVEN).states["new"]
-    # The hob that a case has is not the one that is asked about.
-    own = ("hob.oversize=1", "hob.tilt=0 deg") if oversize is None else (
-        f"hob.oversize={oversize}", "hob.tilt=0 deg")  # fmt: skip
+        return exact_backlash(A100, Made(hob_of(name, oversize)), GIVEN).states["new"]
+    own = [f"hob.oversize={oversize or 1.0}", "hob.tilt=0 deg"] if oversize != "own" else []
     rated = asperity.rate(name, settings=["tolerances.centre_distance=js7", *OFFS, *own])
     assert rated.backlash.by == "by the exact flanks"
     return rated.backlash.states["new"]
@@ -195,7 +197,7 @@ def test_a_hob_that_is_the_worm_leaves_no_play_and_no_overlap():
 
 @pytest.mark.slow
 def test_a_warm_backlash_is_that_of_axes_as_far_apart():
-    hot = Tolerances(**GIVEN.model_dump(exclude={"temperatures"}), temperatures={"gears": "80 degC"})
+    hot = GIVEN.model_copy(update={"temperatures": Temperatures(gears="80 degC")})
     states = exact_backlash(A100, Made(), hot).states
     apart = Warmth.of(A100, hot.temperatures, hot.housing).apart
     worst = mounted("A100", None).play(Place(apart - 1e-3 * off_of("A100")))

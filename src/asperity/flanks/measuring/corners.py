@@ -44,6 +44,8 @@ _MILLIMETRES = _MICROMETRES = 1e3
 _NAMES = "centre distance", "axial offset", "shaft angle"
 _SHORT = "a", "offset", "angle"
 _MINUTES = 60.0 * 180.0 / math.pi
+# Places of the wheel in a pitch between which the least backlash is looked for.
+_SAMPLES = 8
 _Found = TypeVar("_Found")
 
 
@@ -170,7 +172,8 @@ class Mounted:
     def play(self, place: Place) -> float:
         """Return the backlash on the mean circle with the worm at a place, um."""
         if place not in self.known:
-            turn = worm_turn(self._at(place, touching)) / self.pair.ratio
+            found = self._at(place, lambda pair, flank: touching(pair, flank, _SAMPLES))
+            turn = worm_turn(found) / self.pair.ratio
             self.known[place] = 0.5 * _MICROMETRES * self.pair.geometry.wheel_mean_diameter * turn
         return self.known[place]
 
