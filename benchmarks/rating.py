@@ -21,6 +21,8 @@ SINGLE = 100
 PLAIN = 20_000
 TARGET_S = 2.0
 PROPOSALS_S = 1.0
+MILLION_OF_THREE_S = 1.5
+TEN_THOUSAND_S = 0.5
 ONE_BY_ONE_OVER_PROPOSALS = 20.0
 ASKED = 10.0, "20 N m", "3000 rpm"
 RPM = math.pi / 30.0
@@ -128,8 +130,10 @@ def spectra(given):
 
     many = operation([(0.1 + 0.9 * n / 10000, 1.0 + n % 7) for n in range(10000)])
     three = operation(loads)
+    million = best(lambda: capacity(three))
     return {
-        "three_over_one": best(lambda: capacity(three)) / best(lambda: capacity(OPERATION)),
+        "million_of_three_s": million,
+        "three_over_one": million / best(lambda: capacity(OPERATION)),
         "ten_thousand_s": best(lambda: rate(GEARSET, many)),
     }
 
@@ -192,7 +196,13 @@ def main():
         report["agreement"][f"{name}_difference"] = float(np.nanmax(np.abs(way / arrays - 1.0)))
     finish(
         report,
-        most={"of_the_target": 1.0, "thousand_s": PROPOSALS_S, "three_over_one": 2.4},
+        most={
+            "of_the_target": 1.0,
+            "thousand_s": PROPOSALS_S,
+            "million_of_three_s": MILLION_OF_THREE_S,
+            "three_over_one": 2.4,
+            "ten_thousand_s": TEN_THOUSAND_S,
+        },
         least={"one_by_one_over_proposals": ONE_BY_ONE_OVER_PROPOSALS},
     )
 

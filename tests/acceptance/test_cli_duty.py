@@ -287,7 +287,7 @@ def test_backlash_of_each_proposal_is_that_of_its_rating(asperity, tmp_path):
     assert code == 0, errors
     assert "backlash (arcmin)" in output
     best = json.loads((tmp_path / "out" / "size.json").read_text("utf-8"))["proposals"][0]
-    rated = rate_case(read_case(tmp_path / "out" / "proposal-1.toml", case_tables())).to_json()
+    rated = rate(tmp_path / "out" / "proposal-1.toml").to_json()
     new = rated["backlash"]["new"]
     assert best["backlash_arcmin"] == pytest.approx(
         [new["wheel_min_arcmin"], new["wheel_max_arcmin"]]
