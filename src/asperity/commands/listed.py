@@ -86,6 +86,7 @@ COMMANDS = (
         module="asperity.rating.rate_command",
         additions=(
             Addition("asperity.shafts.study:beside_rating", tables=("worm_shaft", "wheel_shaft")),
+            Addition("asperity.flanks.study.rated_play:beside_rating", tables=("tolerances",)),
             Addition("asperity.flanks.study.pattern:beside_rating", option="pattern"),
         ),
         brief=True,

@@ -28,6 +28,7 @@ from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
 
 GEOMETRY = "by geometry"
+EXACT = "by the exact flanks"
 _MICROMETRES = 1e3
 _ARCMINUTES = 60.0 * 180.0 / math.pi
 
@@ -323,13 +324,19 @@ def assembled(
     *,
     by: str,
     exact: bool = False,
+    warm: tuple[Interval, float] | None = None,
 ) -> Backlash:
-    """Return the backlash of a new gearset and what each deviation brings (um), warm and worn."""
+    """Return the backlash of a new gearset and what each deviation brings (um), warm and worn.
+
+    Where it is known, ``warm`` is the interval of the warm one, and by how much its middle moves.
+    """
     g = gearset.geometry
     said = measures(g, exact=exact)
     states = {"new": new}
     warmth = None
-    if given.temperatures is not None:
+    if warm is not None:
+        states["warm"], warmth = warm
+    elif given.temperatures is not None:
         warmth = warm_backlash(gearset, given.temperatures, given.housing)
         states["warm"] = Interval(*(value + warmth for value in states["new"]))
     more = None if wear is None else wear / said[1].factor

@@ -44,6 +44,9 @@ _OF_WEAR = (
 )  # fmt: skip
 """What leads to the wear of a part of a duty cycle, by the keys of a rating."""
 
+_ADDED = "N_L", "s_Wm_mm", "delta_Wn_mm"
+"""What adds up over the parts."""
+
 
 _OF_TEETH = (
     "sliding_velocity_m_s", "mu_0T", "Y_S", "h_star", "Y_G", "Y_W", "Y_R", "mu_zm", "eta_z1_2",
@@ -264,22 +267,24 @@ def _let_down(part: Inputs, own: Values) -> None:
 def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None:
     """Add up the wear of a duty cycle and find its hottest part.
 
-    Depths worn off add up, each by torque, speed and temperature of its part; what leads to them is
-    told of the part that wears most. Each part lasts long enough for the sump to settle.
+    Depths worn off add up, and paths and turns, each by torque, speed and temperature of its part;
+    what leads to them is told of the load that wears most, in however many parts it is given. Each
+    part lasts long enough for the sump to settle.
     """
     if given.together:
-        worst = int(np.nanargmax(np.append(parts[0]["delta_Wn_mm"], -1.0)))
-        place = min(worst, len(given.duty) - 1)
+        depths = np.broadcast_to(parts[0]["delta_Wn_mm"], (len(given.duty),))
+        place = int(np.argmax(_of_alike(given, [np.nan_to_num(depths)])[0]))
         for key in _OF_WEAR:
             v[key] = float(np.broadcast_to(parts[0][key], (len(given.duty),))[place])
     else:
         for place, own in enumerate(parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
-        most = _place_of_most([own["delta_Wn_mm"] for own in parts])
+        most = _place_of_most(_of_alike(given, [own["delta_Wn_mm"] for own in parts]))
         there = [most == place for place in range(len(parts))] if np.ndim(most) else []
         for key in _OF_WEAR:
             v[key] = _chosen(most, there, [own[key] for own in parts])
-    v["delta_Wn_mm"] = given.total(own["delta_Wn_mm"] for own in parts)
+    for key in _ADDED:
+        v[key] = given.total(own[key] for own in parts)
     v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
     v["theta_S_max_degC"] = given.greatest(own["theta_S_degC"] for own in parts)
     hours = given.total(own["part_hours"] for own in parts)
@@ -288,9 +293,29 @@ def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None
     v["loss_max_W"] = given.greatest(own["loss_total_W"] for own in parts)
 
 
-def _place_of_most(depths: list[Real]) -> Any:
-    plain: list[Any] = [getattr(depth, "value", depth) for depth in depths]
-    return np.argmax(np.stack(np.broadcast_arrays(*plain)), axis=0)
+def _of_alike(given: Inputs, depths: list[Any]) -> list[Any]:
+    """Return for each part the depth of all parts of the same load: split, it stays that."""
+    plain = [getattr(depth, "value", depth) for depth in depths]
+    if given.together:
+        rows = [np.broadcast_to(np.asarray(of, dtype=float), plain[0].shape)
+                for of in given.loads[0][1:]]  # fmt: skip
+        _, place = np.unique(np.stack(rows, axis=-1), axis=0, return_inverse=True)
+        return [np.bincount(place.reshape(-1), plain[0])[place.reshape(-1)]]
+    keys = [tuple(map(_known, part[1:])) for part in given.duty]
+    whole: dict[Any, Any] = {}
+    for key, depth in zip(keys, plain, strict=True):
+        whole[key] = whole.get(key, 0.0) + depth
+    return [whole[key] for key in keys]
+
+
+def _known(of: Any) -> Any:
+    """Return what tells a load's number from another: its value, or which array it is."""
+    value = getattr(of, "value", of)
+    return value if np.ndim(value) == 0 else id(value)
+
+
+def _place_of_most(depths: list[Any]) -> Any:
+    return np.argmax(np.stack(np.broadcast_arrays(*depths)), axis=0)
 
 
 def _chosen(most: Any, there: list[Any], values: list[Real]) -> Real:
