@@ -225,7 +225,7 @@ def shift_of(yielded: FloatArray) -> FloatArray:
 
 
 def _twists(contact: TeethContact, yielded: FloatArray) -> FloatArray:
-    """Motions of a yielded worm's coordinates as shift and turn about the wheel's centre, (4, 6)."""
+    """Motions of a yielded worm as shift and turn about the wheel's centre, (4, 6)."""
     (radial, tangential, axis) = contact.stand.axes
     origin = contact.stand.origin + shift_of(yielded) @ contact.stand.axes
     none = np.zeros(3)
