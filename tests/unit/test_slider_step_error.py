@@ -269,3 +269,36 @@ def test_friction_on_twice_the_step_is_that_of_a_body_that_runs_on_it():
         body.kept["sums"], 1,
     )  # fmt: skip
     assert told == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_two_phase_scheme_tells_what_a_march_in_steps_twice_as_long_differs_by():
+    settings = "solve.method=march", "solve.scheme=two-phase"
+    short, long = (
+        solve(
+            Model.from_case(read_case("table-4.3", TABLES, [*settings, f"solve.step={step} us"])),
+            history=False,
+        )
+        for step in (2, 4)
+    )
+    assert short.step_error == pytest.approx(abs(long.ratio - short.ratio), rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "straight"),
+    [
+        ("table-4.3", (), True),
+        ("normal-pin", (), True),
+        ("normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg"), False),
+        ("normal-pin", ("vibration.waveform=square", "vibration.rise_time=3 us"), False),
+    ],
+)
+def test_a_triangle_is_halved_as_it_is_sampled_anew(name, settings, straight):
+    _, cycle = at_its_state("vibration.waveform=triangle", *settings, name=name)
+    halves = cycle.halves()
+    anew = cycle.waves(2 * (len(cycle.increments) - 1), 0.5 * cycle.step)
+    assert cycle._straight == straight
+    for found, expected in zip(halves, anew, strict=True):
+        assert found == pytest.approx(expected, abs=1e-14)
+    cycle.repeat(2)
+    for found, expected in zip(cycle.halves(), anew, strict=True):
+        assert found == pytest.approx([*expected[:-1], *expected], abs=1e-14)
