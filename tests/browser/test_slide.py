@@ -371,7 +371,9 @@ def test_a_refused_elevation_keeps_its_field_and_the_old_headline_is_of_before(s
             "getComputedStyle(document.querySelector('.headline'), '::before').content"
         )
         assert said == '"of before"'
+        expect(page.locator(".ball figcaption")).to_have_text("before: direction 0°, elevation 90°")
     box.fill(was)
     box.press("Enter")
     settled(page)
     expect(page.locator(".fault, .of-before")).to_have_count(0)
+    expect(page.locator(".ball figcaption")).to_have_text("direction 0°, elevation 90°")

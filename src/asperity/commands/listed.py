@@ -142,9 +142,11 @@ COMMANDS = (
         "optimise",
         "Find a worm gearset's most efficient design that keeps its load capacity.",
         "Pressure angle, diameter factor, module and roughness are free; every safety that "
-        "holds goes on to. Also what a higher permissible torque costs. With --out also "
-        "report.html, optimise.nc, optimise.png and optimise.json.",
-        module="asperity.studies.optimise",
+        "holds goes on to. Also what a higher permissible torque costs. With --over the flanks "
+        "under load, as relief finds them. With --out also report.html, optimise.nc, "
+        "optimise.png and optimise.json, or those of relief.",
+        module="asperity.drive.studies.optimum",
+        counts="points",
         options=(
             Option(
                 "free",
@@ -162,6 +164,20 @@ COMMANDS = (
                 "keep",
                 "A safety that may not fall, as S_delta, agma6034 or all; again for another.",
                 "SAFETY",
+                many=True,
+            ),
+            Option(
+                "over",
+                "In their place a key of modification, hob or disc, as "
+                "modification.tip_relief=0,20,40 um: against forces on edges, pressure and error "
+                "of the loaded flanks, and half-way between; again for another.",
+                "TABLE.KEY=VALUES",
+                many=True,
+            ),
+            Option(
+                "at",
+                "With --over: loads and mountings to bear with, as for relief; again for another.",
+                "TABLE.KEY=VALUES",
                 many=True,
             ),
         ),

@@ -19,7 +19,7 @@ from asperity.slider.unknowns import (
     unknown_scales,
     write_unknowns,
 )
-from asperity.vibration.waveform import cycle_of_wave
+from asperity.vibration.waveform import TRIANGLE, cycle_of_wave
 
 _Kind = TypeVar("_Kind")
 
@@ -88,11 +88,22 @@ class Cycle:
 
     def halves(self) -> tuple[FloatArray, FloatArray]:
         """Return the same over half the steps, which end nearer to corners that steps miss."""
+        if self._straight:
+            along = _halved(self.increments)
+            return along, (along if self.rises is self.increments else _halved(self.rises))
         steps = (self.increments.size - 1) // self.period
         along, up = self.waves(2 * steps, 0.5 * self.step)
         if self.period == 1:
             return along, up
         return _repeated(along, self.period), _repeated(up, self.period)
+
+    @property
+    def _straight(self) -> bool:
+        """Whether its waves go straight over every step: triangles, whose corners steps end on."""
+        model = self.body.model
+        triangle = model.shape is not None and model.shape.code == TRIANGLE and model.meets_corners
+        leads = self.phase == 0.0 and (self.q is None or model.normal_lead == 0.0)
+        return triangle and leads and (self.increments.size - 1) // self.period % 4 == 0
 
     @property
     def at_the_limit(self) -> bool:
@@ -111,8 +122,9 @@ class Cycle:
     def repeat(self, times: int) -> None:
         """Ask for a state that repeats itself only after so many times the cycles."""
         self.period *= times
+        same = self.rises is self.increments
         self.increments = _repeated(self.increments, times)
-        self.rises = _repeated(self.rises, times)
+        self.rises = self.increments if same else _repeated(self.rises, times)
 
     def find(self, settle: int) -> bool:
         """Look for the state that repeats itself; ``settle`` as in `shoot`."""
@@ -155,12 +167,13 @@ class Cycle:
         """
         if not _SURE < growth <= UNSTABLE:
             return False
-        longer = self.copied()
-        told = []
+        longer, grown = self.copied(), []
         for cycles in _LONGER:
             longer.repeat(cycles)
-            told.append(longer._by_differences() if longer.find(0) else 0.0)
-        return told[0] > UNSTABLE and math.log(max(told[1], 1.0)) > 3.0 * math.log(told[0])
+            grown.append(longer._by_differences() if longer.find(0) else 0.0)
+            if not grown[-1] > UNSTABLE:
+                return False
+        return math.log(grown[1]) > 3.0 * math.log(grown[0])
 
     def one_of_many(self, growth: float) -> bool:
         """Whether a disturbance of a state lasts, and the drive force follows it."""
@@ -260,6 +273,14 @@ def _like(one: _Kind) -> _Kind:
 
 def _repeated(increments: FloatArray, times: int) -> FloatArray:
     return np.append(np.tile(increments[:-1], times), increments[0])
+
+
+def _halved(increments: FloatArray) -> FloatArray:
+    """Return the increments over half the steps of what goes straight over each."""
+    halves = np.empty(2 * increments.size - 1)
+    np.multiply(increments, 0.5, out=halves[::2])
+    halves[1::2] = halves[:-1:2]
+    return halves
 
 
 def _growth(jacobian: FloatArray) -> float:

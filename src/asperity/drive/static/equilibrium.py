@@ -70,7 +70,7 @@ class Equilibrium:
     def __init__(self, contact: TeethContact, compliance: FloatArray | None = None) -> None:
         self.contact = contact
         self.compliance = np.zeros((4, 4)) if compliance is None else compliance
-        self._twists = _twists(contact)
+        self._twists = _twists(contact, np.zeros(4))
         module = contact.sector.wheel.pair.geometry.axial_module
         self._deepest = _DEEPEST * 1e-3 * module
         self._arm = float(contact.sector.body.places[:, 1].max())
@@ -80,7 +80,10 @@ class Equilibrium:
         self._softer = 1.0
 
     def on_worm(self, wrench: FloatArray) -> FloatArray:
-        """Return what wrenches (..., 6) on the wheel are on the worm, (..., 4), N m and N."""
+        """Return what wrenches (..., 6) on the wheel are on the worm, (..., 4), N m and N.
+
+        Its turn is about its axis as it stands without load.
+        """
         return -wrench @ self._twists.T
 
     def balance(
@@ -136,7 +139,9 @@ class Equilibrium:
                 continue
             except np.linalg.LinAlgError:
                 break
-            on_worm, pushed = self.on_worm(action.wrench), side * float(action.wrench[5])
+            # The worm turns about its axis where that has gone.
+            twists = _twists(contact, yielded)
+            on_worm, pushed = -twists @ action.wrench, side * float(action.wrench[5])
             if _LEAST * torque < abs(promised) < _SMALL * torque:
                 self._softer *= float(np.clip((pushed - before) / promised, *_CHANGED))
             missing = np.concatenate([[pushed - torque], yielded - self.compliance @ on_worm])
@@ -146,14 +151,14 @@ class Equilibrium:
             )
             if residual <= _CLOSE:
                 # The wheel's turn by which the worm's yielding is made up for.
-                turns = self._twists @ action.slope[5] / action.slope[5, 5]
+                turns = twists @ action.slope[5] / action.slope[5, 5]
                 by_worm = -side * float(turns @ yielded)
                 self._last[sense] = torque, np.array([behind - by_worm, by_worm, *yielded])
                 return Balance(
                     beta, phi, -float(on_worm[0]), yielded, turns, action, contact,
                     residual,
                 )  # fmt: skip
-            slope = self._slope(action)
+            slope = self._slope(action, twists)
             try:
                 move = self._move(slope, missing, behind, yielded, pushed)
             except np.linalg.LinAlgError:
@@ -199,9 +204,9 @@ class Equilibrium:
         shift = shift_of(yielded)
         return self.contact.least_gap(beta + float(yielded[0]), phi, shift) < -self._deepest
 
-    def _slope(self, action: Action) -> FloatArray:
+    def _slope(self, action: Action, twists: FloatArray) -> FloatArray:
         """Derivative of what is missing by the wheel's angle and the worm's yielding."""
-        twists, slope = self._twists, self._softer * action.slope
+        slope = self._softer * action.slope
         matrix = np.zeros((5, 5))
         matrix[0, 0] = -slope[5, 5]
         side = self.contact.side
@@ -219,9 +224,10 @@ def shift_of(yielded: FloatArray) -> FloatArray:
     return np.array([radial, tangential, -axial])
 
 
-def _twists(contact: TeethContact) -> FloatArray:
-    """Motions of the worm's coordinates as shift and turn about the wheel's centre, (4, 6)."""
-    (radial, tangential, axis), origin = contact.stand.axes, contact.stand.origin
+def _twists(contact: TeethContact, yielded: FloatArray) -> FloatArray:
+    """Motions of a yielded worm as shift and turn about the wheel's centre, (4, 6)."""
+    (radial, tangential, axis) = contact.stand.axes
+    origin = contact.stand.origin + shift_of(yielded) @ contact.stand.axes
     none = np.zeros(3)
     found = {
         "turn": np.concatenate([np.cross(origin, axis), axis]),

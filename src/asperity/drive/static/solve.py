@@ -24,7 +24,7 @@ from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
 from asperity.drive.static.flash import Flash
 from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
-from asperity.drive.static.pressure import modulus_of
+from asperity.drive.static.pressure import hertz_pressure, modulus_of
 from asperity.drive.static.result import PATTERNS, StaticResult
 from asperity.drive.static.seen import Pattern, Seen, contact_means
 from asperity.drive.static.spread import LOADED, k_h_alpha
@@ -268,6 +268,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         k_h_alpha=k_h_alpha(forward.tooth_force),
         line_load=seen.spread.line_load / _MILLIMETRES,
         **_pressures(model, seen),
+        hertz_pressure_max=hertz_pressure(problem, sector_.wheel),
         flash_temperature=max(flash.course),
         flash_temperature_course=np.array(flash.course),
         flash_line_face=problem.gearset.hand_sign * flash.worst.face,

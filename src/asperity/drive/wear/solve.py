@@ -7,7 +7,7 @@ begins at other phases, so that what lies between two of them wears as well.
 
 import dataclasses
 import math
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,7 @@ from asperity.errors import AsperityError, InputError, plain
 from asperity.rating.rate import rate_case
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
-from asperity.runs.tree import Tree
+from asperity.runs.tree import from_tree, to_tree
 from asperity.slider.wear import Wear
 from asperity.units import to_si
 
@@ -65,26 +65,11 @@ class _Worn:
     work: float  #: Of the normal forces on a tooth on the way that they slide, N m
     rows: list[FloatArray]  #: Of the course
 
-    @classmethod
-    def of(cls, kept: Tree | None, nodes: int) -> Self:
-        """Return the new wheel, or what was kept of one that was left."""
-        if kept is None:
-            return cls(np.zeros(nodes), 0.0, 0.0, [])
-        depth, turns, work, rows = (np.asarray(kept[k]) for k in ("depth", "turns", "work", "rows"))
-        return cls(depth, float(turns), float(work), list(rows))
-
     def wear(self, turns: float, rate: FloatArray, work: float) -> None:
         """Wear it for so many turns, by a depth and a work in each."""
         self.depth = self.depth + turns * rate
         self.turns += turns
         self.work += turns * work
-
-    def tree(self) -> Tree:
-        """Return it as a tree of arrays."""
-        return {
-            "depth": self.depth, "turns": np.array(self.turns), "work": np.array(self.work),
-            "rows": np.array(self.rows),
-        }  # fmt: skip
 
 
 def prepare(case: Case, *, depth: str = "20 um", revolutions: str = "") -> Wearing:
@@ -130,7 +115,8 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
     step = float(new.sector.pitch * new.contact.stand.ratio / len(new.phases))
     assert problem.case is not None
     name = key(code_key(__name__), problem.case.canonical(), repr(asked[1:]))
-    now = _Worn.of(run.resume(name), flank.nodes)
+    kept = run.resume(name)
+    now = from_tree(_Worn, kept) if kept else _Worn(np.zeros(flank.nodes), 0.0, 0.0, [])
     with run.interruptible():
         while True:
             phases = new.phases + step * ((len(now.rows) * _GOLDEN) % 1.0)
@@ -157,7 +143,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             now.wear(length, rate, taken.work)
             share = max(float(now.depth.max()) / asked.depth, now.turns / asked.revolutions)
             total = max(len(now.rows), math.ceil(len(now.rows) / share))
-            run.checkpoint(len(now.rows), total, now.tree)
+            run.checkpoint(len(now.rows), total, lambda: to_tree(now))
     depth, turns = now.depth, now.turns
     columns = dict(zip(_COURSES, np.array(now.rows).T, strict=True))
     worn = loaded_of(worn_model(new, depth, new.phases))
