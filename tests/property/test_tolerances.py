@@ -178,9 +178,7 @@ def test_a_rating_says_that_a_gearset_may_jam_where_its_worst_assembly_does():
 def test_a_fit_leaves_its_least_backlash_by_the_exact_flanks(name):
     # Hob and mounting take more of it than the formula knows.
     hob = read_case(name, case_tables()).get(Hob)
-    found = exact_backlash(
-        gearset_of(name), Made(hob), Tolerances(centre_distance="js9", fit="C")
-    )
+    found = exact_backlash(gearset_of(name), Made(hob), Tolerances(centre_distance="js9", fit="C"))
     least = 1e3 * fit_backlash(gearset_of(name).geometry.centre_distance, "C")
     assert found.least == pytest.approx(least, abs=1e-9)
 

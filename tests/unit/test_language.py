@@ -102,9 +102,7 @@ def test_the_german_screen_and_report_of_a_rating_leave_nothing_english(given):
 
 
 ENGLISH_WORDS = re.compile(r"\b(?:the|of|and|with|for|which|loads?|rated|if|else|is|it)\b")
-RAW = {
-    name: tomllib.loads(path.read_text("utf-8")) for name, path in shipped_cases().items()
-}
+RAW = {name: tomllib.loads(path.read_text("utf-8")) for name, path in shipped_cases().items()}
 DUTIES = [
     (case, command, settings)
     for case, raw in RAW.items()

@@ -69,7 +69,9 @@ def test_no_number_of_a_rating_moves_where_steps_are_split(pieces):
     )  # fmt: skip
     assert whole.keys() == split.keys()
     for key, value in whole.items():
-        assert split[key] == (pytest.approx(value, rel=1e-12) if isinstance(value, float) else value)
+        assert split[key] == (
+            pytest.approx(value, rel=1e-12) if isinstance(value, float) else value
+        )
 
 
 def test_turns_and_sliding_path_of_a_duty_are_those_of_all_its_steps():

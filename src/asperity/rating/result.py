@@ -199,6 +199,11 @@ class Rating:
             Of the entries.
         why : str
             The reason, which is a gap of the rating then.
+
+        Returns
+        -------
+        Rating
+            With all others.
         """
         entries = tuple(entry for entry in self.entries if entry.key not in keys)
         return dataclasses.replace(

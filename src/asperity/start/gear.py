@@ -173,9 +173,7 @@ def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:
     return True
 
 
-def _details(
-    kept: Mapping[str, Any], values: Values, keys: Mapping[str, Any]
-) -> dict[str, Any]:
+def _details(kept: Mapping[str, Any], values: Values, keys: Mapping[str, Any]) -> dict[str, Any]:
     """Return what a gearset weighs and, with tolerances, its backlash by its exact flanks."""
     gearset = _table(Gearset, {**kept, **keys})
     whole, rim = masses(gearset)

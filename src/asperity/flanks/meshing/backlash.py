@@ -20,8 +20,8 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.transmission import (
-    Touch,
     ToothSearch,
+    Touch,
     Transmission,
     least_between,
 )

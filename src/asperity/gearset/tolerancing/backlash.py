@@ -11,8 +11,8 @@ deviations are normal, and within three standard deviations of their middle, 99.
 Warmth adds :math:`2a(\alpha_h\Delta T_h - \sum_i s_i\alpha_i\Delta T_i)\tan\alpha_x`, where
 :math:`s_i` is the share of the centre distance that each material takes, and flanks that are worn
 by :math:`\delta` normal to them add :math:`\delta/(\cos\alpha_n\cos\gamma)`. This is geometry, of
-no standard. The exact flanks, which touch elsewhere at another centre distance, have another slope
-to each side: `asperity.flanks.measuring.corners`.
+no standard, and no bound: exact flanks touch elsewhere at another centre distance, where they are
+steeper, and know their hob. What a user is told is theirs, `asperity.flanks.study.rated_play`.
 """
 
 import math

@@ -11,7 +11,6 @@ exceeds, with the friction at the speed of the part that has the greatest and th
 
 import dataclasses
 import math
-from typing import Any
 
 import numpy as np
 
@@ -31,6 +30,7 @@ from asperity.rating.iso14521 import (
     strength,
 )
 from asperity.rating.iso14521.housed import housing_of
+from asperity.rating.iso14521.most_worn import chosen, of_alike, place_of_most
 from asperity.rating.iso14521.wearing import sump_of, temperatures, wear_of
 from asperity.units.standards import FROM_SI
 
@@ -273,16 +273,16 @@ def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None
     """
     if given.together:
         depths = np.broadcast_to(parts[0]["delta_Wn_mm"], (len(given.duty),))
-        place = int(np.argmax(_of_alike(given, [np.nan_to_num(depths)])[0]))
+        place = int(np.argmax(of_alike(given, [np.nan_to_num(depths)])[0]))
         for key in _OF_WEAR:
             v[key] = float(np.broadcast_to(parts[0][key], (len(given.duty),))[place])
     else:
         for place, own in enumerate(parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
-        most = _place_of_most(_of_alike(given, [own["delta_Wn_mm"] for own in parts]))
+        most = place_of_most(of_alike(given, [own["delta_Wn_mm"] for own in parts]))
         there = [most == place for place in range(len(parts))] if np.ndim(most) else []
         for key in _OF_WEAR:
-            v[key] = _chosen(most, there, [own[key] for own in parts])
+            v[key] = chosen(most, there, [own[key] for own in parts])
     for key in _ADDED:
         v[key] = given.total(own[key] for own in parts)
     v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
@@ -291,43 +291,6 @@ def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None
     heat = (own["part_hours"] * own["loss_total_W"] for own in parts)
     v["loss_mean_W"] = given.total(heat) / hours
     v["loss_max_W"] = given.greatest(own["loss_total_W"] for own in parts)
-
-
-def _of_alike(given: Inputs, depths: list[Any]) -> list[Any]:
-    """Return for each part the depth of all parts of the same load: split, it stays that."""
-    plain = [getattr(depth, "value", depth) for depth in depths]
-    if given.together:
-        rows = [np.broadcast_to(np.asarray(of, dtype=float), plain[0].shape)
-                for of in given.loads[0][1:]]  # fmt: skip
-        _, place = np.unique(np.stack(rows, axis=-1), axis=0, return_inverse=True)
-        return [np.bincount(place.reshape(-1), plain[0])[place.reshape(-1)]]
-    keys = [tuple(map(_known, part[1:])) for part in given.duty]
-    whole: dict[Any, Any] = {}
-    for key, depth in zip(keys, plain, strict=True):
-        whole[key] = whole.get(key, 0.0) + depth
-    return [whole[key] for key in keys]
-
-
-def _known(of: Any) -> Any:
-    """Return what tells a load's number from another: its value, or which array it is."""
-    value = getattr(of, "value", of)
-    return value if np.ndim(value) == 0 else id(value)
-
-
-def _place_of_most(depths: list[Any]) -> Any:
-    return np.argmax(np.stack(np.broadcast_arrays(*depths)), axis=0)
-
-
-def _chosen(most: Any, there: list[Any], values: list[Real]) -> Real:
-    """Return the value of the part that is most: of one gearset, or of each of many."""
-    if not there:
-        return values[int(most)]
-    if all(value is values[0] for value in values):
-        return values[0]
-    chosen = np.array(np.broadcast_to(values[0], np.shape(most)))
-    for here, value in zip(there[1:], values[1:], strict=True):
-        np.copyto(chosen, value, where=here)
-    return chosen
 
 
 def _forces(given: Inputs, v: Values, torque: Real) -> None:
