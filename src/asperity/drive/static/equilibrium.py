@@ -33,7 +33,20 @@ _DEEPEST = 0.1
 
 
 class TooDeepError(ConvergenceError):
-    """The torque presses the worm further into the teeth than elastic ones could give."""
+    """The torque presses the worm further into the teeth than elastic ones could give.
+
+    Parameters
+    ----------
+    message : str
+        What is too much.
+    full : bool
+        Whether more of the flanks would bear than the contact has room for, rather than that worm
+        and teeth overlap too deeply.
+    """
+
+    def __init__(self, message: str, *, full: bool, deflection: float) -> None:
+        super().__init__(message, reached={"deflection_rad": deflection})
+        self.full = full
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -122,8 +135,8 @@ class Equilibrium:
             if self._too_deep(beta, phi, yielded):
                 raise TooDeepError(
                     "the load presses the worm further into the teeth than they can give",
-                    reached={"deflection_rad": behind},
-                )
+                    full=False, deflection=behind,
+                )  # fmt: skip
             # Far from the balance teeth need not agree well with each other.
             tolerance = min(max(_AGREED * residual, _LEAST), _MOST)
             try:
@@ -133,7 +146,9 @@ class Equilibrium:
             except FullError:
                 full += 1
                 if full > _FULL:
-                    raise TooDeepError("more of the teeth bears than could be") from None
+                    raise TooDeepError(
+                        "more of the teeth bears than could be", full=True, deflection=behind
+                    ) from None
                 behind, yielded = 0.5 * behind, 0.5 * yielded
                 before = promised = np.nan
                 continue

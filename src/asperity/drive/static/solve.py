@@ -96,14 +96,22 @@ def _kinetic(problem: DriveProblem, speed: float) -> float:
     return float(friction_at(friction_curve(rating_inputs(problem.case), 3.0 * speed), speed))
 
 
-def too_much(problem: DriveProblem) -> InputError:
+class TooMuchError(InputError):
+    """The teeth cannot carry the torque; ``full``: as more of a flank would bear than a half."""
+
+    full = False
+
+
+def too_much(problem: DriveProblem, *, full: bool = False) -> InputError:
     """Return the line that refuses a drive's torque."""
     module = problem.geometry.axial_module
-    return InputError(
+    found = TooMuchError(
         f"operation.output_torque is {problem.load:.6g} N m; it would press the worm deeper than "
         f"{0.1 * module:.3g} mm, a tenth of the module, into the teeth, or half of a flank would "
         "bear, which no elastic tooth carries: take a smaller torque"
     )
+    found.full = full
+    return found
 
 
 class StaticModel:
@@ -193,8 +201,8 @@ class StaticModel:
         """
         try:
             return sweep(self.equilibrium, self.phases, self.touching, asked, step)
-        except TooDeepError:
-            raise too_much(self.problem) from None
+        except TooDeepError as error:
+            raise too_much(self.problem, full=error.full) from None
 
 
 def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
