@@ -240,8 +240,9 @@ export function view() {
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
       <${Loads} loads=${loads} /><${Kept} rest=${rest} />
-      ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency (of the gearbox) and margin.
-          Oil,          materials, roughness and life are the case's${loads ? html`, and so are its loads (${loads}), which
+      ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency (of the gearbox)
+          and margin. Oil, materials, roughness and life are the case's${loads
+          ? html`, and so are its loads (${loads}), which
           wear, pitting and heat are judged by; strength is by the torque above` : null}${through
           ? html`; its torque through the travel, ${written(through)}, is not, since it goes with another torque: ${
           parts === 3 ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>
