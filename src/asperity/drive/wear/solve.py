@@ -7,6 +7,7 @@ begins at other phases, so that what lies between two of them wears as well.
 
 import dataclasses
 import math
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -153,7 +154,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             now.wear(length, rate, taken.work)
             share = max(float(now.depth.max()) / asked.depth, now.turns / asked.revolutions)
             total = max(len(now.rows), math.ceil(len(now.rows) / share))
-            run.checkpoint(len(now.rows), total, lambda: to_tree(now))
+            run.checkpoint(len(now.rows), total, partial(to_tree, now))
     depth, turns = now.depth, now.turns
     columns = dict(zip(_COURSES, np.array(now.rows).T, strict=True))
     worn = loaded_of(worn_model(new, depth, new.phases))
