@@ -1,10 +1,11 @@
 r"""Stress at the fillets of a loaded tooth, from the forces of the condensed contact.
 
 Three teeth on their rim, whose inside is held or moves as its web lets it, are meshed anew with
-27-node hexahedra, their nodes on the exact fillets. The forces on the flank of a tooth and on those beside it, from the loaded
-contact, are given to the nodes about where they act. Stresses are found at the 2 x 2 x 2 points of
-Gauss of the elements at the fillet, where quadratic elements are best, and carried on to its nodes;
-what elements that share a node differ by tells how far the mesh can be trusted.
+27-node hexahedra, their nodes on the exact fillets. The forces on the flank of a tooth and on those
+beside it, from the loaded contact, are given to the nodes about where they act. Stresses are found
+at the 2 x 2 x 2 points of Gauss of the elements at the fillet, where quadratic elements are best,
+and carried on to its nodes; what elements that share a node differ by tells how far the mesh can be
+trusted.
 """
 
 from __future__ import annotations
