@@ -37,7 +37,7 @@ class Design:
     k_h_beta: float = np.nan
     worst: str = ""  #: Where the edges bear most
     failed: str = ""  #: Why there is no answer
-    merit: tuple[float, float] = (np.inf, np.inf)  #: The less, the better
+    merit: tuple[float, ...] = (np.inf,) * 3  #: The less, the better
 
 
 class Relieved(OfDrive):
