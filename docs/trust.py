@@ -197,7 +197,10 @@ def _formulas(rooms):
 def from_memory():
     """Yield each source from memory that the package names, as module and what it says."""
     for path in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        text = path.read_text("utf-8")
+        if "from memory" not in text:
+            continue
+        for node in ast.walk(ast.parse(text)):
             if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "Source":
                 words = [getattr(each, "value", None) for each in node.args]
                 if "from memory" in words:

@@ -1,5 +1,6 @@
 """Settings shared by all tests."""
 
+import gc
 import math
 import os
 import re
@@ -14,12 +15,21 @@ import hypothesis
 import pytest
 import warm
 
+from asperity.kernels import compiled
+
 if "PYTEST_XDIST_WORKER" in os.environ:
     # The workers have the cores among themselves; threads of linear algebra on top of them wait
     # for each other. Read by the libraries when they are first imported, here or by a program
     # that a test starts.
     for _library in ("OMP", "OPENBLAS", "MKL"):
         os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+# Tests and the libraries they load are millions of objects that stay to the end: looking through
+# them takes a tenth of the time. What is not theirs is still found, less often.
+gc.set_threshold(50_000, 20, 20)
+
+# pytest asks for it whatever a file of tests has imported, and a kernel would ask Numba.
+compiled._Lazy._mock_name = None
 
 # What is started in the background of a script, or by nohup, ignores these signals, and so would
 # all that it starts; tests send them.
@@ -73,6 +83,12 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     )
 
 
+def pytest_collection_finish() -> None:
+    gc.freeze()
+
+
+_ALL_SLOW = re.compile(r"^pytestmark = (\[\n\s*)?pytest\.mark\.slow\b", re.MULTILINE)
+
 # A slow test stands in a file or a folder that says so, or has a grid of cases.
 _NAMES_SLOW = re.compile(r"\b(slow|grid)\b")
 
@@ -83,11 +99,13 @@ def _may_be_slow(path: Path) -> bool:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    # Half of the files have none: collecting them takes each worker as long as a dear test.
-    is_test = collection_path.match("test_*.py")
-    if config.option.markexpr == "slow" and is_test and not _may_be_slow(collection_path):
-        return True
-    return None
+    # Of some files nothing is asked for: collecting them takes each worker as long as a dear test.
+    asked = config.option.markexpr
+    if asked not in ("slow", "not slow") or not collection_path.match("test_*.py"):
+        return None
+    if asked == "slow":
+        return None if _may_be_slow(collection_path) else True
+    return True if _ALL_SLOW.search(collection_path.read_text("utf-8")) else None
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)

@@ -270,6 +270,7 @@ def test_optimise_finds_another_pressure_angle_where_a_bearing_asks_for_it(asper
     assert all(row["holds"] for row in json.loads(output)["verdict"]["rows"])
 
 
+@pytest.mark.slow
 def test_optimise_tells_what_shafts_and_bearings_come_to_with_its_design(asperity, tmp_path):
     case = ("actuator-shafts", "--set", "worm_shaft.peak=20")
     code, output, errors = asperity("optimise", *case, "--free", "worm_roughness", "--json")

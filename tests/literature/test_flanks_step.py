@@ -99,6 +99,7 @@ def test_every_flank_of_the_tooth_lies_on_the_exact_wheel(wheel, tmp_path):
     assert found == {1: 3, -1: 3}
 
 
+@pytest.mark.slow
 def test_the_tooth_is_closed_and_the_same_when_read_again(wheel, tmp_path):
     path = tmp_path / "tooth.step"
     written = write_step(path, tooth_body(wheel)).check

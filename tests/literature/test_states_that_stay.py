@@ -197,6 +197,7 @@ def test_nothing_is_said_of_friction_at_its_limit_where_a_body_comes_to_it(ratio
     assert not answer.notes
 
 
+@pytest.mark.slow
 def test_a_march_that_repeats_every_second_cycle_is_not_taken_for_the_state_of_one_beside_it(
     tmp_path,
 ):

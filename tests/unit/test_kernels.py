@@ -3,6 +3,7 @@
 import ast
 import functools
 import importlib
+import re
 from pathlib import Path
 
 import numpy as np
@@ -60,14 +61,23 @@ def is_kernel(node):
     )
 
 
+IMPORTED = re.compile(r"^[ \t]*from[ \t]+([\w.]+)[ \t]+import\b", re.MULTILINE)
+
+
 @functools.cache
 def trees():
-    found = {}
+    """Modules that have kernels, and those that import from one or from the folder of one."""
+    texts = {}
     for path in sorted(PACKAGE.rglob("*.py")):
         place = path.relative_to(PACKAGE.parent).with_suffix("")
-        module = ".".join(place.parts).removesuffix(".__init__")
-        found[module] = ast.parse(path.read_text("utf-8"))
-    return found
+        texts[".".join(place.parts).removesuffix(".__init__")] = path.read_text("utf-8")
+    having = {module for module, text in texts.items() if "@kernel" in text}
+    known = having | {module.rpartition(".")[0] for module in having}
+    return {
+        module: ast.parse(text)
+        for module, text in texts.items()
+        if module in having or not known.isdisjoint(IMPORTED.findall(text))
+    }
 
 
 @functools.cache
@@ -124,8 +134,13 @@ def allocates(kernel):
     )
 
 
+@functools.cache
 def called_from_python():
     """Kernels that other functions than kernels name."""
+    return {*_named_in_python()}
+
+
+def _named_in_python():
     for module, tree in trees().items():
         known = {
             name.rsplit(".", 1)[1]: name for name in kernels() if name.startswith(f"{module}.")
@@ -157,7 +172,7 @@ def kinds_of(made):
 def test_kernels_are_found():
     assert len(kernels()) > 300
     assert {"asperity.kernels.dense.copy", "asperity.slider.shooting.shoot"} <= {*kernels()}
-    entries = {*called_from_python()}
+    entries = called_from_python()
     assert {"asperity.slider.shooting.shoot", "asperity.contact.motion.march.march"} <= entries
     assert "asperity.slider.shooting._newton" not in entries
 
@@ -198,7 +213,7 @@ def test_only_kernels_that_are_named_make_arrays():
 
 
 def test_what_python_calls_returns_numbers():
-    for name in {*called_from_python()}:
+    for name in called_from_python():
         space = vars(importlib.import_module(name.rsplit(".", 1)[0]))
         for node in ast.walk(kernels()[name]):
             if isinstance(node, ast.Return) and isinstance(node.value, ast.Call):

@@ -10,7 +10,7 @@ import pytest
 
 from asperity.kernels.building import lean, link, making
 from asperity.kernels.native import kept, keys, table
-from asperity.kernels.native.entries import Entry, listed
+from asperity.kernels.native.entries import Entry, listed, shared_out
 
 
 class Doubled:
@@ -174,6 +174,41 @@ def test_what_is_waited_for_is_asked_for_first(entry, tmp_path, monkeypatch):
     makers._running, makers._deaths = [Told()], 1
     makers.make([entry])
     assert told == [[keys.key(each) for each in (entry, *others)]]
+
+
+@pytest.mark.parametrize("processes", [1, 2, 3, 20])
+def test_of_all_each_process_makes_whole_rooms_first_and_helps_with_the_others(
+    processes, tmp_path, monkeypatch
+):
+    told = {}
+
+    class Told:
+        def ask(self, line):
+            told[self] = line.split()
+            if len(told) == processes:
+                for key in told[self]:
+                    (tmp_path / key).mkdir()
+
+        def ended(self):
+            return None
+
+    all_of_them = sorted(listed().entries, key=lambda each: -each.seconds)
+    monkeypatch.setattr(kept, "likely", lambda asked: [])
+    monkeypatch.setattr(kept, "most_makers", lambda: 0)
+    makers = kept._Makers(tmp_path)
+    makers._running, makers._deaths = [Told() for _ in range(processes)], 1
+    makers.make(all_of_them)
+    shares = shared_out(all_of_them, processes)
+    rooms = [{".".join(each.module.split(".")[:2]) for each in share} for share in shares]
+    assert sum(map(len, rooms)) == len(set().union(*rooms)) > 5
+    assert sum(map(len, shares)) == len(all_of_them)
+    for share, order in zip(shares, told.values(), strict=True):
+        assert sorted(order) == sorted(map(keys.key, all_of_them))
+        assert order[: len(share)] == [keys.key(each) for each in share]
+    # About equal, or as unequal as one room that is dearer makes them.
+    seconds = sorted(sum(each.seconds for each in share) for share in shares)
+    dearest = max(sum(e.seconds for e in all_of_them if f"{room}." in e.name) for room in rooms[0])
+    assert seconds[-1] <= max(1.5 * sum(seconds) / processes, dearest)
 
 
 def test_as_many_processes_make_as_there_is_room_for(monkeypatch):

@@ -167,12 +167,13 @@ class Cycle:
         """
         if not _SURE < growth <= UNSTABLE:
             return False
-        longer = self.copied()
-        told = []
+        longer, grown = self.copied(), []
         for cycles in _LONGER:
             longer.repeat(cycles)
-            told.append(longer._by_differences() if longer.find(0) else 0.0)
-        return told[0] > UNSTABLE and math.log(max(told[1], 1.0)) > 3.0 * math.log(told[0])
+            grown.append(longer._by_differences() if longer.find(0) else 0.0)
+            if not grown[-1] > UNSTABLE:
+                return False
+        return math.log(grown[1]) > 3.0 * math.log(grown[0])
 
     def one_of_many(self, growth: float) -> bool:
         """Whether a disturbance of a state lasts, and the mean force follows it."""

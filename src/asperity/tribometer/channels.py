@@ -2,6 +2,7 @@
 
 import dataclasses
 import datetime
+import functools
 from typing import Annotated, Any, ClassVar
 
 import pydantic
@@ -158,9 +159,13 @@ def _channel(name: str, given: Any, info: pydantic.ValidationInfo) -> Any:
             read[key] = number(value, "", key) * float(read["capacity"])
         elif value is not None:
             read[key] = number(value, unit, key)
-    # Of its own class, so that what is refused is told by its own name.
-    own: Any = type("Channel", (Channel,), {"table": f"channels.{name}", "__module__": __name__})
-    return own.model_validate(read)
+    return _own(name).model_validate(read)
+
+
+@functools.cache
+def _own(name: str) -> Any:
+    """Return the class of a channel, of its own so that what is refused is told by its name."""
+    return type("Channel", (Channel,), {"table": f"channels.{name}", "__module__": __name__})
 
 
 def _reads(name: str) -> pydantic.BeforeValidator:

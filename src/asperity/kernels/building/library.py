@@ -21,7 +21,7 @@ from asperity import exit_codes
 from asperity.kernels import folder as kernel_folder
 from asperity.kernels.building.compiler import TARGET, hindrance
 from asperity.kernels.native import keys, load
-from asperity.kernels.native.entries import Entry, listed
+from asperity.kernels.native.entries import Entry, listed, shared_out
 from asperity.kernels.native.kept import UNFIT
 from asperity.kernels.native.target import FEATURES
 
@@ -104,7 +104,8 @@ class _Makers:
 
     def make(self) -> dict[int, str]:
         """Return what could not be made, by number, and why."""
-        parts = _parts(self.entries, self.processes)
+        shares = shared_out(self.entries, self.processes, depth=3)
+        parts = [[entry.number for entry in share] for share in shares if share]
         # Each goes through all, its own part first, and passes by what is there or being made.
         orders = [
             [n for part in (*parts[at:], *reversed(parts[:at])) for n in part]
@@ -182,21 +183,6 @@ def _command(kernels: Path, processes: int, numbers: Sequence[int]) -> list[str]
         *(sys.executable, "-P", "-m", "asperity.kernels.building.library", str(kernels)),
         *("--processes", str(processes), "--only", *map(str, numbers)),
     ]
-
-
-def _parts(entries: Sequence[Entry], processes: int) -> list[list[int]]:
-    """Modules that call much the same stay together, of about equal length each."""
-    parts: list[list[Entry]] = [[] for _ in range(processes)]
-    rooms: dict[str, list[Entry]] = {}
-    for entry in entries:
-        rooms.setdefault(".".join(entry.module.split(".")[:3]), []).append(entry)
-    for room in sorted(rooms.values(), key=_seconds, reverse=True):
-        min(parts, key=_seconds).extend(room)
-    return [[entry.number for entry in part] for part in parts if part]
-
-
-def _seconds(entries: Sequence[Entry]) -> float:
-    return sum(entry.seconds for entry in entries)
 
 
 def _make(kernels: Path, entries: Iterable[Entry], processes: int) -> None:

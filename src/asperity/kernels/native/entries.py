@@ -109,6 +109,33 @@ def _mark(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:8]
 
 
+def shared_out(entries: Iterable[Entry], processes: int, depth: int = 2) -> list[list[Entry]]:
+    """Return which entries each process is to make: about equal shares, of whole rooms.
+
+    What several entries of a room call is compiled once where one process makes them all.
+
+    Parameters
+    ----------
+    entries : iterable of Entry
+        Those of a room stay in their order.
+    processes : int
+        How many shares; those beyond the number of rooms are empty.
+    depth : int
+        So many names of a module make a room, the package's own among them.
+    """
+    shares: list[list[Entry]] = [[] for _ in range(processes)]
+    rooms: dict[str, list[Entry]] = {}
+    for entry in entries:
+        rooms.setdefault(".".join(entry.module.split(".")[:depth]), []).append(entry)
+    for room in sorted(rooms.values(), key=_seconds, reverse=True):
+        min(shares, key=_seconds).extend(room)
+    return shares
+
+
+def _seconds(entries: Iterable[Entry]) -> float:
+    return sum(entry.seconds for entry in entries)
+
+
 def likely(asked: Iterable[int]) -> list[Entry]:
     """Return what a process that has asked for some entries most likely asks for next.
 

@@ -19,7 +19,7 @@ from typing import Any
 
 from asperity.kernels import folder as kernel_folder
 from asperity.kernels.native import keys, load, table
-from asperity.kernels.native.entries import Entry, likely, listed
+from asperity.kernels.native.entries import Entry, likely, listed, shared_out
 from asperity.kernels.native.target import FEATURES
 from asperity.kernels.native.types import UnlistedTypeError, types_of
 
@@ -243,8 +243,10 @@ class _Makers:
 
     def _tell(self) -> None:
         wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED)])
-        missing = [key for key in map(keys.key, wanted) if key not in self._lost]
-        missing = [key for key in missing if not (self._kernels / key).exists()]
+        missing = {keys.key(entry): entry for entry in wanted}
+        for key in list(missing):
+            if key in self._lost or (self._kernels / key).exists():
+                del missing[key]
         most = most_makers()
         count = min(max(most - self._deaths, 1), len(missing))
         if self._begins and self._deaths <= most:
@@ -253,8 +255,21 @@ class _Makers:
                     self._running.append(_Maker(_begun(self._kernels)))
             except (OSError, ValueError):
                 self._begins = False
-        for each in self._running:
-            each.ask(" ".join(missing) + "\n")
+        orders = self._orders(missing, len(self._running))
+        for each, order in zip(self._running, orders, strict=True):
+            each.ask(" ".join(order) + "\n")
+
+    def _orders(self, missing: dict[str, Entry], count: int) -> list[list[str]]:
+        """Return what each process makes in turn; it passes by what another is at."""
+        if count == 0 or len(self._waited_for) <= count:
+            return [list(missing)] * count
+        # All of them are waited for: each begins with rooms of its own, and helps from the end.
+        orders = []
+        for share in shared_out(missing.values(), count):
+            own = {keys.key(entry): None for entry in share}
+            others = [key for key in missing if key not in own]
+            orders.append([*own, *(reversed(others) if own else others)])
+        return orders
 
     def leave(self) -> None:
         """Let the processes end by themselves, after what they are at."""
