@@ -16,7 +16,7 @@ def test_patterns_of_a_drive_that_runs_backwards_are_of_the_flanks_behind(monkey
             asked.append((sector, friction, side))
 
     def too_deep(*given):
-        raise TooDeepError("none bear")
+        raise TooDeepError("none bear", full=0.0, deflection=0.0)
 
     monkeypatch.setattr(solve, "TeethContact", Contact)
     monkeypatch.setattr(solve, "Equilibrium", lambda contact, compliance: contact)
