@@ -22,21 +22,26 @@ def quarters_in_time(means: Sequence[float]) -> float | None:
 
 
 def quarter_means(
-    halves: Sequence[tuple[float, float]], quarters: Sequence[tuple[float, float]]
+    halves: Sequence[tuple[float, float]],
+    quarters: Sequence[tuple[float, float]],
+    *,
+    counted: bool = False,
 ) -> list[float]:
-    """Return the means over the quarters of a window, or its halves where a quarter has no steps.
+    """Return the means over the quarters of a window, or its halves where a quarter has no span.
 
     Parameters
     ----------
     halves, quarters : sequence of 2 tuples
         Sum and span of the halves of a window, and of the first quarter in each.
+    counted : bool
+        Whether spans are steps; the mean of none of them is nothing.
     """
     means = []
     for (force, span), (early, of_it) in zip(halves, quarters, strict=True):
         parts = (early, of_it), (force - early, span - of_it)
-        if of_it <= 0.0:
+        if of_it <= 0.0 and not counted:
             parts = (force, span), (force, span)
-        means += [each / time for each, time in parts]
+        means += [each / (max(time, 1.0) if counted else time) for each, time in parts]
     return means
 
 

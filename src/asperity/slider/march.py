@@ -223,7 +223,7 @@ class March:
         means = [half["drive_force"] / half["steps"] for half in halves]
         window = WindowMeans(
             self._timed, table, abs(float(means[1] - means[0])),
-            quarter_means([_pulled(half) for half in halves], self._quarters),
+            quarter_means([_pulled(half) for half in halves], self._quarters, counted=True),
             self.breakaway is not None, pull_across(model, sums["friction_y"] / sums["steps"]),
         )  # fmt: skip
         swings = _swing(first_half), _swing(self.sums)

@@ -12,9 +12,8 @@ from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, inputs
 from asperity.block.series import Frame
-from asperity.block.solution.course import Course
+from asperity.block.solution.course import Course, Kept, Progress
 from asperity.block.solution.notes import block_notes
-from asperity.block.solution.progress import Kept, Progress
 from asperity.block.solution.stability import Flutter
 from asperity.contact.motion.ledger import energies, power_ledger
 from asperity.contact.motion.rest import rest_under_load
