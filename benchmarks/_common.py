@@ -63,14 +63,15 @@ def in_turn(commit, program, *arguments, rounds):
     return then, now
 
 
-def finish(report, *, most=None, least=None, wanted=None):
+def finish(report, *, most=None, least=None, wanted=None, held=None):
     """Print one line a figure, or all as JSON with ``--json``, and end the process.
 
     ``most`` bounds times by name, ``least`` ratios, ``wanted`` ratios of which one may miss it.
     What is missed is said. A time depends on the machine and who shares it, so that the ratios of
-    ``least`` alone make the status 1.
+    ``least`` alone make the status 1, and of times those that are ``held``.
     """
-    most, least, wanted = most or {}, least or {}, wanted or {}
+    least, wanted, held = least or {}, wanted or {}, held or {}
+    most = {**(most or {}), **held}
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     missed = False
     lines = []
@@ -79,6 +80,7 @@ def finish(report, *, most=None, least=None, wanted=None):
             text = f"{value:12.4g}" if isinstance(value, float | int) else f"{value:>12}"
             line = f"{name:24s} {key:42s} {text}"
             if key in most:
+                missed |= key in held and value > held[key]
                 line += f"  {'missed' if value > most[key] else 'holds'}: at most {most[key]:g}"
             if key in least:
                 missed |= value < least[key]

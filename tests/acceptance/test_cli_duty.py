@@ -12,6 +12,7 @@ from asperity.commands import case_tables
 from asperity.gearset import Gearset
 from asperity.gearset.hob_shelf import PAIRS
 from asperity.gearset.masses import masses
+from asperity.python import rate
 from asperity.rating import rate_case
 
 TEXT = "250 N m, 1400 rpm, 500 h; 150 N m, 1400 rpm, 1500 h; 60 N m, 700 rpm, 3000 h"
@@ -280,12 +281,13 @@ def test_backlash_of_each_proposal_is_that_of_its_rating(asperity, tmp_path):
                 "--set", "tolerances.tooth=['-50 um', '-100 um']")  # fmt: skip
     code, output, errors = asperity(
         "size", "--ratio", "50", "--output-torque", "250 N m", "--worm-speed", "1400 rpm",
-        "--uncut", "--out", "out", *settings, cwd=tmp_path,
+        "--uncut", "--set", "gearset.centre_distance=100 mm", "--set", "gearset.diameter_factor=12",
+        "--out", "out", *settings, cwd=tmp_path,
     )  # fmt: skip
     assert code == 0, errors
     assert "backlash (arcmin)" in output
     best = json.loads((tmp_path / "out" / "size.json").read_text("utf-8"))["proposals"][0]
-    rated = rate_case(read_case(tmp_path / "out" / "proposal-1.toml", case_tables())).to_json()
+    rated = rate(tmp_path / "out" / "proposal-1.toml").to_json()
     new = rated["backlash"]["new"]
     assert best["backlash_arcmin"] == pytest.approx(
         [new["wheel_min_arcmin"], new["wheel_max_arcmin"]]

@@ -79,7 +79,7 @@ def to_a_law(walk):
     """From a recording to a friction law that is fitted to it; returns where that is shown."""
     page = walk.page
     walk.click("link", "What did my rig measure?")
-    page.get_by_label("or drop a file here").set_input_files(RECORDING)
+    page.get_by_label("choose a file").set_input_files(RECORDING)
     walk.clicks += 1
     expect(page.get_by_role("heading", name="rig.nc")).to_be_visible()
     expect(page.locator(".signals")).to_be_visible()

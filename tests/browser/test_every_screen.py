@@ -95,6 +95,23 @@ def test_on_a_phone_the_answer_stands_before_what_is_set_on_every_screen(seen_as
             assert below.bounding_box()["y"] > top.bounding_box()["y"], screen
 
 
+TABLES = {"thesis": ".claims", "rig": ".levels", "gear": ".standards, .bars"}
+
+
+def test_on_a_phone_what_a_table_says_is_not_out_of_sight_at_its_side(seen_as):
+    # Verdicts of claims, what is good of a segment, the third standard, names of safeties.
+    seen = seen_as(viewport={"width": 360, "height": 740}, reduced_motion="reduce")
+    for screen, tables in TABLES.items():
+        page = seen.open(screen)
+        expect(page.locator(f":is({tables}) td").first).to_be_visible()
+        settled(page)
+        for table in page.locator(tables).all():
+            assert table.evaluate("one => one.scrollWidth <= one.clientWidth + 1"), screen
+        row = page.locator(f":is({tables}) tbody tr").first
+        last = row.locator(":scope > :last-child").bounding_box()
+        assert last["x"] + last["width"] <= 360, screen
+
+
 @pytest.mark.campaign
 @pytest.mark.parametrize("screen", SCREENS)
 def test_reload_and_back_lead_to_the_same_screen(seen, screen):

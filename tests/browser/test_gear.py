@@ -132,6 +132,8 @@ def test_a_proposal_that_is_taken_is_the_gearset_that_was_proposed(seen, server)
     first.get_by_role("button", name="take").click()
     expect(page.get_by_role("heading", name="Gearset", exact=True)).to_be_visible()
     settled(page)
+    # The button is gone with its screen: the keyboard goes on from the answer.
+    assert page.evaluate("document.activeElement.id") == "main"
     assert shown(page, "iso14521.eta_ges") == pytest.approx(best["efficiency"], rel=1e-9)
 
 

@@ -71,7 +71,7 @@ def test_the_report_of_a_body_has_the_numbers_of_the_screen_and_its_files_stand_
 
 def test_a_recording_that_is_reduced_has_its_report(seen, tmp_path):
     page = seen.open("rig")
-    page.get_by_label("or drop a file here").set_input_files(HERE.parent / "answers" / "rig.nc")
+    page.get_by_label("choose a file").set_input_files(HERE.parent / "answers" / "rig.nc")
     expect(page.get_by_role("heading", name="rig.nc")).to_be_visible()
     # It is reduced first, in sight.
     path = taken(page, tmp_path)

@@ -14,7 +14,7 @@ RECORDING = Path(__file__).parents[1] / "answers" / "rig.nc"
 def dropped(seen, **params):
     """Open the rig and drop a recording; returns the page."""
     page = seen.open("rig", **params)
-    page.get_by_label("or drop a file here").set_input_files(RECORDING)
+    page.get_by_label("choose a file").set_input_files(RECORDING)
     # It takes the place of the one whose answer ships.
     expect(page.get_by_role("heading", name="rig.nc")).to_be_visible()
     expect(page.locator(".signals")).to_be_visible()

@@ -4,6 +4,7 @@ import re
 
 import pytest
 from apparatus.browser import answered, copied, settled, shown, tab_to
+from PIL import Image
 from playwright.sync_api import expect
 
 NUMBERS = ("ratio", "drive_force_N", "power_vibration_W", "power_friction_W", "power_residual")
@@ -132,6 +133,11 @@ def test_a_picture_is_drawn_on_white_with_its_legend_whatever_the_page_looks_lik
     for title, legend in (("Power", "lost to friction"), ("Over a cycle", "sliding")):
         assert texts["light", title] == texts["dark", title]
         assert legend in texts["light", title]
+    page = seen_as(color_scheme="dark").open("gear")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="To scale as PNG").click()
+    # What has no ground of its own either, such as the drawing of a gearset.
+    assert Image.open(download.value.path()).getpixel((1, 1)) == (255, 255, 255, 255)
 
 
 def test_a_number_of_another_base_is_refused_and_a_meaning_names_no_other_unit(slide):
@@ -371,7 +377,9 @@ def test_a_refused_elevation_keeps_its_field_and_the_old_headline_is_of_before(s
             "getComputedStyle(document.querySelector('.headline'), '::before').content"
         )
         assert said == '"of before"'
+        expect(page.locator(".ball figcaption")).to_have_text("before: direction 0°, elevation 90°")
     box.fill(was)
     box.press("Enter")
     settled(page)
     expect(page.locator(".fault, .of-before")).to_have_count(0)
+    expect(page.locator(".ball figcaption")).to_have_text("direction 0°, elevation 90°")

@@ -29,9 +29,14 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def setup():
     """A tooth cut out of the wheel, alone in the worm: small enough to solve in half a minute."""
-    made = TeethSetup.from_case(
+    return alone(
         case("drive.teeth=1", f"operation.output_torque={LOAD} N m", "friction.model=coulomb")
     )
+
+
+def alone(given):
+    """The deck of a case whose wheel is one tooth."""
+    made = TeethSetup.from_case(given)
     contact = made.model.contact
     body = contact.sector.body
     contact.slots = 1
@@ -157,28 +162,80 @@ def test_the_rim_is_held_where_the_package_holds_it(setup):
     assert np.ptp(radius) < 1e-9
 
 
-@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
-def test_calculix_finds_the_torques_and_the_deflection_of_the_package(setup, tmp_path):
+HAS_CCX = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
+
+
+def run_by_calculix(setup, folder):
+    """Torques of wheel and worm after each increment, N m, and the wheel's deflection, rad."""
     for name, text in calculix_files(setup).items():
-        (tmp_path / name).write_text(text)
+        (folder / name).write_text(text)
     done = subprocess.run(
-        ["ccx", "teeth"], cwd=tmp_path, capture_output=True, text=True, check=False, timeout=900
+        ["ccx", "teeth"], cwd=folder, capture_output=True, text=True, check=False, timeout=3600
     )
     assert "Job finished" in done.stdout, done.stdout[-2000:]
-    told = (tmp_path / "teeth.dat").read_text()
-    sums = re.findall(
-        r"moment about the origin \(mx,my,mz\)\s+" + r"\s+".join([f"({FLOAT})"] * 6), told
+    told = (folder / "teeth.dat").read_text()
+    sums = np.array(
+        re.findall(
+            r"moment about the origin \(mx,my,mz\)\s+" + r"\s+".join([f"({FLOAT})"] * 6), told
+        ),
+        float,
     )
-    last = np.array(sums[-1], float)
-    wheel, worm = torques(setup, last[:3], last[3:])
+    turned = re.findall(rf"set WHEEL_TURNING.*\n\n\s+\d+(?:\s+{FLOAT})+\s+({FLOAT})", told)
+    found = [torques(setup, one[:3], one[3:]) for one in sums]
+    return found, deflection(setup, float(turned[-1]))
+
+
+@HAS_CCX
+def test_calculix_finds_the_torques_and_the_deflection_of_the_package(setup, tmp_path):
+    found, turned = run_by_calculix(setup, tmp_path)
+    wheel, worm = found[-1]
     end = setup.balance
     assert wheel == pytest.approx(LOAD, rel=1e-4)
     assert worm == pytest.approx(end.worm_torque, rel=2e-3)
-    turned = re.findall(rf"set WHEEL_TURNING.*\n\n\s+\d+(?:\s+{FLOAT})+\s+({FLOAT})", told)
     # Element by element the same, but pressed by its faces and not by its nodes: 4 % here.
-    assert deflection(setup, float(turned[-1])) == pytest.approx(
-        setup.touching - end.wheel_angle, rel=5e-2
-    )
+    assert turned == pytest.approx(setup.touching - end.wheel_angle, rel=5e-2)
     # Before it slides friction is not yet that of sliding.
-    first = np.array(sums[3], float)
-    assert torques(setup, first[:3], first[3:])[1] < 0.8 * worm
+    assert found[3][1] < 0.8 * worm
+
+
+@HAS_CCX
+def test_calculix_finds_the_torques_and_the_deflection_of_five_teeth(tmp_path):
+    setup = TeethSetup.from_case(case("drive.teeth=5", "friction.model=coulomb"))
+    found, turned = run_by_calculix(setup, tmp_path)
+    end = setup.balance
+    assert np.count_nonzero(end.action.normal) == 3
+    assert found[-1][0] == pytest.approx(setup.problem.load, rel=1e-4)
+    assert found[-1][1] == pytest.approx(end.worm_torque, rel=2e-2)
+    assert turned == pytest.approx(setup.touching - end.wheel_angle, rel=5e-2)
+
+
+@HAS_CCX
+@pytest.mark.parametrize("share", [-5.0 / 12.0, 0.0])
+def test_calculix_finds_the_torque_as_a_pitch_passes_a_sector_of_three_teeth(share, tmp_path):
+    # What lies between repeats: a revolution of the worm is four pitches.
+    made = TeethSetup.from_case(case("drive.teeth=3", "friction.model=coulomb"))
+    pitch = made.model.sector.pitch * made.pair.ratio
+    setup = made.at(share * pitch)
+    found, _ = run_by_calculix(setup, tmp_path)
+    assert found[-1][1] == pytest.approx(setup.balance.worm_torque, rel=2e-2)
+
+
+@HAS_CCX
+@pytest.mark.parametrize("angle", [0.0, 0.4])
+def test_calculix_finds_the_torque_with_the_slope_at_rest_of_dahl_s_law(angle, tmp_path):
+    made = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
+    # The law's slope at rest is full friction over its deflection.
+    friction = made.problem.friction
+    pressure = made.stick * friction.max_deflection / made.model.friction
+    assert 0.1e9 < pressure < 2e9
+    found, _ = run_by_calculix(made, tmp_path)
+    assert found[-1][1] == pytest.approx(made.balance.worm_torque, rel=2e-2)
+
+
+def test_the_worm_turned_by_a_pitch_stands_as_it_stood(setup):
+    pitch = setup.model.sector.pitch * setup.pair.ratio
+    on = setup.at(pitch)
+    assert on.balance.worm_torque == pytest.approx(setup.balance.worm_torque, rel=1e-6)
+    assert on.touching - setup.touching == pytest.approx(setup.model.sector.pitch, rel=1e-6)
+    # What is written of it faces the wheel at either angle.
+    assert on.worm.points[:, 1].mean() == pytest.approx(setup.worm.points[:, 1].mean(), abs=1e-5)

@@ -131,6 +131,23 @@ def test_without_friction_every_part_is_symmetric_in_force_and_turn(geometry):
     assert frictionless.at_wheel(part) == pytest.approx(forces @ part @ forces, rel=1e-12)
 
 
+def test_a_housing_is_in_series_with_the_bearings_along_the_centre_distance(action):
+    parts = compliances_of(
+        Shaft(bearing_radial="100 kN/mm", span="150 mm", housing="40 kN/mm"), action.radius
+    )
+    whole = sum(parts.values(), np.zeros((4, 4)))
+    # Two bearings side by side, the housing behind both; along the wheel's axis it gives nothing.
+    assert whole[3, 3] == pytest.approx(1.0 / 200e6 + 1.0 / 40e6, rel=1e-12)
+    assert whole[2, 2] == pytest.approx(1.0 / 200e6, rel=1e-12)
+    # The flanks part by the radial shift's share along the normal, which the wheel turns back.
+    turn = action.normal[2] / (action.normal[0] * action.wheel_radius) * action.force[2] / 40e6
+    assert wheel_compliances(action, parts)["housing"] == pytest.approx(turn, rel=1e-12)
+    soft = bending_of(Shaft(bearing_radial="100 kN/mm", span="150 mm", housing="40 kN/mm"),
+                      action.radius, 0.3)  # fmt: skip
+    assert soft.stiffness[2] == pytest.approx(1.0 / (1.0 / 200e6 + 1.0 / 40e6), rel=1e-12)
+    assert soft.mass[2] == pytest.approx(0.3, rel=1e-12)
+
+
 def test_parts_add_and_what_is_left_out_is_rigid(action):
     given = {"bearing_axial": 2e8, "torsion": 4394.0, "seat": 5e8}
     found = wheel_compliances(action, compliances(action.radius, **given))

@@ -68,4 +68,9 @@ def test_what_is_added_to_an_answer_is_prepared_where_it_is_asked_for():
     with pytest.raises(InputError, match="name a folder for it with --out"):
         rate.solved(problem, Run())
     # What an answer is kept under follows from all that adds to it.
-    assert [module.split(".")[1] for module in rate.modules] == ["rating", "shafts", "flanks"]
+    assert [module.split(".")[1] for module in rate.modules] == [
+        "rating",
+        "shafts",
+        "flanks",
+        "flanks",
+    ]

@@ -210,3 +210,8 @@ def test_elastic_teeth_are_refused_for_a_stroke():
     elastic = read_case("drive-actuator", case_tables(), ["drive.model=teeth"])
     with pytest.raises(InputError, match="asperity control marches 'reduced'"):
         study.prepare(elastic)
+
+
+def test_a_reading_switches_a_millisecond_later_unless_another_delay_is_given():
+    assert control().delay == pytest.approx(1.0 / control().sample_rate, rel=1e-12)
+    assert control(delay="2 ms").delay == pytest.approx(2e-3, rel=1e-12)

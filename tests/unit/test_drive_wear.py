@@ -14,7 +14,7 @@ from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import ExactFlank
 from asperity.drive.static.loaded import loaded_of
-from asperity.drive.static.solve import StaticModel, wheel_of
+from asperity.drive.static.solve import StaticModel, too_much, wheel_of
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.wear import solve
 from asperity.drive.wear.model import Taken, _about, axes_of, node_area, worn_model
@@ -151,6 +151,30 @@ def test_a_wheel_beds_in_and_goes_on_to_the_bit_from_where_it_was_left(tmp_path)
     assert told[0] == 4
     np.testing.assert_array_equal(after.depth, whole.depth)
     np.testing.assert_array_equal(after.turns, whole.turns)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("full", "why"), [(True, "half of a flank"), (False, "overlap")])
+def test_a_flank_that_wears_no_further_ends_with_the_cause_and_what_is_known(
+    full, why, monkeypatch
+):
+    asked = solve.prepare(case(), depth="6 um")
+    own, tried = StaticModel.courses, []
+
+    def courses(self, cases, *args):
+        tried.append(self)
+        # The new wheel's pressures and two steps' pitches are found, the third step's is not.
+        if len(tried) == 4:
+            raise too_much(self.problem, full=full)
+        return own(self, cases, *args)
+
+    monkeypatch.setattr(StaticModel, "courses", courses)
+    found = solve.answer(asked, Run())
+    assert found.depth_max == pytest.approx(1.0, rel=1e-6)
+    assert len(found.turns) == 2
+    assert found.turns[-1] == pytest.approx(found.revolutions)
+    assert why in found.notes[0]
+    assert "output_torque" not in found.notes[0]
 
 
 @pytest.mark.slow

@@ -12,10 +12,12 @@ from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.interface.surface import contact_surface
 from asperity.drive.deck.setup import TeethSetup
 from asperity.drive.static.solve import wheel_of
+from asperity.drive.teeth.rim_moves import MovingRim
 from asperity.drive.teeth.sector import right_handed
 from asperity.drive.teeth.whole import Ring, with_web
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts, tooth
+from asperity.flanks.wheel.frame import turned
 from asperity.gearset.blanks import WheelBody, rim_radius
 
 COUNTS = Counts(flank=4, face=6, thickness=3, rim=3, land=2, low_fillet=2, high_fillet=2)
@@ -61,6 +63,39 @@ def test_on_a_held_rim_it_is_the_sector_of_many_teeth():
         other = contact_surface(sector, f"flank_plus_{5 - m}")
         found = float(even(other) @ moved[other.nodes].reshape(-1))
         assert one @ block @ one == pytest.approx(found, rel=2e-3), m
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rim", [2.2])
+def test_a_rim_moved_by_its_web_carries_its_teeth_as_the_whole_wheel(rim):
+    web = WheelBody(5.0, 23.2)
+    own, *further = ring(rim, web.web_width, web.hub_radius)[0].blocks(2)
+    made = wheel(rim)
+    counts = COUNTS._replace(rim=max(3, round(rim / 1.5)))
+    one = tooth(made, counts)
+    surface = contact_surface(one, "flank_plus")
+    moving = MovingRim.of(one, surface, web, made.pair.geometry, MATERIAL)
+    sector = tooth(made, counts, teeth=5)
+    body = elastic_body(sector, MATERIAL, element="hex8i", tied="inner")
+    turn = turned(2 * 2.0 * math.pi / 60)
+    force = np.zeros((len(sector.points), 3))
+    middle = contact_surface(sector, "flank_plus_2")
+    force[middle.nodes] = even(middle).reshape(-1, 3)
+    held = np.zeros_like(force)
+    points = body.mesh.points[body.tied] @ turn
+    held[body.tied] = moving.at(points, {0: even(surface).reshape(-1, 3)}) @ turn.T
+    moved = body.carried(force.reshape(-1, 1), held.reshape(-1, 1)).reshape(-1, 3)
+    still = body.response(force.reshape(-1)).reshape(-1, 3)
+    load = even(surface)
+    for m in (-1, 0, 1):
+        block = own if m == 0 else further[0] if m > 0 else further[0].T
+        other = contact_surface(sector, f"flank_plus_{2 - m}")
+        asked = float(load @ block @ load)
+        found, before = (
+            float(even(other) @ each[other.nodes].reshape(-1)) for each in (moved, still)
+        )
+        assert found == pytest.approx(asked, rel=0.02), m
+        assert abs(before - asked) > 0.5 * asked
 
 
 @pytest.mark.slow

@@ -1,6 +1,7 @@
 """What people are shown in another language is the answer, with all its numbers."""
 
 import re
+import tomllib
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from asperity.casefile.project import Project
 from asperity.commands.listed import COMMANDS
 from asperity.commands.shown import shown_as
 from asperity.errors import InputError
+from asperity.files.shipped import shipped_cases
 from asperity.flanks.measuring.corners import Corner, Place, Side, corner_table
 from asperity.python import size
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
@@ -97,6 +99,48 @@ def test_the_german_screen_and_report_of_a_rating_leave_nothing_english(given):
     assert "Urteil" in report
     assert max(map(len, screen.splitlines())) <= 79
     assert result.brief() != screen
+
+
+ENGLISH_WORDS = re.compile(r"\b(?:the|of|and|with|for|which|loads?|rated|if|else|is|it)\b")
+RAW = {name: tomllib.loads(path.read_text("utf-8")) for name, path in shipped_cases().items()}
+DUTIES = [
+    (case, command, settings)
+    for case, raw in RAW.items()
+    if "operation" in raw and ("spectrum" in raw or "duty_cycle" in raw["operation"])
+    for command, settings in (
+        ("rate", ()),
+        ("rate", ("tolerances.fit=C", "tolerances.centre_distance=js7")),
+        ("rexs", ()),
+        *((("shafts", ("worm_shaft.load=[{at='2 mm', radial='3000 N'}]",)),
+           ("rate", ("worm_shaft.bearing=[{at='8 mm', carries='both'}, {at='45 mm'}]",)))
+          if "worm_shaft" in raw else ()),
+    )
+]  # fmt: skip
+
+
+def test_the_shipped_duties_are_looked_at():
+    assert {case for case, *_ in DUTIES} >= {"actuator-duty", "actuator-shafts"}
+
+
+@pytest.mark.parametrize("given", DUTIES, ids=str)
+def test_german_of_every_shipped_duty_leaves_nothing_english(given):
+    name, command, settings = given
+    case, result = answer_of(name, *settings, command=command)
+    german = catalogue_of("de")
+    german.missing.clear()
+    with spoken(german):
+        heads = [said(result.heading()), *map(said, result.headline())]
+        rendered(result.tables(sources=True) if command == "rate" else result.tables())
+        report = result.to_html(Heading.of(case))
+        shown = [shown_table(table) for table in result.tables()]
+    assert german.missing <= {case["gearset"].name}
+    heads += re.findall(r"<(?:title|h1|h2|figcaption)[^>]*>([^<]*)<", report)
+    # Equations too, whose cases are told apart by words.
+    for table in shown:
+        place = [column.heading for column in table.columns]
+        if "Gleichung" in place:
+            heads += [row[place.index("Gleichung")] for row in table.rows]
+    assert not [head for head in heads if ENGLISH_WORDS.search(str(head))]
 
 
 WORDY = [

@@ -12,7 +12,7 @@ from asperity.gearset.plastics import Plastic
 from asperity.rating import own_table, rate_case
 from asperity.rating.standards import STANDARDS
 from asperity.results.language import catalogue_of, spoken
-from asperity.start.plastic import plastic_text
+from asperity.start.data_file import DATA_FILES
 
 TABLE = {
     "name": "ours", "youngs_modulus": "2.6 GPa", "poisson_ratio": 0.4, "friction": 0.1,
@@ -28,7 +28,7 @@ RUN = [
 @pytest.fixture
 def ours(tmp_path, monkeypatch):
     path = tmp_path / "ours.toml"
-    path.write_text(plastic_text(), "utf-8")
+    path.write_text(DATA_FILES["plastic"].text("plastic"), "utf-8")
     monkeypatch.setenv(library.VARIABLE, str(path))
     return path
 

@@ -1,6 +1,7 @@
 """Duty cycles: the parts of a load count as the standards' own formulas have them."""
 
 import itertools
+import sys
 
 import numpy as np
 import pytest
@@ -197,3 +198,13 @@ def test_sump_of_a_duty_cycle_is_told_of_the_part_that_wears_most():
     meaning = rated(duty_cycle=steps(*BINS)).iso14521.entry("theta_S_degC").meaning
     assert meaning.endswith("in the part of the duty cycle that wears most")
     assert "part" not in rated(life="2 h").iso14521.entry("theta_S_degC").meaning
+
+
+def test_variants_that_are_rated_block_by_block_are_those_of_one_block(monkeypatch):
+    factors = np.linspace(11.0, 14.0, 5)
+    whole = variants(A100, Operation(**RUN), diameter_factor=factors)
+    for module in ("variants", "variation"):
+        monkeypatch.setattr(sys.modules[f"asperity.rating.{module}"], "BLOCK", 2)
+    parts = variants(A100, Operation(**RUN), diameter_factor=factors)
+    for key in ("iso14521.safety_wear", "bs721.safety_strength", "agma6034.eta"):
+        assert parts[key].tolist() == whole[key].tolist(), key

@@ -57,6 +57,31 @@ def test_steps_split_and_reordered_change_nothing():
         assert safeties(spectral(*order)) == pytest.approx(first, rel=1e-12)
 
 
+@pytest.mark.parametrize("pieces", [(7, 7, 7), (1, 1, 9), (40, 1, 25)])
+def test_no_number_of_a_rating_moves_where_steps_are_split(pieces):
+    # Turns and sliding path too, and what is told of the load that wears most.
+    whole, split = (
+        {f"{rating.standard}.{entry.key}": entry.value for rating in found.ratings
+         for entry in rating}
+        for found in (spectral(*BINS), spectral(*((torque, n, hours / count)
+                      for (torque, n, hours), count in zip(BINS, pieces, strict=True)
+                      for _ in range(count))))
+    )  # fmt: skip
+    assert whole.keys() == split.keys()
+    for key, value in whole.items():
+        assert split[key] == (
+            pytest.approx(value, rel=1e-12) if isinstance(value, float) else value
+        )
+
+
+def test_turns_and_sliding_path_of_a_duty_are_those_of_all_its_steps():
+    found = spectral(*BINS).iso14521
+    turns = sum(60.0 * hours * n / found["gear_ratio"] for _, n, hours in BINS)
+    assert found["N_L"] == pytest.approx(turns, rel=1e-12)
+    alone = sum(spectral(one).iso14521["s_Wm_mm"] for one in BINS)
+    assert found["s_Wm_mm"] == pytest.approx(alone, rel=1e-12)
+
+
 def test_many_steps_go_together_as_arrays_and_give_what_each_gives_alone(monkeypatch):
     draw = np.random.default_rng(24)
     speeds = draw.choice([300.0, 700.0, 1400.0], 60)

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from asperity.rating.changes import says_less
-from asperity.rating.iso14521.limits import PLAUSIBLE, VALIDITY
+from asperity.rating.iso14521.limits import PLAUSIBLE, VALIDITY, implausible
 from asperity.rating.standing import WIDTH, Standing, efficiency_outside
 
 WHY = (
@@ -63,3 +63,10 @@ def test_a_standard_says_less_of_another_part_where_its_word_is_worth_less(befor
     assert says_less(one, lost)
     # A standard that was not asked says neither.
     assert not says_less(rated(agma6034="holds"), rated(agma6034="holds", bs721=after))
+
+
+@pytest.mark.parametrize(("idle", "said"), [(0.0, 0), (99.0, 0), (101.0, 1)])
+def test_more_lost_without_load_than_is_delivered_is_implausible(idle, said):
+    sound = {key: 0.5 * (one.lower + one.upper) for key, one in PLAUSIBLE.items()}
+    losses = {"loss_idle_W": 0.9 * idle, "loss_seal_W": 0.1 * idle, "output_power_W": 100.0}
+    assert len(implausible({**sound, **losses})) == said

@@ -193,7 +193,8 @@ def test_what_hardly_grows_is_told_by_longer_times_in_which_it_does(over_64, ove
     )
     cycle = SimpleNamespace(copied=lambda: longer)
     assert Cycle.grows_slowly(cycle, 1.0001) is grows
-    assert cycles == [64, 4]
+    # What has not grown over the shorter time is followed no longer.
+    assert cycles == ([64, 4] if over_64 > 1.001 else [64])
     assert not Cycle.grows_slowly(cycle, 1.00001)
     assert not Cycle.grows_slowly(cycle, 1.01)
 

@@ -11,7 +11,7 @@ from asperity.slider.fading import apart, mean_left, quarters_in_time
 from asperity.slider.longer import needed
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.tables import TABLES
-from asperity.slider.timetable import Timetable
+from asperity.slider.timetable import Timetable, WindowMeans
 
 
 def first_that_does(model, table, means, residual):
@@ -48,5 +48,6 @@ def test_the_duration_foreseen_is_the_least_of_all_whose_window_would_be_steady(
         wanted = first_that_does(model, table, means, residual)
         if wanted is not None:
             found += 1
-            assert needed(model, table, means, residual, broke=True) == pytest.approx(wanted)
+            come_to = WindowMeans(model, table, residual, means, broke=True)
+            assert needed(come_to) == pytest.approx(wanted)
     assert found > 150

@@ -2,12 +2,15 @@
 
 import math
 
+import numpy as np
 import pytest
 
 from asperity.casefile import read_case
 from asperity.runs import Run
-from asperity.slider import TABLES, Model, solve, static
+from asperity.slider import TABLES, Model, cycle_map, solve, static
+from asperity.slider.cycle_map import Cycle
 from asperity.slider.held import Creep
+from asperity.slider.periodic import cycle_steps, settle
 from asperity.slider.ringing import faded_after, ringing_time, rings
 from asperity.slider.timetable import FAR
 
@@ -180,3 +183,42 @@ def test_of_a_body_that_is_thrown_far_above_its_resonance_another_state_is_told(
         marched = solved("normal-pin", *thrown, "solve.method=march")
         assert marched.settled
         assert abs(marched.ratio - state.ratio) > FAR
+
+
+def ringing(velocity, *settings):
+    """The state of a body across whose drive nothing damps a ring, and the mode of that."""
+    model = Model.from_case(
+        read_case(
+            "table-4.4", TABLES,
+            ["solve.method=periodic", f"slider.drive_velocity={velocity} m/s", *settings],
+        )
+    )  # fmt: skip
+    steps = cycle_steps(model)
+    cycle = Cycle(model, steps, 1.0 / (steps * model.frequency))
+    found, growth, _ = settle(cycle)
+    assert found
+    assert cycle_map._LASTING <= growth <= cycle_map.UNSTABLE
+    mode = cycle_map._mode(cycle.jacobian)
+    assert mode.imag.any()
+    return cycle, mode
+
+
+@pytest.mark.parametrize(
+    ("velocity", "settings"),
+    [
+        (0.05, ()),
+        (0.08, ("slider.drive_stiffness=20 kN/m",)),
+        (0.08, ("vibration.direction=60 deg",)),
+        (0.2, ("friction.exponent=2",)),
+    ],
+)
+def test_of_a_ring_lasts_half_of_what_two_pushes_do_a_quarter_of_a_turn_apart(velocity, settings):
+    amplitude = "vibration.velocity_amplitude=3 mm/s"
+    cycle, mode = ringing(velocity, amplitude, *settings)
+    few = cycle_map._FEW
+    at_once = [cycle._shift(part, few, few) for part in (mode.real, mode.imag)]
+    eigenvalues = np.linalg.eigvals(cycle.jacobian + np.eye(len(cycle.jacobian)))
+    turn = 2.0 * math.pi / abs(np.angle(eigenvalues[np.argmax(np.abs(eigenvalues))]))
+    lasting = cycle._shift(mode.real, round(2.0 * turn))
+    assert lasting == pytest.approx(np.mean(at_once), rel=0.05, abs=1e-10)
+    assert abs(lasting) <= max(map(abs, at_once))

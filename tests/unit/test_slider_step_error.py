@@ -88,6 +88,12 @@ def at_its_state(*settings, name="table-4.3"):
     return model, cycle
 
 
+def foreseen_beside(cycle):
+    """The ratio that is foreseen on half the step, or None, and that of the cycle."""
+    here, part = step_error._ratio(cycle), orders.part_of_difference(cycle.body.model)
+    return step_error._foreseen(cycle, cycle.jacobian, cycle.slopes, here, part), here
+
+
 @pytest.mark.parametrize(
     ("name", "settings"),
     [
@@ -100,8 +106,7 @@ def at_its_state(*settings, name="table-4.3"):
 def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):
     _, cycle = at_its_state(*settings, "vibration.waveform=triangle", name=name)
     found = step_error._closed(step_error._on_half(cycle), cycle.jacobian)
-    foreseen = step_error._foreseen(cycle, cycle.jacobian, cycle.slopes)
-    here = step_error._ratio(cycle)
+    foreseen, here = foreseen_beside(cycle)
     assert abs(found - here) > 1e-7
     assert foreseen - here == pytest.approx(found - here, rel=0.2)
 
@@ -115,7 +120,7 @@ def test_it_is_found_in_full_where_one_cycle_may_not_be_enough(monkeypatch, firs
     here = step_error._ratio(cycle)
     told = here + first, here + ratio
     monkeypatch.setattr(step_error, "predicted_on_half", lambda *given: told)
-    foreseen = step_error._foreseen(cycle, cycle.jacobian, cycle.slopes)
+    foreseen, _ = foreseen_beside(cycle)
     assert (foreseen is not None) == enough
 
 
@@ -264,3 +269,36 @@ def test_friction_on_twice_the_step_is_that_of_a_body_that_runs_on_it():
         body.kept["sums"], 1,
     )  # fmt: skip
     assert told == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_two_phase_scheme_tells_what_a_march_in_steps_twice_as_long_differs_by():
+    settings = "solve.method=march", "solve.scheme=two-phase"
+    short, long = (
+        solve(
+            Model.from_case(read_case("table-4.3", TABLES, [*settings, f"solve.step={step} us"])),
+            history=False,
+        )
+        for step in (2, 4)
+    )
+    assert short.step_error == pytest.approx(abs(long.ratio - short.ratio), rel=0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "settings", "straight"),
+    [
+        ("table-4.3", (), True),
+        ("normal-pin", (), True),
+        ("normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg"), False),
+        ("normal-pin", ("vibration.waveform=square", "vibration.rise_time=3 us"), False),
+    ],
+)
+def test_a_triangle_is_halved_as_it_is_sampled_anew(name, settings, straight):
+    _, cycle = at_its_state("vibration.waveform=triangle", *settings, name=name)
+    halves = cycle.halves()
+    anew = cycle.waves(2 * (len(cycle.increments) - 1), 0.5 * cycle.step)
+    assert cycle._straight == straight
+    for found, expected in zip(halves, anew, strict=True):
+        assert found == pytest.approx(expected, abs=1e-14)
+    cycle.repeat(2)
+    for found, expected in zip(cycle.halves(), anew, strict=True):
+        assert found == pytest.approx([*expected[:-1], *expected], abs=1e-14)

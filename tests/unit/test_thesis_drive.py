@@ -26,7 +26,7 @@ from asperity.thesis.drive.appendix_e import (
     friction_of_path,
     hammered,
 )
-from asperity.thesis.drive.marches import from_start
+from asperity.thesis.drive.marches import LOADING, RUN_UP, from_load, from_start
 from asperity.thesis.drive.sets import AMPLITUDE, RATIOS, SPEED, conditions
 from asperity.thesis.drive.simulations import (
     BASE,
@@ -197,6 +197,27 @@ def test_a_march_from_the_start_is_the_one_that_is_kept_cycle_by_cycle():
     rows = from_start(one.case, one.settings, 3, 20)
     kept = one.shaken().cycle_torque[:3]
     assert rows["torque"].reshape(3, 20).mean(axis=1) == pytest.approx(kept, rel=2e-2)
+
+
+def test_from_load_on_the_worm_holds_then_turns_as_without_vibration_then_shakes_as_from_balance():
+    one = of_set(3, *GIVEN)[-1]
+    found = from_load(one.case, one.settings, 3, 20)
+    time, torque, wheel = found["time"], found["torque"], found["wheel"]
+    assert np.diff(time).min() > 0.0
+    # Loaded, the wheel turns the worm back on its shaft: friction bears a part of the load.
+    low, _, high = claims.band()
+    loaded = np.argmin(np.abs(time - LOADING))
+    assert wheel[loaded] == pytest.approx(conditions(3)[-1].torque, rel=5e-3)
+    assert torque[loaded] == pytest.approx(low / high * found["static"], rel=0.05)
+    assert not found["open"][1 : -3 * 20].any()
+    # It turns as the one that begins in balance, and swings about that by little.
+    steady = (time > LOADING + RUN_UP) & (time < found["steps"][-1])
+    assert torque[steady].mean() == pytest.approx(found["static"], rel=5e-3)
+    assert np.ptp(torque[steady]) < 0.1 * found["static"]
+    begun = from_start(one.case, one.settings, 3, 20)
+    shaken = torque[-3 * 20 :]
+    assert shaken == pytest.approx(begun["torque"], abs=0.05 * found["static"])
+    assert found["open"][-3 * 20 :] == pytest.approx(begun["open"], abs=0.5)
 
 
 def test_what_is_varied_is_what_the_case_has_and_each_once_less_and_more():

@@ -119,7 +119,9 @@ def export(
 def thesis(
     only: Annotated[
         list[str] | None,
-        typer.Option("--only", metavar="NUMBER", help="Only what has this number, as 4.17."),
+        typer.Option(
+            "--only", metavar="NUMBER", help="Only what has this number, 4.17, or chapter, 4."
+        ),
     ] = None,
     out: Annotated[
         Path, typer.Option("--out", metavar="DIR", parser=folder_of, help="Folder to write to.")

@@ -13,7 +13,7 @@ from asperity.files.store import write_text
 from asperity.rating.load_steps import LOADS
 from asperity.rating.parameters import Operation
 from asperity.runs.asking import typed_line
-from asperity.start import bearing, plastic
+from asperity.start.data_file import DATA_FILES
 from asperity.start.duty import complete, sized
 from asperity.start.gear import MACRO, drop_begun_life, operation_of, proposals, ratio_of
 from asperity.start.kinds import RATIO, Kind, Question, Values, kind_of
@@ -38,7 +38,7 @@ def new(
     """
     path = file or Path(name)
     path = path if path.suffix else path.with_name(f"{path.name}.toml")
-    if name in _DATA:
+    if name in DATA_FILES:
         if read:
             raise InputError(f"--from {plain(read)}: a REXS file is read as a gear, not as {name}")
         _new_data(name, path, asked, settings, ratio, as_json=as_json)
@@ -135,7 +135,7 @@ def _new_data(
     as_json: bool,
 ) -> None:
     """Write a data file of bearings or plastics, which has nothing that can be asked."""
-    text, shown = _DATA[name]
+    data = DATA_FILES[name]
     if settings or ratio or any(each is not None for each in asked.values()):
         raise InputError(
             "--set, --ratio, --output-torque and --worm-speed are of a case; a data file of "
@@ -143,19 +143,15 @@ def _new_data(
         )
     if path.exists():
         raise InputError(f"{plain(str(path))} is there already; name another file")
-    write_text(path, text())
+    write_text(path, data.text(name))
     if as_json:
         show.print_json({"file": str(path), "tables": [name]})
     else:
         file = plain(str(path))
-        show.print_text(f"{file} is written; go on with\n\n  asperity --materials {file} {shown}")
+        show.print_text(
+            f"{file} is written; go on with\n\n  asperity --materials {file} {data.listed}"
+        )
 
-
-_DATA = {
-    bearing.KIND: (bearing.bearing_text, "bearings"),
-    plastic.KIND: (plastic.plastic_text, "materials"),
-}
-"""What is begun as a data file, and the command that lists what it holds."""
 
 OTHER_FORMS = ("worm_pitch_diameter", "profile_shift")
 """Of what a proposal says."""

@@ -86,6 +86,7 @@ COMMANDS = (
         module="asperity.rating.rate_command",
         additions=(
             Addition("asperity.shafts.study:beside_rating", tables=("worm_shaft", "wheel_shaft")),
+            Addition("asperity.flanks.study.rated_play:beside_rating", tables=("tolerances",)),
             Addition("asperity.flanks.study.pattern:beside_rating", option="pattern"),
         ),
         brief=True,
@@ -141,9 +142,11 @@ COMMANDS = (
         "optimise",
         "Find a worm gearset's most efficient design that keeps its load capacity.",
         "Pressure angle, diameter factor, module and roughness are free; every safety that "
-        "holds goes on to. Also what a higher permissible torque costs. With --out also "
-        "report.html, optimise.nc, optimise.png and optimise.json.",
-        module="asperity.studies.optimise",
+        "holds goes on to. Also what a higher permissible torque costs. With --over the flanks "
+        "under load, as relief finds them. With --out also report.html, optimise.nc, "
+        "optimise.png and optimise.json, or those of relief.",
+        module="asperity.drive.studies.optimum",
+        counts="points",
         options=(
             Option(
                 "free",
@@ -161,6 +164,20 @@ COMMANDS = (
                 "keep",
                 "A safety that may not fall, as S_delta, agma6034 or all; again for another.",
                 "SAFETY",
+                many=True,
+            ),
+            Option(
+                "over",
+                "In their place a key of modification, hob or disc, as "
+                "modification.tip_relief=0,20,40 um: against forces on edges, pressure and error "
+                "of the loaded flanks, and half-way between; again for another.",
+                "TABLE.KEY=VALUES",
+                many=True,
+            ),
+            Option(
+                "at",
+                "With --over: loads and mountings to bear with, as for relief; again for another.",
+                "TABLE.KEY=VALUES",
                 many=True,
             ),
         ),

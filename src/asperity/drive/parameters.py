@@ -191,6 +191,9 @@ class Shaft(Table):
     seat : float or str, optional
         Stiffness along the axis of what the axial bearing sits in, N/m: in series with it. A
         vibration ``applied_to`` the seat moves what is behind both.
+    housing : float or str, optional
+        Stiffness of the housing along the centre distance, N/m: the force that takes the seats of
+        worm and wheel so far apart. A march has it where the shaft bends or radial bearings yield.
     damping_ratio : float
         Of the shaft's torsion with the worm's inertia, of seat and bending with its mass, 0..1.
     """
@@ -209,6 +212,7 @@ class Shaft(Table):
     bearing_axial: _Stiffness | None = None
     bearing_radial: _Stiffness | None = None
     seat: _Stiffness | None = None
+    housing: _Stiffness | None = None
     damping_ratio: Annotated[
         float, Quantity("", what="a damping ratio", example="0.03", ge=0, le=1)
     ] = 0.03

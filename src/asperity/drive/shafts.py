@@ -152,6 +152,7 @@ def compliances(
     bearing_axial: float | None = None,
     torsion: float | None = None,
     seat: float | None = None,
+    housing: float | None = None,
 ) -> Mapping[str, FloatArray]:
     """Return what each part between worm and housing gives at the point of contact.
 
@@ -173,6 +174,8 @@ def compliances(
         Stiffness of the shaft between worm and motor, N m/rad.
     seat : float, optional
         Stiffness along the axis of what the locating bearing sits in, N/m.
+    housing : float, optional
+        Stiffness of the housing between worm and wheel along the centre distance, N/m.
 
     Returns
     -------
@@ -215,6 +218,7 @@ def compliances(
     alone("bearing_axial", 1, bearing_axial)
     alone("torsion", 0, torsion)
     alone("seat", 1, seat)
+    alone("housing", 3, housing)
     return found
 
 
@@ -252,6 +256,7 @@ def compliances_of(shaft: Shaft, radius: float) -> Mapping[str, FloatArray]:
         bearing_axial=shaft.bearing_axial,
         torsion=shaft.torsion,
         seat=shaft.seat,
+        housing=shaft.housing,
     )
 
 
@@ -298,7 +303,7 @@ def bending_of(shaft: Shaft, radius: float, mass: float) -> Bending:
     parts = compliances_of(shaft, radius)
     none = np.zeros((4, 4))
     bent = np.diag(parts.get("bending", none))[1:]
-    ends = np.diag(parts.get("bearing_radial", none))[1:]
+    ends = np.diag(parts.get("bearing_radial", none) + parts.get("housing", none))[1:]
     whole = bent + ends
     b = bent / whole
     assert shaft.span is not None

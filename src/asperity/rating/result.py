@@ -3,7 +3,7 @@
 import dataclasses
 import functools
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from asperity.errors import InputError, nearest
@@ -189,6 +189,26 @@ class Rating:
         """The entries by symbol, the first that has it, and before that by key."""
         by_symbol = {entry.symbol: entry for entry in reversed(self.entries)}
         return by_symbol | {entry.key: entry for entry in self.entries}
+
+    def without(self, keys: Collection[str], why: str) -> "Rating":
+        """Return it without entries that do not hold for the gearset.
+
+        Parameters
+        ----------
+        keys : collection of str
+            Of the entries.
+        why : str
+            The reason, which is a gap of the rating then.
+
+        Returns
+        -------
+        Rating
+            With all others.
+        """
+        entries = tuple(entry for entry in self.entries if entry.key not in keys)
+        return dataclasses.replace(
+            self, entries=entries, notes=(*self.notes, why), gaps=(*self.gaps, why)
+        )
 
     @property
     def assumed(self) -> tuple[str, ...]:

@@ -25,6 +25,8 @@ _HOLE = re.compile(r"\{([A-Za-z_]\w*)\}")
 _WORD = re.compile(r"(?<![\w.])(?:[a-z][a-z-]{2,}|[A-Z][a-z]{3,})(?![\w(=]|\.\w)")
 # Short words and loud ones, which may be symbols and units where others are.
 _SHORT_WORD = re.compile(r"(?<![\w.])(?:as|at|by|if|is|it|no|of|on|or|to|FAILS)(?![\w(=]|\.\w)")
+# What parts the cases of an equation.
+_CASES = re.compile(r"(?<= )(?:if|else)(?= )")
 _OF_FORMULAS = frozenset(("else", "for", "rho", "psi", "tau"))
 # Numbers of a sentence keep their digits and keys: signs of no language stand for them meanwhile.
 _FIRST = 0xE000
@@ -78,6 +80,10 @@ class Catalogue:
             self.missing.add(text)
             return text
         return _apart(found)
+
+    def of_case(self, word: "re.Match[str]") -> str:
+        """Return "if" or "else" of an equation in this language, where it has a line."""
+        return self._texts.get(word[0], word[0])
 
     def _found(self, text: str) -> str | None:
         if text not in self._known:
@@ -192,6 +198,14 @@ def has_words(equation: str) -> bool:
     return any(word not in _OF_FORMULAS for word in _WORD.findall(equation)) or (
         _SHORT_WORD.search(equation.replace("if ", "")) is not None
     )
+
+
+def said_equation(equation: str) -> str:
+    """Return an equation in the language that is spoken: its sentence, or its "if" and "else"."""
+    if has_words(equation):
+        return said(equation)
+    catalogue = _language.get()
+    return equation if catalogue is None else _CASES.sub(catalogue.of_case, equation)
 
 
 class Spoken(str):

@@ -14,7 +14,7 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import Any, Literal, NamedTuple
 
-from asperity.results.language import ENGLISH, has_words, language, said
+from asperity.results.language import ENGLISH, language, said, said_equation
 from asperity.results.table import Bar, Column, Table
 from asperity.results.words import Number, Sentence
 
@@ -142,7 +142,8 @@ def _translated(table: Table) -> Table:
     stays = [column.typeset or column.heading in _KEPT for column in table.columns]
     equations = [column.heading == _EQUATION for column in table.columns]
     rows = tuple(
-        tuple(cell if isinstance(cell, Bar) or (kept and not (equation and has_words(cell)))
+        tuple(cell if isinstance(cell, Bar) or (kept and not equation)
+              else said_equation(cell) if equation
               else said(cell)
               for cell, kept, equation in zip(row, stays, equations, strict=True))
         for row in table.rows

@@ -204,7 +204,7 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
 
 def _deflection(study: Study) -> Table:
     return Table.of(
-        ("", "um"),
+        ("", "deflection (um)"),
         [
             (name, text_of(value, key=key))
             for name, key, value in (

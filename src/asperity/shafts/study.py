@@ -36,6 +36,7 @@ from asperity.shafts.shape import require_once, shape_of
 from asperity.shafts.statics import PointLoad
 
 _MIDWAY = 1e-3
+_DEFLECTION = "safety_deflection", "delta_m_mm"
 
 
 class Prepared(NamedTuple):
@@ -212,19 +213,39 @@ def _off_centre(worm: Model) -> str:
     """Say that the worm's mesh is not midway between its bearings, where the standard has it."""
     first, second = worm.bearings
     place, span = worm.mesh - first, second - first
-    if abs(place - 0.5 * span) <= _MIDWAY * span:
+    if abs(place - 0.5 * span) <= _MIDWAY * span or not 0.0 <= place <= span:
         return ""
-    if not 0.0 <= place <= span:
-        end, over = ("A", -place) if place < 0.0 else ("B", place - span)
-        return (
-            f"worm_shaft: the worm overhangs, its mesh {over:.4g} mm beyond bearing {end}; forces "
-            "on bearings and deflection by ISO/TR 14521 have it midway between them, asperity "
-            "shafts where it is"
-        )
     return (
         f"worm_shaft: its mesh is {place:.4g} mm from bearing A, of {span:.4g} mm; forces on "
         "bearings and deflection by ISO/TR 14521 have it midway, asperity shafts where it is"
     )
+
+
+def _overhung(worm: Model) -> str:
+    """Say that the worm's mesh is not between its bearings at all: a standard's beam is another."""
+    first, second = worm.bearings
+    place, span = worm.mesh - first, second - first
+    if 0.0 <= place <= span:
+        return ""
+    end, over = ("A", -place) if place < 0.0 else ("B", place - span)
+    return (
+        f"the worm overhangs, its mesh {over:.4g} mm beyond bearing {end}; the worm as a beam, "
+        "below, has its deflection"
+    )
+
+
+def _judged(rated: Rated, worm: Model | None) -> Rated:
+    """Return a rating without the standard's deflection where the worm overhangs."""
+    iso = rated.iso14521
+    why = "" if worm is None else _overhung(worm)
+    if iso is None or not why or _DEFLECTION[0] not in iso:
+        return rated
+    first = rated.verdict.first
+    found = dataclasses.replace(rated, iso14521=iso.without(_DEFLECTION, why))
+    if first is not None and first.demand.path == f"iso14521.{_DEFLECTION[0]}":
+        # What moves a safety that is none is of no use.
+        return dataclasses.replace(found, levers=(), alternatives=())
+    return found
 
 
 def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
@@ -254,7 +275,7 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
         wrong += [model.threads for model in models if model.threads]
         wrong += [_off_centre(model) for model in models if model is problem.worm]
         return dataclasses.replace(
-            rated,
+            _judged(rated, problem.worm),
             rows=(*rated.rows, *shafts.rows),
             shafts=shafts,
             notes=(*rated.notes, *filter(None, wrong)),

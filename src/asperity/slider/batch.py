@@ -19,13 +19,12 @@ from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
-from asperity.slider.chance import judged
-from asperity.slider.integrators import integrator
+from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.longer import advice, needed
-from asperity.slider.march import march, march_once
+from asperity.slider.march import judged_answer, march, march_once
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import as_it_rings, heard, ringing_notes
+from asperity.slider.ringing import as_it_rings
 from asperity.slider.scaled import (
     PRESSED_STATE,
     PRESSED_SUMS,
@@ -35,9 +34,9 @@ from asperity.slider.scaled import (
     Parameters,
 )
 from asperity.slider.slide import solve
-from asperity.slider.step_error import error_of_march, refined
-from asperity.slider.summary import energies, pressed_energies, summarise
-from asperity.slider.timetable import Timetable, march_notes, march_standing, pull_across
+from asperity.slider.step_error import refined
+from asperity.slider.summary import energies, pressed_energies
+from asperity.slider.timetable import Timetable, WindowMeans, pull_across
 from asperity.vibration.waveform import displacement_at
 
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
@@ -273,7 +272,7 @@ def _answer(
     seconds: float,
 ) -> SlideResult | AsperityError:
     """Result of a body whose march is at its end."""
-    model, table, p, _ = body
+    model, table = body.model, body.table
     if not np.all(np.isfinite(column)):
         return ConvergenceError("the march left the finite numbers; give a smaller solve.step")
     sums = _sums(column, body, start_free)
@@ -285,33 +284,24 @@ def _answer(
     forces = pairwise([0.0, *quarters.tolist(), float(sums["drive_force"])])
     means = [(b - a) / max(to - at, 1) for (a, b), (at, to) in zip(forces, ends, strict=True)]
     across = pull_across(model, sums["friction_y"] / sums["steps"])
-    standing = march_standing(model, table, residual, broke=broke, means=means, across=across)
-    standing = heard(standing, model, model.duration)
-    notes = march_notes(model, table, residual, broke=broke) + ringing_notes(model)
-    if standing.settled:
-        at_end = integrator(model, table.step)
-        at_end.kept["state"][0] = _state(column, body)
-        standing, wanders = judged(standing, at_end, table, sums)
-        notes += wanders
+    window = WindowMeans(model, table, residual, means, broke, across)
+
+    def at_end() -> Integrator:
+        there = integrator(model, table.step)
+        there.kept["state"][0] = _state(column, body)
+        return there
+
     try:
-        answer = summarise(
-            model, p, table.step, sums, start, _energies(column, body),
-            standing=standing,
-            step_error=error_of_march(at_end, table, sums) if standing.settled else None,
-            residual=residual,
-            steps=table.steps,
-            cycles=table.cycles,
+        answer = judged_answer(
+            model, window, sums, (start, _energies(column, body)), at_end,
             seconds=seconds,
             breakaway_time=float(column[row.WAITED]) * table.step if broke else None,
-            substeps=model.substeps,
-            notes=notes,
         )  # fmt: skip
     except ConvergenceError as failed:
         return failed
     if answer.settled:
         return answer
-    foreseen = needed(model, table, means, residual, broke=broke, across=across)
-    return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen)))
+    return dataclasses.replace(answer, notes=(*answer.notes, advice(needed(window))))
 
 
 def _load(column: FloatArray, body: _Body) -> None:

@@ -312,15 +312,17 @@ def _states(
 ) -> tuple[dict[float, SlideResult], list[float]]:
     """Periodic states by mean velocity, and the velocities without one."""
     velocities = [float(v) for v in velocities]
+    drive = model.slider.drive_velocity
+    model = _at(model, drive)  # of a given amplitude, which the others share
     found: dict[float, SlideResult] = {}
     missing: list[float] = []
     for velocity in velocities:
         try:
-            at_drive = velocity == model.slider.drive_velocity
+            at_drive = velocity == drive
             found[velocity] = solve_periodic(_at(model, velocity), history=False, judged=at_drive)
         except (ConvergenceError, InputError) as error:
             # A step can be too coarse at the table's ends; at the drive velocity it is the case's.
-            if isinstance(error, InputError) and velocity == model.slider.drive_velocity:
+            if isinstance(error, InputError) and velocity == drive:
                 raise
             missing.append(velocity)
             if len(missing) > _MOST_MISSING * len(velocities):
@@ -337,6 +339,9 @@ def _at(model: Model, velocity: float) -> Model:
     if model.vibration is None:
         raise InputError("nothing vibrates")
     slider = model.slider.model_copy(update={"drive_velocity": abs(velocity)}, units="SI")
+    given = model.vibration.displacement_amplitude is not None
+    if given and velocity > 0.0:
+        return dataclasses.replace(model, slider=slider)
     vibration = model.vibration.model_copy(
         update={
             "velocity_ratio": None,

@@ -21,6 +21,25 @@ def quarters_in_time(means: Sequence[float]) -> float | None:
     return -1.0 / math.log(left) if 0.0 < left < _FADES else None
 
 
+def quarter_means(
+    halves: Sequence[tuple[float, float]], quarters: Sequence[tuple[float, float]]
+) -> list[float]:
+    """Return the means over the quarters of a window, or its halves where a quarter has no steps.
+
+    Parameters
+    ----------
+    halves, quarters : sequence of 2 tuples
+        Sum and span of the halves of a window, and of the first quarter in each.
+    """
+    means = []
+    for (force, span), (early, of_it) in zip(halves, quarters, strict=True):
+        parts = (early, of_it), (force - early, span - of_it)
+        if of_it <= 0.0:
+            parts = (force, span), (force, span)
+        means += [each / time for each, time in parts]
+    return means
+
+
 def apart(windows: float) -> float:
     """Return what a fading change makes the halves of a window differ by, of its start.
 

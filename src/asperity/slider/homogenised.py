@@ -28,7 +28,7 @@ from asperity.slider.model import Model
 from asperity.slider.pieces import interpolate, value_and_slope
 from asperity.slider.result import SlideResult
 from asperity.slider.steady import growth_rate, sticks_and_slips
-from asperity.slider.timetable import march_notes, march_standing
+from asperity.slider.timetable import WindowMeans, march_notes, march_standing
 from asperity.slider.wear import wear_and_heat
 
 __all__ = ["HomogenisedLaw", "homogenise", "interpolate", "solve_homogenised"]
@@ -196,15 +196,15 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         np.mean(_pull(model, half)) / law.full_friction for half in np.array_split(window, 2)
     )
     unsteady = abs(float(second - first))
-    broke = breakaway is not None
-    marched = march_standing(model, table, unsteady, broke=broke, means=means)
+    come_to = WindowMeans(model, table, unsteady, means, breakaway is not None)
+    marched = march_standing(come_to)
     standing = Standing(
         answer.settled and marched.settled,
         f"{marched.settled_by}; {answer.settled_by}",
     )
-    notes = march_notes(model, table, unsteady, broke=broke)
+    notes = march_notes(come_to)
     if not marched.settled:
-        notes += (advice(needed(model, table, means, unsteady, broke=broke)),)
+        notes += (advice(needed(come_to)),)
     return dataclasses.replace(
         answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes),
         **standing._asdict(),

@@ -5,7 +5,6 @@ The duration is foreseen from how the means change in the window.
 
 import dataclasses
 import math
-from collections.abc import Sequence
 from typing import Protocol, TypeVar
 
 from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
@@ -16,7 +15,7 @@ from asperity.slider.timetable import (
     FAR,
     UNSTEADY,
     WAYS,
-    Timetable,
+    WindowMeans,
     bending,
     drifts_for,
     still_grows,
@@ -89,36 +88,13 @@ def lasting(model: M, duration: float) -> M:
     return dataclasses.replace(model, solve=solve)
 
 
-def needed(
-    model: Model,
-    table: Timetable,
-    means: Sequence[float],
-    residual: float,
-    *,
-    broke: bool,
-    across: float = 0.0,
-) -> float | None:
-    r"""Return the duration in s that a march needs to settle; None where none is foreseen.
-
-    Parameters
-    ----------
-    model : Model
-        The body, with the duration it was marched for.
-    table : Timetable
-        Its steps.
-    means : sequence of float
-        Of the drive force over :math:`\mu F_N` in the four quarters of the window.
-    residual : float
-        How far the halves are apart.
-    broke : bool
-        Whether it has broken away.
-    across : float
-        Mean friction across, see `pull_across`.
-    """
+def needed(window: WindowMeans) -> float | None:
+    """Return the duration in s that a march needs to settle; None where none is foreseen."""
+    model, table, residual, means, broke, across = window
     if math.isinf(ringing_time(model)):
         return None
     slider = model.slider
-    window = model.window / WINDOW_SHARE
+    spans = model.window / WINDOW_SHARE
     least = [1.0 * model.duration]
     if (bent := bending(model)) > 0.0:
         least.append(_SPARE * WAYS * bent / slider.drive_velocity)
@@ -129,13 +105,13 @@ def needed(
     if (drift := drifts_for(model, across)) > 0.0:
         least.append(model.duration + drift)
     if still_grows(model, table):
-        least.append(max(model.start + model.ramp + model.window, model.start + window))
-    loaded = model.start + _loading(model) + window
+        least.append(max(model.start + model.ramp + model.window, model.start + spans))
+    loaded = model.start + _loading(model) + spans
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
     if lags or not (broke or model.vibrates or slider.rigid):
         least.append(loaded)
     if residual > UNSTEADY or still_to_come(means) > FAR:
-        fading = _fading(model, table, means, residual)
+        fading = _fading(window)
         if fading is not None:
             least.append(fading)
         elif loaded > model.duration:
@@ -160,21 +136,19 @@ def _loading(model: Model) -> float:
     return _SPARE * held / (slider.drive_stiffness * slider.drive_velocity)
 
 
-def _fading(
-    model: Model, table: Timetable, means: Sequence[float], residual: float
-) -> float | None:
+def _fading(of: WindowMeans) -> float | None:
     r"""Duration in which the change of the means fades, s; None where it does not.
 
     A change :math:`e^{-t/\tau}` makes the halves of a window of length :math:`2\tau h` differ by
     :math:`(1 - e^{-h})^2/h` of what it is at the window's start.
     """
-    quarters = quarters_in_time(means)
+    model, quarters = of.model, quarters_in_time(of.quarters)
     if quarters is None:
         return None
-    window = table.window * table.step
+    window = of.table.window * of.table.step
     tau = 0.25 * window * quarters
     begin = model.duration - window
-    change = residual / apart(window / tau)
+    change = of.residual / apart(window / tau)
     whole, start = model.window, model.start
     # On the way no window makes the halves differ by less than its least or its greatest does:
     # durations that are surely too short for them are passed over.

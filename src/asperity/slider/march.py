@@ -3,7 +3,10 @@
 import contextlib
 import dataclasses
 import math
+import operator
 import time
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,8 +18,9 @@ from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
 from asperity.slider.chance import judged
+from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
-from asperity.slider.integrators import integrator
+from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.longer import lasting, needed, until_settled
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
@@ -35,6 +39,7 @@ from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import (
     BLOCK,
     Timetable,
+    WindowMeans,
     march_notes,
     march_standing,
     pull_across,
@@ -46,6 +51,7 @@ _SPARE = 1.2  # times what is foreseen
 # Of the window, times that disturbances of steady sliding fade in half of it for the rest to tell
 # anything; and of mu F_N, from which on friction swings.
 _SEEN, _SWINGS = 0.1, 1e-3
+_CHANGING = ("done", "seconds", "_start", "_first_half", "_quarters", "_places", "_rows")
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
 
 
@@ -88,7 +94,7 @@ class March:
         self._start: tuple[float, float] | None = None
         self._first_half: npt.NDArray[np.void] | None = None
         self._timed = model  # with the duration that is marched
-        # Of the window's quarters, sums of the drive force and steps up to where they end.
+        # Sum of the drive force and steps, of the first quarter in each half of the window.
         self._quarters: list[tuple[float, float]] = []
         # Of each recorded stretch: its first step and its steps; mean, least and greatest.
         self._places: list[npt.NDArray[np.int64]] = []
@@ -167,34 +173,23 @@ class March:
         if self._start is None:
             self._start = self.energies()
             self._body.clear()
-        self._quarter(1, table.quarters[0], stride)
-        self._quarter(2, table.middle, stride)
+        self._quarter(1, table.window_start, stride)
+        self.to(table.middle, stride)
         if self._first_half is None:
             self._first_half = self._body.kept["sums"].copy()
             self._body.clear()
-        self._quarter(3, table.quarters[2], stride, most=tail)
+        self._quarter(2, table.middle, stride, most=tail)
         self.to(tail, stride)
         self.to(table.steps, table.parts)
         return self._result(self._start, self._first_half[0])
 
-    def _quarter(self, number: int, target: int, stride: int, most: int | None = None) -> None:
-        """March to the end of a quarter of the window, and keep the sums up to there."""
+    def _quarter(self, half: int, begin: int, stride: int, most: float = math.inf) -> None:
+        """March to the end of a half's first quarter, and keep the sums up to there."""
         # At the end of a stretch, which are the same without these sums.
-        last = self.table.window_start if number < 3 else self.table.middle
-        end = last + (target - last) // stride * stride if number != 2 else target
-        self.to(end if most is None else min(end, most), stride)
-        if len(self._quarters) < number:
-            self._quarters.append((float(self.sums["drive_force"]), float(self.sums["steps"])))
-
-    def _means(self) -> list[float]:
-        """Mean drive force in the quarters of the window."""
-        last = float(self.sums["drive_force"]), float(self.sums["steps"])
-        pairs = (self._quarters[0], self._quarters[1]), (self._quarters[2], last)
-        return [
-            force / max(steps, 1.0)
-            for early, whole in pairs
-            for force, steps in (early, (whole[0] - early[0], whole[1] - early[1]))
-        ]
+        target = self.table.quarters[2 * (half - 1)]
+        self.to(int(min(begin + (target - begin) // stride * stride, most)), stride)
+        if len(self._quarters) < half:
+            self._quarters.append(_pulled(self.sums))
 
     def energies(self) -> tuple[float, float]:
         """Energies at the present node, see `asperity.slider.summary.energies`."""
@@ -202,29 +197,17 @@ class March:
 
     def tree(self) -> Tree:
         """Return all that changes on the way, as a tree of arrays."""
-        return {
-            "finer": self.model.finer,
-            "done": self.done,
-            "seconds": self.seconds,
-            "body": self._body.kept,
-            "start": self._start,
-            "first_half": self._first_half,
-            "quarters": self._quarters,
-            "duration": self._timed.duration,
-            "places": self._places,
-            "rows": self._rows,
-        }
+        changing = {name: getattr(self, name) for name in _CHANGING}
+        body, model = self._body.kept, self.model
+        return {**changing, "finer": model.finer, "body": body, "duration": self.duration}
 
     def restore(self, tree: Tree) -> None:
         """Go back to where a march of the same body stood when it gave its tree."""
-        self.done, self.seconds = tree["done"], tree["seconds"]
         self._body.kept = tree["body"]
         if tree["duration"] != self.model.duration:
             self.go_on(tree["duration"])
-        self._quarters = [(one[0], one[1]) for one in tree["quarters"]]
-        self._start = None if tree["start"] is None else tuple(tree["start"])
-        self._first_half = tree["first_half"]
-        self._places, self._rows = list(tree["places"]), list(tree["rows"])
+        for name in _CHANGING:
+            setattr(self, name, tree[name])
 
     def _result(
         self, start: tuple[float, float], first_half: np.void
@@ -233,55 +216,33 @@ class March:
         halves = first_half, self.sums
         sums = self._body.no_sums()[0]
         for name in sums.dtype.names or ():
-            together = max if name.endswith("_max") else min if name.endswith("_min") else _add
+            together = (
+                max if name.endswith("_max") else min if name.endswith("_min") else operator.add
+            )
             sums[name] = together(*(half[name] for half in halves))
         means = [half["drive_force"] / half["steps"] for half in halves]
-        residual = abs(float(means[1] - means[0]))
-        breakaway = self.breakaway
-        broke = breakaway is not None
-        quarters, across = self._means(), pull_across(model, sums["friction_y"] / sums["steps"])
-        standing = march_standing(
-            self._timed, table, residual, broke=broke, means=quarters, across=across
-        )
-        leaves = self._leaves(halves)
-        if standing.settled and leaves:
-            standing = Standing(False, leaves)
-        standing = heard(standing, model, self.duration)
-        standing, wanders = judged(standing, self._body, table, sums)
-        answer = summarise(
-            model, self.p, table.step, sums, start, self.energies(),
-            standing=standing,
-            step_error=error_of_march(self._body, table, sums) if standing.settled else None,
-            residual=residual,
-            breakaway_time=breakaway,
-            steps=table.steps,
-            cycles=table.cycles,
-            history=self.history() if self._record else None,
-            notes=(
-                *march_notes(self._timed, table, residual, broke=broke),
-                *ringing_notes(model),
-                *wanders,
-                *self._beside(halves),
-            ),
-            substeps=model.substeps,
-            seconds=self.seconds,
+        window = WindowMeans(
+            self._timed, table, abs(float(means[1] - means[0])),
+            quarter_means([_pulled(half) for half in halves], self._quarters),
+            self.breakaway is not None, pull_across(model, sums["friction_y"] / sums["steps"]),
+        )  # fmt: skip
+        swings = _swing(first_half), _swing(self.sums)
+        leaves = ""
+        if not model.vibrates:
+            leaves = still_leaves(model, 0.5 * table.window * table.step, swings)
+        answer = judged_answer(
+            model, window, sums, (start, self.energies()), lambda: self._body,
+            leaves=leaves, notes=self._beside(swings), seconds=self.seconds,
+            breakaway_time=self.breakaway, history=self.history() if self._record else None,
         )  # fmt: skip
         if answer.settled:
             return answer, None
         if leaves:
-            swing = float(halves[1]["friction_x_max"] - halves[1]["friction_x_min"])
-            return answer, self.duration + _SPARE * until_it_sticks(model, swing) + model.window
-        return answer, needed(self._timed, table, quarters, residual, broke=broke, across=across)
+            sticks = _SPARE * until_it_sticks(model, swings[1])
+            return answer, self.duration + sticks + model.window
+        return answer, needed(window)
 
-    def _leaves(self, halves: tuple[np.void, np.void]) -> str:
-        """What a march lacks that is still next to steady sliding which is unstable."""
-        if self.model.vibrates:
-            return ""
-        first, second = (float(half["friction_x_max"] - half["friction_x_min"]) for half in halves)
-        half = 0.5 * self.table.window * self.table.step
-        return still_leaves(self.model, half, (first, second))
-
-    def _beside(self, halves: tuple[np.void, np.void]) -> tuple[str, ...]:
+    def _beside(self, swings: tuple[float, float]) -> tuple[str, ...]:
         """Return a note on steady sliding, where it is unstable or a body lasts beside it."""
         model, table = self.model, self.table
         if not model.vibrates and (grows := growth_rate(model)) > 0.0:
@@ -289,11 +250,11 @@ class March:
         rate = None if model.vibrates or model.normal is not None else fading_rate(model)
         if rate is None:
             return ()
-        first, second = (float(half["friction_x_max"] - half["friction_x_min"]) for half in halves)
+        first, second = swings
         faded = 0.5 * rate * table.window * table.step
         lasts = second > 0.5 * (1.0 + math.exp(-faded)) * first
-        swings = faded > _SEEN and second > _SWINGS
-        return (two_states(model),) if swings and lasts else ()
+        seen = faded > _SEEN and second > _SWINGS
+        return (two_states(model),) if seen and lasts else ()
 
     def history(self) -> History:
         """Return motion and forces of the stretches recorded so far."""
@@ -303,8 +264,66 @@ class March:
         return history_of(self.model, self.table.step, at, span, mean, least, greatest)
 
 
-def _add(one: float, other: float) -> float:
-    return one + other
+def _pulled(sums: np.void) -> tuple[float, float]:
+    return float(sums["drive_force"]), float(sums["steps"])
+
+
+def judged_answer(
+    model: Model,
+    window: WindowMeans,
+    sums: np.void,
+    ends: tuple[tuple[float, float], tuple[float, float]],
+    body: Callable[[], Integrator],
+    *,
+    leaves: str = "",
+    notes: tuple[str, ...] = (),
+    **told: Any,
+) -> SlideResult:
+    """Return the answer of a march that is at its end, judged by all that is known of it.
+
+    Parameters
+    ----------
+    model : Model
+        The body as the case has it.
+    window : WindowMeans
+        What it has come to.
+    sums : np.void
+        Over the whole window.
+    ends : tuple of 2 tuples
+        Energies where the window begins and ends, as `summarise` takes them.
+    body : callable
+        Gives the body at the end; called where its means agree.
+    leaves : str
+        What it lacks that is next to steady sliding which is unstable.
+    notes : tuple of str
+        Beside those of the march.
+    told
+        What else `summarise` takes.
+    """
+    table = window.table
+    wanders: tuple[str, ...] = ()
+    step_error = None
+    standing = march_standing(window)
+    if standing.settled and leaves:
+        standing = Standing(False, leaves)
+    standing = heard(standing, model, window.model.duration)
+    if standing.settled:
+        at_end = body()
+        standing, wanders = judged(standing, at_end, table, sums)
+        if standing.settled:
+            step_error = error_of_march(at_end, table, sums)
+    return summarise(
+        model, model.parameters(table.step), table.step, sums, *ends,
+        standing=standing,
+        step_error=step_error,
+        residual=window.residual, steps=table.steps, cycles=table.cycles, substeps=model.substeps,
+        notes=(*march_notes(window), *ringing_notes(model), *wanders, *notes),
+        **told,
+    )  # fmt: skip
+
+
+def _swing(sums: np.void) -> float:
+    return float(sums["friction_x_max"] - sums["friction_x_min"])
 
 
 def march(

@@ -122,13 +122,14 @@ def error_of_state(cycle: Cycle, model: Model) -> OfState:
     """Return the error of the ratio of a state that repeats itself."""
     if not model.vibrates:
         return OfState(0.0)
-    other = _closed_beside(cycle, cycle.jacobian, cycle.slopes)
+    jacobian, slopes = map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
+    here, part = _ratio(cycle), part_of_difference(model)
+    other = _closed_beside(cycle, jacobian, slopes, here, part)
     if other is None:
         other = _found_beside(cycle)
     if other is None:
         return _from_there(cycle)
-    error = abs(other - _ratio(cycle)) * part_of_difference(model)
-    return OfState(max(error, _hidden(cycle, cycle.jacobian, cycle.slopes)))
+    return OfState(max(abs(other - here) * part, _hidden(cycle, jacobian, slopes, here)))
 
 
 def _from_there(cycle: Cycle) -> OfState:
@@ -167,7 +168,7 @@ def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float |
     end = at_the_end(body, table)
     unknowns = _unknowns(end)
     if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
-        found = np.zeros((unknowns + 1, unknowns))
+        found, part = np.zeros((unknowns + 1, unknowns)), part_of_difference(model)
         if unknowns:
             differentiated(
                 end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
@@ -177,10 +178,9 @@ def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float |
         there = end.copied()
         one = _closed(there, jacobian)
         if one is not None and abs(one - ratio) <= _AGREE:
-            other = _closed_beside(there, jacobian, slopes)
+            other = _closed_beside(there, jacobian, slopes, one, part)
             if other is not None:
-                error = abs(other - one) * part_of_difference(model)
-                return max(error, _hidden(there, jacobian, slopes))
+                return max(abs(other - one) * part, _hidden(there, jacobian, slopes, one))
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
     return _cycles_again(end, min(max(1, again), _MOST_AGAIN))
 
@@ -197,10 +197,10 @@ def at_the_end(body: Integrator, table: Timetable) -> Cycle:
     return end
 
 
-def _hidden(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float:
+def _hidden(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray, here: float) -> float:
     """Return the error of a state at corners which other steps make as well; 0 where none is."""
     let_down = ratio_let_down(cycle, jacobian, slopes)
-    return 0.0 if let_down is None else abs(let_down - _ratio(cycle))
+    return 0.0 if let_down is None else abs(let_down - here)
 
 
 def _beside(model: Model) -> float:
@@ -319,42 +319,47 @@ def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
-def _closed_beside(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
+def _closed_beside(
+    cycle: Cycle, jacobian: FloatArray, slopes: FloatArray, here: float, part: float
+) -> float | None:
     """Return the ratio of that state on other steps; the body stays where it is.
 
     Those are twice as long, or half as long of a wave with corners: half the steps end on the same
     corners, and on coarser ones errors that fall with the step alone do not show in full.
     """
     if cycle.body.model.meets_corners:
-        foreseen = _foreseen(cycle, jacobian, slopes)
+        foreseen = _foreseen(cycle, jacobian, slopes, here, part)
         return foreseen if foreseen is not None else _closed(_on_half(cycle), jacobian)
     kept = cycle.body.kept
     left, ratio = close_on_twice(
         kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
-        kept["sums"], np.ascontiguousarray(jacobian), _CLOSING,
+        kept["sums"], jacobian, _CLOSING,
     )  # fmt: skip
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
-def _foreseen(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
+def _foreseen(
+    cycle: Cycle, jacobian: FloatArray, slopes: FloatArray, here: float, part: float
+) -> float | None:
     """Return the ratio of that state on half the steps, from one cycle of them.
 
     None where that may not be enough, which takes some cycles more: what the steps change in that
     cycle and what the way to the state does are not small by themselves, or undo one another.
     """
-    body, here = cycle.body, _ratio(cycle)
+    body, kept = cycle.body, cycle.body.kept
     first, ratio = predicted_on_half(
-        body.kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), body.kept["sums"],
-        np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
+        kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), kept["sums"], jacobian,
+        slopes,
     )  # fmt: skip
-    most = WANTED * max(abs(here), _LEAST_RATIO) / part_of_difference(body.model)
+    most = WANTED * max(abs(here), _LEAST_RATIO) / part
     apart = abs(first - here) + abs(ratio - first)
     clear = abs(ratio - here) >= _CLEAR * apart or apart <= _NOTHING * most
     return ratio if apart <= most and clear else None
 
 
 def _ratio(cycle: Cycle) -> float:
-    return float(cycle.body.sums["drive_force"] / cycle.body.sums["steps"])
+    sums = cycle.body.sums
+    return float(sums["drive_force"]) / float(sums["steps"])
 
 
 def _unknowns(cycle: Cycle) -> int:

@@ -3,6 +3,7 @@
 import functools
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from asperity.errors import InputError
 from asperity.results.settled import Standing
@@ -94,20 +95,20 @@ class Timetable:
         return self.window_start + first, self.middle, self.middle + third
 
 
-def march_standing(
-    model: Model,
-    table: Timetable,
-    residual: float,
-    *,
-    broke: bool,
-    means: Sequence[float] | None = None,
-    across: float = 0.0,
-) -> Standing:
-    """Return whether a march has settled: by the halves of its window, if nothing is missing.
+class WindowMeans(NamedTuple):
+    """What a march has come to in its window; forces over mu F_N."""
 
-    ``means`` are those of the quarters of the window, where they are known; ``across`` is what
-    `pull_across` gives.
-    """
+    model: Model  #: The body, with the duration it was marched for
+    table: Timetable  #: Its steps
+    residual: float  #: How far the mean drive forces of the window's halves are apart
+    quarters: Sequence[float]  #: Those of its quarters
+    broke: bool  #: Whether the body has broken away
+    across: float = 0.0  #: What `pull_across` gives
+
+
+def march_standing(window: WindowMeans) -> Standing:
+    """Return whether a march has settled: by the halves of its window, if nothing is missing."""
+    model, table, residual, means, broke, across = window
     missing = []
     if not (broke or model.vibrates or model.slider.rigid):
         missing.append("the body has not broken away")
@@ -122,7 +123,7 @@ def march_standing(
         )
     if not residual <= UNSTEADY:
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
-    elif means is not None and (far := still_to_come(means)) > FAR:
+    elif (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
     if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
         missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
@@ -217,8 +218,9 @@ def still_grows(model: Model, table: Timetable) -> bool:
     return model.vibrates and grown > (table.steps - table.window) * table.step * (1.0 + 1e-9)
 
 
-def march_notes(model: Model, table: Timetable, residual: float, *, broke: bool) -> tuple[str, ...]:
+def march_notes(window: WindowMeans) -> tuple[str, ...]:
     """What a reader of a march's numbers should know."""
+    model, table, residual, _, broke, _ = window
     notes = []
     span = table.window * table.step
     if model.vibrates and span < 0.999 * model.window - 1.0 / model.frequency:

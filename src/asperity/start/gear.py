@@ -8,9 +8,9 @@ from typing import Any
 from asperity.casefile import Table
 from asperity.commands import Command, Option
 from asperity.errors import ConvergenceError, InputError
+from asperity.flanks.parameters import Disc, Hob, Modification, Mount
 from asperity.gearset.masses import masses
 from asperity.gearset.parameters import Gearset
-from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.housing import Housing
 from asperity.rating.parameters import Operation, RatingOptions
@@ -107,7 +107,7 @@ def proposals(
         exact=exact,
         can_be_cut=functools.partial(_can_be_cut, kept) if cut else None,
         borne=borne_by(values, kept, operation, options, asked),
-        details=functools.partial(_details, kept, values.get(Tolerances.table)),
+        details=functools.partial(_details, kept, values),
         held=held,
         locks=locks,
         requirements=asked,
@@ -173,15 +173,22 @@ def _can_be_cut(values: Mapping[str, Any], keys: Mapping[str, Any]) -> bool:
     return True
 
 
-def _details(
-    values: Mapping[str, Any], tolerances: Mapping[str, Any] | None, keys: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Return what a gearset weighs and, with tolerances, its backlash."""
-    gearset = _table(Gearset, {**values, **keys})
+def _details(kept: Mapping[str, Any], values: Values, keys: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what a gearset weighs and, with tolerances, its backlash by its exact flanks."""
+    gearset = _table(Gearset, {**kept, **keys})
     whole, rim = masses(gearset)
     told: dict[str, Any] = {"mass_kg": whole, "rim_kg": rim}
-    if tolerances is not None:
-        play = backlash(gearset, _table(Tolerances, dict(tolerances)))
+    if Tolerances.table in values:
+        from asperity.flanks.study.rated_play import Made, exact_backlash
+
+        tables = (
+            _table(model, values[model.table]) if model.table in values else None
+            for model in (Hob, Mount, Modification, Disc)
+        )
+        try:
+            play = exact_backlash(gearset, Made(*tables), _table(Tolerances, values["tolerances"]))
+        except ConvergenceError:
+            return told
         at_wheel = play.states["new"].times(play.measures[2].factor)
         told["backlash_arcmin"] = (at_wheel.least, at_wheel.greatest)
     return told

@@ -25,11 +25,11 @@ class Verb(NamedTuple):
 # and who goes meanwhile has it begun anew within a second.
 LIVE = {
     "slide": Verb(30.0, kernels=True),
-    "rate": Verb(10.0),
+    "rate": Verb(30.0),
     "sensitivity": Verb(20.0, kernels=True),
     "methods": Verb(20.0, kernels=True),
     "curve": Verb(60.0, kernels=True),
-    "size": Verb(20.0),
+    "size": Verb(60.0),
     "check": Verb(20.0),
     "signals": Verb(60.0),
 }

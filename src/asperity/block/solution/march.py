@@ -24,11 +24,12 @@ from asperity.errors import ConvergenceError
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree, from_tree, to_tree
+from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
 from asperity.slider.kernels import condense
 from asperity.slider.longer import needed, until_settled
 from asperity.slider.summary import of_stretches
-from asperity.slider.timetable import march_standing, pull_across
+from asperity.slider.timetable import WindowMeans, march_standing, pull_across
 
 # Seconds between two times of telling how far it is.
 _REPORTS = 0.1
@@ -272,10 +273,13 @@ class BlockMarch:
         residual = abs(halves[1] - halves[0]) / force
         mean = sums.drive_force / span
         powers = power_ledger(sums, start, end)
-        means = progress.means(second, force)
-        broke = stepper.breakaway is not None
-        across = pull_across(model, sums.friction_y / span / force)
-        standing = march_standing(model, table, residual, broke=broke, means=means, across=across)
+        quarters = [(each.drive_force, each.time) for each in progress.quarters]
+        means = quarter_means([(s.drive_force, s.time) for s in (first, second)], quarters)
+        window = WindowMeans(
+            model, table, residual, [mean / force for mean in means],
+            stepper.breakaway is not None, pull_across(model, sums.friction_y / span / force),
+        )  # fmt: skip
+        standing = march_standing(window)
         # Its residual has every power in it.
         if not all(map(math.isfinite, (mean, residual, powers.residual))):
             raise ConvergenceError(_NOT_FINITE)
@@ -295,7 +299,7 @@ class BlockMarch:
             cycles=table.cycles,
             seconds=progress.seconds,
             history=self.history if self._history else None,
-            notes=block_notes(course.problem, stepper, powers, residual, self.flutter, broke=broke),
+            notes=block_notes(course.problem, stepper, powers, window, self.flutter),
             normal_force=sums.normal_force / span,
             iterations_mean=sums.iterations / sums.increments,
             iterations_max=int(sums.iterations_max),
@@ -310,7 +314,7 @@ class BlockMarch:
         )
         if answer.settled:
             return answer, None
-        return answer, needed(model, table, means, residual, broke=broke, across=across)
+        return answer, needed(window)
 
 
 def solve_block(

@@ -6,7 +6,7 @@ from asperity.block.problem import BlockProblem
 from asperity.block.solution.stability import Flutter, Stability, flutter_note
 from asperity.contact.motion.ledger import ContactLedger
 from asperity.contact.motion.steps import Stepper
-from asperity.slider.timetable import march_notes
+from asperity.slider.timetable import WindowMeans, march_notes
 
 _MOST_SLIP = 0.5
 
@@ -28,16 +28,12 @@ def block_notes(
     problem: BlockProblem,
     stepper: Stepper,
     powers: ContactLedger,
-    residual: float,
+    window: WindowMeans,
     flutter: Flutter | None,
-    *,
-    broke: bool,
 ) -> tuple[str, ...]:
     """Return the notes of a march that came to its end.
 
-    ``powers`` are means over the window, from whose one half to the other the ratio changes by
-    ``residual``; ``flutter`` is what grows as the block slides, ``broke`` whether it has broken
-    away.
+    ``powers`` are means over the window; ``flutter`` is what grows as the block slides.
     """
     model, table, block = problem.model, problem.timetable, problem.block
     notes = [] if flutter is None else [flutter_note(problem, flutter)]
@@ -47,7 +43,7 @@ def block_notes(
             f"{1e3 * model.friction.mu * block.size[2]:.4g} mm, is more than its length, "
             f"{1e3 * block.size[0]:.4g} mm"
         )
-    notes += march_notes(model, table, residual, broke=broke)
+    notes += march_notes(window)
     if abs(powers.numerical) > _MOST_NUMERICAL * abs(powers.friction):
         notes.append(
             f"the time integration takes {powers.numerical:.2g} W, "

@@ -32,24 +32,6 @@ class Progress:
     quarters: tuple[Sums, ...] = ()
     durations: tuple[float, ...] = ()  #: It has gone on to since that of the case, s
 
-    def means(self, second_half: Sums, full: float) -> list[float]:
-        """Mean drive force in the quarters of the window, over a force in N.
-
-        Those of its halves where it is too short. ``second_half`` are the sums of its second half.
-        """
-        means = []
-        halves = (self.first_half or Sums(), second_half)
-        for half, quarter in zip(halves, self.quarters, strict=True):
-            force, span = half.drive_force, half.time
-            parts = (
-                (quarter.drive_force, quarter.time),
-                (force - quarter.drive_force, span - quarter.time),
-            )
-            if quarter.time <= 0.0:
-                parts = (force, span), (force, span)
-            means += [impulse / time / full for impulse, time in parts]
-        return means
-
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Kept:

@@ -150,6 +150,18 @@ class ElasticBody:
             answer -= self.rigid @ np.linalg.solve(self.rigid_mass, self.inertia.T @ answer)
         return answer.reshape(forces.shape)
 
+    def carried(self, forces: FloatArray, moved: FloatArray) -> FloatArray:
+        """Return the displacements where the tied nodes do not stand still, (3N, k), m.
+
+        Parameters
+        ----------
+        forces : ndarray, shape (3N, k)
+            On the nodes, N.
+        moved : ndarray, shape (3N, k)
+            Displacement of the tied nodes, m; 0 at all others.
+        """
+        return np.asarray(self.response(forces - self.stiffness @ moved) + moved)
+
     def residual(self, forces: FloatArray, answer: FloatArray) -> float:
         """Return the largest residual of `response` relative to its forces, shape (3N, k) both."""
         error = self.stiffness @ answer - forces

@@ -16,9 +16,6 @@ from asperity.mesh.inp import mesh_lines, numbers
 
 DECK = "teeth.inp"
 _TURNING = "wheel_turning"
-_STICK = 0.2
-"""Friction's slope before it slides over the contact's stiffness."""
-
 _INCREMENTS = (4, 3)
 
 
@@ -29,6 +26,39 @@ def calculix_files(setup: TeethSetup) -> dict[str, str]:
 
 def _deck(setup: TeethSetup) -> Iterator[str]:
     wheel, worm = setup.wheel, setup.worm
+    nodes = len(wheel.points)
+    centre, turning = nodes + len(worm.points) + 1, nodes + len(worm.points) + 2
+    yield from _model(setup)
+    yield from _rim(wheel.node_set(RIM) + 1, centre, turning)
+    begun = setup.wheel_angles[0], setup.worm_angles[0]
+    there = np.arange(len(worm.points)) + nodes + 1
+    for step, most in enumerate(_INCREMENTS, start=1):
+        yield from _step(most, centre, turning)
+        if step == 1:
+            yield f"{turning}, 3, 3, {numbers(setup.wheel_angles[1] - begun[0])[:-1]}"
+        turn = setup.worm_angles[step] - begun[1]
+        yield from _moved(there, worm.points, setup.axis, setup.origin, turn)
+        if step > 1:
+            yield from ("*CLOAD", f"{turning}, 3, {numbers(-setup.problem.load)[:-1]}")
+        yield from _told()
+
+
+def _step(most: int, centre: int, turning: int) -> Iterator[str]:
+    """Begin a step of at least so many increments, the wheel on its axis."""
+    yield f"*STEP, NLGEOM, INC={100 * most}"
+    yield from ("*STATIC", numbers(1.0 / most, 1.0, 1e-6, 1.0 / most))
+    yield from ("*BOUNDARY, OP=NEW", f"{centre}, 1, 3", f"{turning}, 1, 2")
+
+
+def _told() -> Iterator[str]:
+    """End a step with what is told of it."""
+    yield from ("*NODE FILE", "U", "*CONTACT FILE", "CDIS, CSTR")
+    yield from (f"*NODE PRINT, NSET={_TURNING}", "U")
+    yield from (f"*CONTACT PRINT, SLAVE={FLANK}, MASTER={WORM}", "CF", "*END STEP")
+
+
+def _model(setup: TeethSetup) -> Iterator[str]:
+    wheel, worm = setup.wheel, setup.worm
     nodes, cells = len(wheel.points), len(wheel.cells)
     material = setup.problem.gearset.wheel_material
     yield "*HEADING"
@@ -38,7 +68,9 @@ def _deck(setup: TeethSetup) -> Iterator[str]:
     if law != "coulomb":
         yield (
             f"** Friction is Coulomb's: the law of the case, {law}, is not in this deck, since "
-            "CalculiX takes none of a user's. Once all slides, as at the end, the two are one."
+            "CalculiX takes none of a user's. Once all slides, as at the end, the two are one. "
+            f"What it has of the law is its slope at rest, {setup.stick:.4g} Pa/m at the mean "
+            "pressure; how that falls before all slides, and that it goes by pressure, it has not."
         )
     yield "** Run: ccx teeth"
     yield from mesh_lines(wheel, "C3D8I", element_set=WHEEL)
@@ -53,27 +85,9 @@ def _deck(setup: TeethSetup) -> Iterator[str]:
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
     yield numbers(setup.stiffness)
     if setup.model.friction > 0.0:
-        yield from ("*FRICTION", numbers(setup.model.friction, _STICK * setup.stiffness))
+        yield from ("*FRICTION", numbers(setup.model.friction, setup.stick))
     yield "*CONTACT PAIR, INTERACTION=flanks, TYPE=SURFACE TO SURFACE"
     yield f"{FLANK}, {WORM}"
-    centre, turning = nodes + len(worm.points) + 1, nodes + len(worm.points) + 2
-    yield from _rim(wheel.node_set(RIM) + 1, centre, turning)
-    begun = setup.wheel_angles[0], setup.worm_angles[0]
-    for step, most in enumerate(_INCREMENTS, start=1):
-        yield f"*STEP, NLGEOM, INC={100 * most}"
-        yield from ("*STATIC", numbers(1.0 / most, 1.0, 1e-6, 1.0 / most))
-        yield "*BOUNDARY, OP=NEW"
-        yield from (f"{centre}, 1, 3", f"{turning}, 1, 2")
-        if step == 1:
-            yield f"{turning}, 3, 3, {numbers(setup.wheel_angles[1] - begun[0])[:-1]}"
-        turn = setup.worm_angles[step] - begun[1]
-        there = np.arange(len(worm.points)) + nodes + 1
-        yield from _moved(there, worm.points, setup.axis, setup.origin, turn)
-        if step > 1:
-            yield from ("*CLOAD", f"{turning}, 3, {numbers(-setup.problem.load)[:-1]}")
-        yield from ("*NODE FILE", "U", "*CONTACT FILE", "CDIS, CSTR")
-        yield from (f"*NODE PRINT, NSET={_TURNING}", "U")
-        yield from (f"*CONTACT PRINT, SLAVE={FLANK}, MASTER={WORM}", "CF", "*END STEP")
 
 
 def _rim(names: IntArray, centre: int, turning: int) -> Iterator[str]:

@@ -39,6 +39,7 @@ _APART = 15e-6  # m, of the flanks at the start
 _SWEPT = math.radians(55.0)  # to both sides of the line of centres
 _PER_TURN, _ON_FLANK = 240, 12
 _THICK = 0.3  # mm, of the layer that stands for a rigid thread
+_STICK = 0.2  # of Coulomb's friction before it slides, over the contact's stiffness
 FLANK, WORM, WHEEL = "wheel_flanks", "worm_flanks", "wheel"
 
 
@@ -58,6 +59,8 @@ class TeethSetup:
         The same under its vibration, where a deck of it can be written.
     unshaken : str
         Why it cannot, else empty.
+    ends : float
+        Angle of the worm at the end of the second step, rad.
     """
 
     name: str
@@ -65,6 +68,7 @@ class TeethSetup:
     model: StaticModel
     shaken: DriveProblem | None = None
     unshaken: str = ""
+    ends: float = 0.0
 
     @classmethod
     def from_case(cls, case: Case, run: Run | None = None) -> "TeethSetup":
@@ -86,6 +90,15 @@ class TeethSetup:
         model = StaticModel(problem, run or Run(), phases=1)
         return cls(case.source, problem, model, *_shaken(case))
 
+    def at(self, angle: float) -> "TeethSetup":
+        """Return the same with the worm at an angle at the end, rad.
+
+        Decks at angles over a pitch are the worm's turning in steps without inertia: after a pitch
+        the next tooth is where this one was, and a revolution of the worm is as many pitches as it
+        has starts, one of the wheel as many as it has teeth.
+        """
+        return dataclasses.replace(self, ends=angle)
+
     @property
     def pair(self) -> Pair:
         """Worm and wheel, right-handed: a left-handed gearset is its mirror image."""
@@ -93,13 +106,13 @@ class TeethSetup:
 
     @functools.cached_property
     def balance(self) -> Balance:
-        """The package's own balance at the end of the deck's last step, the shaft rigid."""
-        return Equilibrium(self.model.contact).balance(0.0, self.problem.load)
+        """The package's own balance at the end of the deck's second step, the shaft rigid."""
+        return Equilibrium(self.model.contact).balance(self.ends, self.problem.load)
 
     @functools.cached_property
     def touching(self) -> float:
-        """Angle of the wheel that touches the worm at its angle 0, rad."""
-        return self.model.contact.touching_angle(0.0, np.zeros(3))
+        """Angle of the wheel that touches the worm where the second step ends, rad."""
+        return self.model.contact.touching_angle(self.ends, np.zeros(3))
 
     @property
     def wheel_angles(self) -> tuple[float, float, float]:
@@ -112,7 +125,7 @@ class TeethSetup:
     @property
     def worm_angles(self) -> tuple[float, float, float]:
         """Of the worm before and after both steps, rad."""
-        return -SLID, -SLID, 0.0
+        return self.ends - SLID, self.ends - SLID, self.ends
 
     @property
     def axis(self) -> FloatArray:
@@ -170,7 +183,8 @@ class TeethSetup:
         # Denser towards the root, where the flank bends.
         rho, axial = worm.curve(np.linspace(0.0, 1.0, _ON_FLANK) ** 2)[:2]
         count = 1 + math.ceil(2.0 * _SWEPT * _PER_TURN / (2.0 * math.pi))
-        turn = np.linspace(-_SWEPT, _SWEPT, count)
+        # Turned by the worm's angle it is about the line of centres again.
+        turn = np.linspace(-_SWEPT, _SWEPT, count) - self.ends
         place = 2.0 * worm.half_pitch * space
         z = axial[:, None] + worm.reduced_lead * turn + place
         flank = on_faces(
@@ -194,6 +208,24 @@ class TeethSetup:
     def stiffness(self) -> float:
         """Pressure per overclosure of the flanks, Pa/m."""
         return CONTACT_STIFFNESS
+
+    @functools.cached_property
+    def stick(self) -> float:
+        r"""Shear stress per slip of flanks before they slide, Pa/m.
+
+        Of a law with an elastic deflection its slope at rest, :math:`\mu p/s_{max}`, at the mean
+        pressure, weighted by the force that it carries; of Coulomb's a fifth of the contact's.
+        """
+        friction = self.problem.friction
+        if friction.model == "coulomb":
+            return _STICK * self.stiffness
+        end = self.balance
+        force, pressed = 0.0, 0.0
+        for k, number in enumerate(4 * end.contact.candidates.counts[:, 0]):
+            pressure = end.contact.answer.pressure[k, :number]
+            own = pressure * end.contact.candidates.weights[k, :number]
+            force, pressed = force + float(own.sum()), pressed + float(own @ pressure)
+        return float(self.model.friction * pressed / force / friction.deflection_limit(force))
 
     def notes(self) -> list[str]:
         """Return what stands at the head of a deck."""

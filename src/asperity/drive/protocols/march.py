@@ -30,6 +30,8 @@ _LONGEST_SECONDS, _FEWEST_CYCLES = 60e-3, 60
 _GOES_ON, _NEARER = 4, 0.7
 # Of one call of the kernel, between which Ctrl-C is heard.
 _CALL_SECONDS = 0.06
+_CHANGING = ("rows", "states", "committed", "seconds", "finer", "off", "told")
+_STEPS = ("longest", "landing")  # of a system
 
 
 class Marked(NamedTuple):
@@ -302,36 +304,21 @@ class March:
 
     def tree(self) -> Tree:
         """Return all that changes on the way."""
-        return {
-            "rows": self.rows,
-            "states": self.states,
-            "committed": self.committed,
-            "seconds": self.seconds,
-            "finer": self.finer,
-            "longest": self.system.longest,
-            "landing": self.system.landing,
-            "off": self.off,
-            "told": self.told,
-            "marked": self.marked.row,
-            "marked_states": self.marked.states,
-            "marked_committed": self.marked.committed,
-        }
+        changing = {name: getattr(self, name) for name in _CHANGING}
+        steps = {name: getattr(self.system, name) for name in _STEPS}
+        return {**changing, "steps": steps, "marked": self.marked._asdict()}
 
     def restore(self, tree: Tree) -> None:
         """Go back to where a march of the same drive stood when it gave its tree."""
-        self.rows, self.states = tree["rows"], tree["states"]
-        self.committed, self.seconds = tree["committed"], tree["seconds"]
-        self.system = self.system._replace(
-            longest=float(tree["longest"]), landing=float(tree["landing"])
-        )
-        self.finer, self.off = float(tree["finer"]), float(tree["off"])
-        self.told = float(tree["told"])
-        self.marked = Marked(int(tree["marked"]), tree["marked_states"], tree["marked_committed"])
+        for name in _CHANGING:
+            setattr(self, name, tree[name])
+        self.system = self.system._replace(**tree["steps"])
+        self.marked = Marked(**tree["marked"])
 
 
 def refined(system: System, finer: float) -> System:
     """Return a system whose steps are so many times as long."""
-    return system._replace(longest=finer * system.longest, landing=finer * system.landing)
+    return system._replace(**{name: finer * getattr(system, name) for name in _STEPS})
 
 
 def block_of(window: int, frequency: float) -> int:

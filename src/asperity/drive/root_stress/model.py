@@ -1,10 +1,11 @@
 r"""Stress at the fillets of a loaded tooth, from the forces of the condensed contact.
 
-Three teeth on their rim, whose inside is held, are meshed anew with 27-node hexahedra, their nodes
-on the exact fillets. The forces on the flank of a tooth and on those beside it, from the loaded
-contact, are given to the nodes about where they act. Stresses are found at the 2 x 2 x 2 points of
-Gauss of the elements at the fillet, where quadratic elements are best, and carried on to its nodes;
-what elements that share a node differ by tells how far the mesh can be trusted.
+Three teeth on their rim, whose inside is held or moves as its web lets it, are meshed anew with
+27-node hexahedra, their nodes on the exact fillets. The forces on the flank of a tooth and on those
+beside it, from the loaded contact, are given to the nodes about where they act. Stresses are found
+at the 2 x 2 x 2 points of Gauss of the elements at the fillet, where quadratic elements are best,
+and carried on to its nodes; what elements that share a node differ by tells how far the mesh can be
+trusted.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.elastic.body import ElasticBody
 from asperity.contact.interface.surface import ContactSurface, contact_surface
+from asperity.drive.teeth.rim_moves import MovingRim
 from asperity.drive.teeth.sector import DENSITY, RIM, lattice
 from asperity.flanks.mesh.tooth import Counts, tooth
 from asperity.flanks.wheel.enveloped import Wheel
@@ -187,9 +189,30 @@ class RootModel:
             out[fine.nodes] += fine.to_forces(field @ self._turn(place).T)
         return out.reshape(-1)
 
-    def solve(self, loads: FloatArray) -> Roots:
-        """Return the stresses at both fillets under nodal forces, (3N, q), N."""
-        moved = self.body.response(loads)
+    def on_web(self, rim: MovingRim, forces: FloatArray) -> FloatArray:
+        """Return how the rim's inside moves on a web, (3N,), m.
+
+        Parameters
+        ----------
+        rim : MovingRim
+            Of the wheel.
+        forces : ndarray, shape (k, n, 3)
+            On teeth as of `nodal`, on the nodes that the rim knows, N.
+        """
+        turn, tied = self._turn(self.teeth // 2), self.body.tied
+        at = {k - len(forces) // 2: each for k, each in enumerate(forces)}
+        found = np.zeros((len(self.mesh.points), 3))
+        found[tied] = rim.at(self.mesh.points[tied] @ turn, at) @ turn.T
+        return found.reshape(-1)
+
+    def solve(self, loads: FloatArray, held: FloatArray | None = None) -> Roots:
+        """Return the stresses at both fillets under nodal forces, (3N, q), N.
+
+        ``held`` is the displacement of the rim's inside, (3N, q), m, 0 elsewhere; left out it
+        stands still.
+        """
+        held = np.zeros_like(loads) if held is None else held
+        moved = self.body.carried(loads, held)
         found = [self.stress(fillet, moved) for fillet in self.fillets]
         residual = self.body.residual(loads, moved)
         return Roots((found[0][0], found[1][0]), (found[0][1], found[1][1]), residual)

@@ -10,7 +10,7 @@ from asperity.drive.root_stress.loads import loads_of
 from asperity.drive.root_stress.model import COARSER, COUNTS, TEETH, RootModel, Roots
 from asperity.drive.root_stress.result import Largest, RootStress
 from asperity.drive.static.solve import StaticModel
-from asperity.drive.teeth.sector import right_handed
+from asperity.drive.teeth.sector import moving_rim, on_coarse, right_handed
 from asperity.errors import InputError
 from asperity.rating.parameters import RatingOptions
 from asperity.rating.standards import rate_by, tables_of
@@ -50,13 +50,20 @@ def answer(problem: DriveProblem, run: Run) -> RootStress:
         loads = loads_of(static)
         run.checkpoint(1, 3, what="meshes")
         wheel = right_handed(static.sector.wheel)
+        material, body = problem.gearset.wheel_material, problem.wheel_body
+        rim = None if body is None else moving_rim(static.sector, material, body)
         teeth = min(TEETH, static.sector.teeth)
         found: list[Roots] = []
         for done, counts in enumerate((COARSER, COUNTS)):
-            model = RootModel(wheel, problem.gearset.wheel_material, counts, teeth)
+            model = RootModel(wheel, material, counts, teeth)
             surface = static.sector.surface
             nodal = np.column_stack([model.nodal(surface, load.forces) for load in loads])
-            found.append(model.solve(nodal))
+            held = None
+            if rim is not None:
+                held = np.column_stack(
+                    [model.on_web(rim, on_coarse(static.sector, load.forces)) for load in loads]
+                )
+            found.append(model.solve(nodal, held))
             run.checkpoint(2 + done, 3, what="meshes")
     coarse, fine = found
     worst, before = Largest.of(fine), Largest.of(coarse)

@@ -33,7 +33,20 @@ _DEEPEST = 0.1
 
 
 class TooDeepError(ConvergenceError):
-    """The torque presses the worm further into the teeth than elastic ones could give."""
+    """The torque presses the worm further into the teeth than elastic ones could give.
+
+    Parameters
+    ----------
+    message : str
+        What is too much.
+    full : bool
+        Whether more of the flanks would bear than the contact has room for, rather than that worm
+        and teeth overlap too deeply.
+    """
+
+    def __init__(self, message: str, *, full: bool, deflection: float) -> None:
+        super().__init__(message, reached={"deflection_rad": deflection})
+        self.full = full
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -70,7 +83,7 @@ class Equilibrium:
     def __init__(self, contact: TeethContact, compliance: FloatArray | None = None) -> None:
         self.contact = contact
         self.compliance = np.zeros((4, 4)) if compliance is None else compliance
-        self._twists = _twists(contact)
+        self._twists = _twists(contact, np.zeros(4))
         module = contact.sector.wheel.pair.geometry.axial_module
         self._deepest = _DEEPEST * 1e-3 * module
         self._arm = float(contact.sector.body.places[:, 1].max())
@@ -80,7 +93,10 @@ class Equilibrium:
         self._softer = 1.0
 
     def on_worm(self, wrench: FloatArray) -> FloatArray:
-        """Return what wrenches (..., 6) on the wheel are on the worm, (..., 4), N m and N."""
+        """Return what wrenches (..., 6) on the wheel are on the worm, (..., 4), N m and N.
+
+        Its turn is about its axis as it stands without load.
+        """
         return -wrench @ self._twists.T
 
     def balance(
@@ -119,8 +135,8 @@ class Equilibrium:
             if self._too_deep(beta, phi, yielded):
                 raise TooDeepError(
                     "the load presses the worm further into the teeth than they can give",
-                    reached={"deflection_rad": behind},
-                )
+                    full=False, deflection=behind,
+                )  # fmt: skip
             # Far from the balance teeth need not agree well with each other.
             tolerance = min(max(_AGREED * residual, _LEAST), _MOST)
             try:
@@ -130,13 +146,17 @@ class Equilibrium:
             except FullError:
                 full += 1
                 if full > _FULL:
-                    raise TooDeepError("more of the teeth bears than could be") from None
+                    raise TooDeepError(
+                        "more of the teeth bears than could be", full=True, deflection=behind
+                    ) from None
                 behind, yielded = 0.5 * behind, 0.5 * yielded
                 before = promised = np.nan
                 continue
             except np.linalg.LinAlgError:
                 break
-            on_worm, pushed = self.on_worm(action.wrench), side * float(action.wrench[5])
+            # The worm turns about its axis where that has gone.
+            twists = _twists(contact, yielded)
+            on_worm, pushed = -twists @ action.wrench, side * float(action.wrench[5])
             if _LEAST * torque < abs(promised) < _SMALL * torque:
                 self._softer *= float(np.clip((pushed - before) / promised, *_CHANGED))
             missing = np.concatenate([[pushed - torque], yielded - self.compliance @ on_worm])
@@ -146,14 +166,14 @@ class Equilibrium:
             )
             if residual <= _CLOSE:
                 # The wheel's turn by which the worm's yielding is made up for.
-                turns = self._twists @ action.slope[5] / action.slope[5, 5]
+                turns = twists @ action.slope[5] / action.slope[5, 5]
                 by_worm = -side * float(turns @ yielded)
                 self._last[sense] = torque, np.array([behind - by_worm, by_worm, *yielded])
                 return Balance(
                     beta, phi, -float(on_worm[0]), yielded, turns, action, contact,
                     residual,
                 )  # fmt: skip
-            slope = self._slope(action)
+            slope = self._slope(action, twists)
             try:
                 move = self._move(slope, missing, behind, yielded, pushed)
             except np.linalg.LinAlgError:
@@ -199,9 +219,9 @@ class Equilibrium:
         shift = shift_of(yielded)
         return self.contact.least_gap(beta + float(yielded[0]), phi, shift) < -self._deepest
 
-    def _slope(self, action: Action) -> FloatArray:
+    def _slope(self, action: Action, twists: FloatArray) -> FloatArray:
         """Derivative of what is missing by the wheel's angle and the worm's yielding."""
-        twists, slope = self._twists, self._softer * action.slope
+        slope = self._softer * action.slope
         matrix = np.zeros((5, 5))
         matrix[0, 0] = -slope[5, 5]
         side = self.contact.side
@@ -219,9 +239,10 @@ def shift_of(yielded: FloatArray) -> FloatArray:
     return np.array([radial, tangential, -axial])
 
 
-def _twists(contact: TeethContact) -> FloatArray:
-    """Motions of the worm's coordinates as shift and turn about the wheel's centre, (4, 6)."""
-    (radial, tangential, axis), origin = contact.stand.axes, contact.stand.origin
+def _twists(contact: TeethContact, yielded: FloatArray) -> FloatArray:
+    """Motions of a yielded worm as shift and turn about the wheel's centre, (4, 6)."""
+    (radial, tangential, axis) = contact.stand.axes
+    origin = contact.stand.origin + shift_of(yielded) @ contact.stand.axes
     none = np.zeros(3)
     found = {
         "turn": np.concatenate([np.cross(origin, axis), axis]),

@@ -1,4 +1,4 @@
-"""Pressures at the nodes of the mesh: what the condensed teeth have, before any is resolved.
+"""Pressures beside the resolved ones: those at the nodes of the mesh, and those of Hertzian lines.
 
 Contact lines are narrower than the elements of any mesh of a whole tooth, so that these grow as the
 mesh is refined; `asperity.drive.resolved` has those that do not.
@@ -7,7 +7,12 @@ mesh is refined; `asperity.drive.resolved` has those that do not.
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.drive.problem import DriveProblem
 from asperity.drive.teeth.contact import TeethContact
+from asperity.errors import ConvergenceError, InputError
+from asperity.flanks.meshing.analysis import hertz_pressure_max
+from asperity.flanks.meshing.lubrication import Pressed
+from asperity.flanks.wheel.enveloped import Wheel
 from asperity.gearset.materials import Material
 from asperity.rating.iso14521.hertz import contact_modulus
 
@@ -29,3 +34,14 @@ def nodal_pressure(contact: TeethContact, k: int) -> FloatArray:
     points = (4 * contact.candidates.face[k, :count, None] + np.arange(4)).ravel()
     found[points] = contact.answer.pressure[k, : 4 * count]
     return surface.to_nodes(found.reshape(surface.weights.shape))
+
+
+def hertz_pressure(problem: DriveProblem, wheel: Wheel) -> float | None:
+    """Return the greatest Hertzian pressure of rigid flanks' contact lines, MPa.
+
+    It is the number of ``asperity flank``, found as there; None where no line bears the load.
+    """
+    try:
+        return hertz_pressure_max(wheel.pair, wheel, Pressed.by(problem.gearset, problem.operation))
+    except (InputError, ConvergenceError):
+        return None

@@ -146,6 +146,10 @@ class StaticResult(OfDrive):
         "", "mm", "length of the contact with the largest pressure on the flank"
     )
     contact_width: float = quantity("", "mm", "its width")
+    hertz_pressure_max: float | None = quantity(
+        "p", "MPa", "Hertzian pressure of contact lines, greatest, as asperity flank has it",
+        key="hertz_pressure_max_MPa", default=None,
+    )  # fmt: skip
     flash_temperature: float = quantity(
         "theta_fl", "K", "largest flash temperature of a contact; no limit is known for worm gears"
     )

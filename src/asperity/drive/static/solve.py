@@ -24,7 +24,7 @@ from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
 from asperity.drive.static.flash import Flash
 from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
-from asperity.drive.static.pressure import modulus_of
+from asperity.drive.static.pressure import hertz_pressure, modulus_of
 from asperity.drive.static.result import PATTERNS, StaticResult
 from asperity.drive.static.seen import Pattern, Seen, contact_means
 from asperity.drive.static.spread import LOADED, k_h_alpha
@@ -96,14 +96,22 @@ def _kinetic(problem: DriveProblem, speed: float) -> float:
     return float(friction_at(friction_curve(rating_inputs(problem.case), 3.0 * speed), speed))
 
 
-def too_much(problem: DriveProblem) -> InputError:
+class TooMuchError(InputError):
+    """The teeth cannot carry the torque; ``full``: as more of a flank would bear than a half."""
+
+    full = False
+
+
+def too_much(problem: DriveProblem, *, full: bool = False) -> InputError:
     """Return the line that refuses a drive's torque."""
     module = problem.geometry.axial_module
-    return InputError(
+    found = TooMuchError(
         f"operation.output_torque is {problem.load:.6g} N m; it would press the worm deeper than "
         f"{0.1 * module:.3g} mm, a tenth of the module, into the teeth, or half of a flank would "
         "bear, which no elastic tooth carries: take a smaller torque"
     )
+    found.full = full
+    return found
 
 
 class StaticModel:
@@ -193,8 +201,8 @@ class StaticModel:
         """
         try:
             return sweep(self.equilibrium, self.phases, self.touching, asked, step)
-        except TooDeepError:
-            raise too_much(self.problem) from None
+        except TooDeepError as error:
+            raise too_much(self.problem, full=error.full) from None
 
 
 def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
@@ -268,6 +276,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         k_h_alpha=k_h_alpha(forward.tooth_force),
         line_load=seen.spread.line_load / _MILLIMETRES,
         **_pressures(model, seen),
+        hertz_pressure_max=hertz_pressure(problem, sector_.wheel),
         flash_temperature=max(flash.course),
         flash_temperature_course=np.array(flash.course),
         flash_line_face=problem.gearset.hand_sign * flash.worst.face,

@@ -9,7 +9,15 @@ from asperity.contact.elastic import ElasticMaterial, elastic_body
 from asperity.contact.interface.surface import contact_surface
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_of
-from asperity.drive.teeth.sector import DENSITY, ELEMENT, RIM, Sector, lattice
+from asperity.drive.teeth.sector import (
+    DENSITY,
+    ELEMENT,
+    RIM,
+    Sector,
+    lattice,
+    moving_rim,
+    on_coarse,
+)
 from asperity.flanks.wheel.frame import turned
 from asperity.mesh.vtu import write_vtu
 
@@ -65,7 +73,14 @@ def write_teeth(
     for place in range(teeth):
         name = "flank_plus" if teeth == 1 else f"flank_plus_{place}"
         largest[contact_surface(mesh, name).nodes] = of_pitch
-    moved = body.response(forces.reshape(-1)).reshape(-1, 3)
+    held = np.zeros_like(forces)
+    if problem.wheel_body is not None:
+        rim = moving_rim(sector, material, problem.wheel_body)
+        # Teeth that follow one another about +Z are further towards -X.
+        own = on_coarse(sector, nodal_force.reshape(len(nodal_force), -1, 3))
+        at = {middle - k: each for k, each in enumerate(own)}
+        held[body.tied] = rim.at(body.mesh.points[body.tied], at)
+    moved = body.carried(forces.reshape(-1, 1), held.reshape(-1, 1)).reshape(-1, 3)
     mirror = np.array([1.0, 1.0, float(sector.wheel.pair.mirror)])
     shown = mesh if sector.wheel.pair.mirror > 0 else mesh.transformed(np.diag(mirror))
     return write_vtu(

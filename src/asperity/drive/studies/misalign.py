@@ -114,7 +114,10 @@ def answer(study: Study, run: Run) -> Misaligned:
         raise ConvergenceError(f"no point has an answer; the first: {found[1]}")
     names = tuple(place.name for place in study.places)
     notes = [*few_phases(nominal), *rigid_parts(nominal)]
-    notes.append("what the housing gives is not in it but where [shaft] says so")
+    if nominal.shaft.housing is None:
+        notes.append(
+            "the housing is rigid: shaft.housing is its stiffness along the centre distance"
+        )
     notes += [f"{n}: {e}" for n, e in zip(names, found, strict=True) if isinstance(e, str)]
     own = [own_value(study.case, axis) for axis in study.axes]
     values = [own] + [_values(study.axes, place.where) for place in study.places[1:]]

@@ -10,21 +10,14 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded
-from asperity.drive.studies.points import told_points
+from asperity.drive.studies.points import table_of_points, told_points
 from asperity.results import quantity
 from asperity.results.table import Table
-from asperity.results.words import Number, text_of
 from asperity.sweep.axis import Axis
 
 _POINT = ("point",)
 _PLOTS = "asperity.drive.studies.misalign_plots"
 _MEGA, _MILLI, _MICRO = 1e-6, 1e3, 1e6
-_SHORT = {
-    "mount.centre_distance_error": "centre",
-    "mount.axial_offset": "offset",
-    "mount.shaft_angle_error": "angle",
-    "operation.output_torque": "torque",
-}
 _BEARS = 1.0  # N, from which on an edge counts
 
 
@@ -224,32 +217,19 @@ class Misaligned(OfDrive):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row a point."""
-        names = [_SHORT.get(axis.path, axis.key.replace("_", " ")) for axis in self.axes]
-        heads = (
-            *(f"{n} ({a.unit})" if a.unit else n for n, a in zip(names, self.axes, strict=True)),
-            "flank (MPa)", "edge (N)", "error (urad)", "K_Hbeta", "K_Halpha", "share",
-            "face (mm)", "radial (mm)",
-        )  # fmt: skip
-        shown = (
-            ("pressure_flank_MPa", ".0f", 1.0), ("force_edge_N", ".0f", 1.0),
-            ("transmission_error_rad", ".1f", _MICRO), ("k_h_beta", ".2f", 1.0),
-            ("k_h_alpha", ".2f", 1.0), ("load_share_max", ".2f", 1.0),
-            ("shift_face_mm", ".3f", 1.0), ("shift_radial_mm", ".3f", 1.0),
-        )  # fmt: skip
-        rows = [
-            (
-                *(text_of(float(value)) for value in self.value[n]),
-                *(
-                    "none" if row[key] is None
-                    else Number.of(row[key] + 0.0, form, f"points.{n}.{key}", times)
-                    for key, form, times in shown
-                ),
-            )
-            for n, row in enumerate(self.rows)
-        ]  # fmt: skip
+        columns = {
+            "flank (MPa)": ("pressure_flank_MPa", ".0f", 1.0),
+            "edge (N)": ("force_edge_N", ".0f", 1.0),
+            "error (urad)": ("transmission_error_rad", ".1f", _MICRO),
+            "K_Hbeta": ("k_h_beta", ".2f", 1.0),
+            "K_Halpha": ("k_h_alpha", ".2f", 1.0),
+            "share": ("load_share_max", ".2f", 1.0),
+            "face (mm)": ("shift_face_mm", ".3f", 1.0),
+            "radial (mm)": ("shift_radial_mm", ".3f", 1.0),
+        }
         remarks = (
             "the first row is the case as it is; face, radial: shift of the pattern's middle",
             *(f"the second row is the gearset {name}" for name in self.name[1:2] if "warm" in name),
             *self.notes,
         )  # fmt: skip
-        return (Table.of(heads, rows, left=0, remarks=remarks),)
+        return (table_of_points(self, "points", columns, remarks),)

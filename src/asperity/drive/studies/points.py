@@ -9,6 +9,8 @@ import numpy as np
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded, loaded
 from asperity.errors import AsperityError
+from asperity.results.table import Number, Table
+from asperity.results.words import text_of
 from asperity.runs import Interrupted, Run
 from asperity.runs.cache import Cache
 from asperity.runs.key import code_key, key
@@ -17,6 +19,12 @@ from asperity.runs.workers import Task, cores, done
 _SECONDS_A_PHASE = 0.3
 _LOADED = "asperity.drive.static.loaded"
 _ROOM = "teeth"
+_SHORT = {
+    "mount.centre_distance_error": "centre",
+    "mount.axial_offset": "offset",
+    "mount.shaft_angle_error": "angle",
+    "operation.output_torque": "torque",
+}
 
 
 def solve_points(
@@ -115,3 +123,33 @@ def told_points(
         }
         for n, (name, place) in enumerate(zip(names, values, strict=True))
     ]
+
+
+def table_of_points(
+    answer: Any,
+    place: str,
+    columns: Mapping[str, tuple[str, str, float]],
+    remarks: Iterable[str],
+    mark: tuple[str, ...] = (),
+) -> Table:
+    """Return a table of points: where each is on the axes, its numbers, and a mark.
+
+    Columns are key, format and what it is shown over, by headings; ``answer`` has axes, value and
+    rows as `told_points` gives them, which stand in JSON at a place.
+    """
+    names = [_SHORT.get(axis.path, axis.key.replace("_", " ")) for axis in answer.axes]
+    units = [f" ({axis.unit})" if axis.unit else "" for axis in answer.axes]
+    heads = *map("".join, zip(names, units, strict=True)), *columns, *([""] if mark else [])
+    rows = [
+        (
+            *(text_of(float(value)) for value in answer.value[n]),
+            *(
+                "none" if row[key] is None
+                else Number.of(row[key] + 0.0, form, f"{place}.{n}.{key}", times)
+                for key, form, times in columns.values()
+            ),
+            *mark[n : n + 1],
+        )
+        for n, row in enumerate(answer.rows)
+    ]  # fmt: skip
+    return Table.of(heads, rows, left=0, remarks=remarks)

@@ -4,9 +4,10 @@ Designs are values of keys such as ``modification.tip_relief`` or ``hob.oversize
 the other is gone through with the others held, from the case as it is, until none gives more. Each
 design is solved under every load and at every mounting; the worst of these counts. A design is the
 better, the less force its edges bear; where that is less than `LITTLE` of the normal force, the
-less pressure its flank does.
+less pressure its flank does; of equal pressures the smaller transmission error.
 """
 
+import dataclasses
 import itertools
 import math
 from collections.abc import Sequence
@@ -25,10 +26,13 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.rating.parameters import Operation
 from asperity.runs import Run
 from asperity.sweep.axes import parse_axes
-from asperity.sweep.axis import Axis
+from asperity.sweep.axis import Axis, Value
 
 LITTLE = 0.01
 """Of the normal force, below which the force of edges counts for nothing."""
+
+HALVINGS = 3
+"""Times that `between` tries values half-way between the best and those beside it."""
 
 _RELIEF = "modification.tip_relief=0,10,20,30,40 um"
 _LESS = 1.0 / 3.0
@@ -44,6 +48,7 @@ class Search(NamedTuple):
     case: Case
     axes: tuple[Axis, ...]
     stands: tuple[tuple[str, dict[str, float]], ...]  #: Loads and mountings, by name and values
+    halvings: int = 0  #: Times that values between the best and those beside it are tried
 
 
 def prepare(
@@ -102,7 +107,7 @@ def answer(search: Search, run: Run) -> Relieved:
     """
     known: dict[tuple[int, ...], Design] = {}
 
-    def look(places: Sequence[tuple[int, ...]]) -> None:
+    def look(search: Search, places: Sequence[tuple[int, ...]]) -> None:
         new = [place for place in dict.fromkeys(places) if place not in known]
         problems = [problem for place in new for problem in _problems(search, place)]
         solved = solve_points(problems, run) if problems else []
@@ -111,24 +116,71 @@ def answer(search: Search, run: Run) -> Relieved:
             known[place] = _design(search, place, solved[n * each : (n + 1) * each])
 
     own = _start(search)
-    look([own])
+    look(search, [own])
     if known[own].failed:
         raise ConvergenceError(f"the gearset as the case has it: {known[own].failed}")
     best = own
-    for _ in range(_ROUNDS):
-        before = best
-        for k, axis in enumerate(search.axes):
-            # Of a round the case's own value is one as well.
-            around = [(*best[:k], n, *best[k + 1 :]) for n in range(len(axis.values))]
-            look(around)
-            best = min([best, *around], key=lambda place: known[place].merit)
-        if best == before:
-            break
+    for halving in range(search.halvings + 1):
+        if halving:
+            search = _halved(search, best)
+        for _ in range(_ROUNDS):
+            before = best
+            for k, axis in enumerate(search.axes):
+                # Of a round the case's own value is one as well.
+                values = _beside(axis, best[k]) if halving else range(len(axis.values))
+                around = [(*best[:k], n, *best[k + 1 :]) for n in values]
+                look(search, around)
+                best = min([best, *around], key=lambda place: known[place].merit)
+            if best == before:
+                break
     nominal = DriveProblem.from_case(search.case, shaken=False)
     return Relieved.of(
         nominal, search.axes, tuple(name for name, _ in search.stands), list(known.values()),
         list(known).index(best),
     )  # fmt: skip
+
+
+def between(search: Search) -> Search:
+    """Return it as one that also tries values half-way between, and the case's own."""
+    axes = []
+    for axis, n in zip(search.axes, _start(search), strict=True):
+        own = own_value(search.case, axis)
+        scale = next((float(v) / float(s) for v, s in zip(axis.values, axis.shown, strict=True)
+                      if s), 1.0)  # fmt: skip
+        axes.append(axis if n >= 0 or math.isnan(own) else _longer(axis, [(scale * own, own)]))
+    return search._replace(axes=tuple(axes), halvings=HALVINGS)
+
+
+def _halved(search: Search, best: tuple[int, ...]) -> Search:
+    """Return it with values half-way between those of the best design and the ones beside them."""
+    axes = []
+    for axis, n in zip(search.axes, best, strict=True):
+        middles = [
+            (_middle(axis.values, n, k), float(f"{_middle(axis.shown, n, k):.6g}"))
+            for k in _beside(axis, n)
+            if k != n
+        ]
+        axes.append(_longer(axis, middles))
+    return search._replace(axes=tuple(axes))
+
+
+def _middle(values: Sequence[Value], one: int, other: int) -> float:
+    return 0.5 * (float(values[one]) + float(values[other]))
+
+
+def _longer(axis: Axis, more: Sequence[tuple[float, float]]) -> Axis:
+    """Return an axis with more values, in SI and in its unit, behind its own."""
+    values, shown = zip(*more, strict=True) if more else ((), ())
+    return dataclasses.replace(axis, values=axis.values + values, shown=axis.shown + shown)
+
+
+def _beside(axis: Axis, n: int) -> list[int]:
+    """Return a value of an axis and the nearest to either side; none where it is no value of it."""
+    if n < 0:
+        return []
+    order = sorted(range(len(axis.values)), key=lambda k: float(axis.values[k]))
+    at = order.index(n)
+    return order[max(at - 1, 0) : at + 2]
 
 
 def _start(search: Search) -> tuple[int, ...]:
@@ -161,11 +213,12 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
     name = "as the case is" if place == _start(search) else ", ".join(own_names)
     failed = next((each for each in found if isinstance(each, str)), "")
     if failed:
-        return Design(name, tuple(own), failed=failed, merit=(math.inf,) * 2)
+        return Design(name, tuple(own), failed=failed, merit=(math.inf,) * 3)
     solved = [each for each in found if isinstance(each, Loaded)]
     edges = [each.force_worm_tip + each.force_wheel_tip + each.force_face_end for each in solved]
     share = max(edge / each.normal_force for edge, each in zip(edges, solved, strict=True))
     flank = max(each.pressure_flank for each in solved)
+    error = max(each.transmission_error for each in solved)
     peak = max(
         max(e.pressure_flank, e.pressure_worm_tip, e.pressure_wheel_tip, e.pressure_face_end)
         for e in solved
@@ -180,10 +233,10 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
         face_end=max(each.force_face_end for each in solved),
         flank=flank,
         peak=peak,
-        error=max(each.transmission_error for each in solved),
+        error=error,
         k_h_beta=max(each.k_h_beta for each in solved),
         worst=search.stands[int(np.argmax(edges))][0],
-        merit=(max(edges) if share > LITTLE else 0.0, flank),
+        merit=(max(edges) if share > LITTLE else 0.0, flank, error),
     )
 
 

@@ -11,10 +11,9 @@ from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.notes import few_phases
-from asperity.drive.studies.points import told_points
+from asperity.drive.studies.points import table_of_points, told_points
 from asperity.results import quantity
 from asperity.results.table import Table
-from asperity.results.words import Number, text_of
 from asperity.sweep.axis import Axis
 
 _DESIGN = ("design",)
@@ -38,7 +37,7 @@ class Design:
     k_h_beta: float = np.nan
     worst: str = ""  #: Where the edges bear most
     failed: str = ""  #: Why there is no answer
-    merit: tuple[float, float] = (np.inf, np.inf)  #: The less, the better
+    merit: tuple[float, ...] = (np.inf,) * 3  #: The less, the better
 
 
 class Relieved(OfDrive):
@@ -186,28 +185,15 @@ class Relieved(OfDrive):
 
     def tables(self) -> tuple[Table, ...]:
         """Return a row a design, the best marked."""
-        heads = (
-            *(f"{a.key.replace('_', ' ')} ({a.unit})" if a.unit else a.key for a in self.axes),
-            "edges (N)", "worm tip", "wheel tip", "face ends", "flank (MPa)", "peak (MPa)",
-            "error (urad)", "",
-        )  # fmt: skip
-        shown = (
-            ("edge_force_N", ".0f", 1.0), ("force_worm_tip_N", ".0f", 1.0),
-            ("force_wheel_tip_N", ".0f", 1.0), ("force_face_end_N", ".0f", 1.0),
-            ("pressure_flank_MPa", ".0f", 1.0), ("pressure_peak_MPa", ".0f", 1.0),
-            ("transmission_error_rad", ".1f", _MICRO),
-        )  # fmt: skip
-        rows = [
-            (
-                *(text_of(float(value)) for value in self.value[n]),
-                *(
-                    "none" if row[key] is None
-                    else Number.of(row[key] + 0.0, form, f"designs.{n}.{key}", times)
-                    for key, form, times in shown
-                ),
-                "best" if n == self.best_number else "",
-            )
-            for n, row in enumerate(self.rows)
-        ]  # fmt: skip
+        columns = {
+            "edges (N)": ("edge_force_N", ".0f", 1.0),
+            "worm tip": ("force_worm_tip_N", ".0f", 1.0),
+            "wheel tip": ("force_wheel_tip_N", ".0f", 1.0),
+            "face ends": ("force_face_end_N", ".0f", 1.0),
+            "flank (MPa)": ("pressure_flank_MPa", ".0f", 1.0),
+            "peak (MPa)": ("pressure_peak_MPa", ".0f", 1.0),
+            "error (urad)": ("transmission_error_rad", ".1f", _MICRO),
+        }
+        best = tuple("best" if n == self.best_number else "" for n in range(len(self.rows)))
         remarks = ("the first row is the case as it is", *self.notes)
-        return (Table.of(heads, rows, left=0, remarks=remarks),)
+        return (table_of_points(self, "designs", columns, remarks, best),)

@@ -24,6 +24,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.contact.candidates.records import Body
 from asperity.contact.elastic import CondensedBody, ElasticMaterial, condense
 from asperity.contact.interface.surface import ContactSurface, contact_surface
+from asperity.drive.teeth.rim_moves import MovingRim
 from asperity.drive.teeth.whole import whole_wheel
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts, contact_counts, tooth
@@ -194,6 +195,23 @@ def _whole(
     middle = found.own + _taken(to, own - held.own)
     neighbours = tuple(_taken(to, block) for block in further)
     return _Blocks(middle, neighbours, found.seconds, found.residual)
+
+
+def moving_rim(sector: Sector, material: WheelMaterial, body: WheelBody) -> MovingRim:
+    """Return how the rim's inside moves on a web under forces on the flanks of the coarse mesh."""
+    wheel, coarse = sector.wheel, contact_counts(_COARSE)
+    elastic = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, DENSITY)
+    one, surface = own_mesh(wheel, coarse), _own_surface(wheel, coarse)
+    return MovingRim.of(one, surface, body, wheel.pair.geometry, elastic)
+
+
+def on_coarse(sector: Sector, forces: FloatArray) -> FloatArray:
+    """Return forces on the nodes of a flank, (..., n, 3), N, as they are on the coarse mesh's."""
+    coarse = contact_counts(_COARSE)
+    if sector.counts == coarse:
+        return forces
+    between = _interpolation(_own_surface(sector.wheel, coarse), sector.surface)
+    return np.asarray(np.einsum("nm,...ni->...mi", between.toarray(), forces))
 
 
 def _to_finer(wheel: Wheel, coarse: Counts, surface: ContactSurface) -> sparse.csr_array:

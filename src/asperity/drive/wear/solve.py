@@ -7,7 +7,8 @@ begins at other phases, so that what lies between two of them wears as well.
 
 import dataclasses
 import math
-from typing import Any, NamedTuple, Self
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from asperity.drive.resolved.flank import grid_faces
 from asperity.drive.resolved.strip import FLANK
 from asperity.drive.static.loaded import loaded_of
 from asperity.drive.static.notes import few_phases, rigid_parts
-from asperity.drive.static.solve import StaticModel
+from asperity.drive.static.solve import StaticModel, TooMuchError
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.wear.model import Taken, node_area, worn_model
 from asperity.drive.wear.result import WheelWorn
@@ -27,7 +28,7 @@ from asperity.errors import AsperityError, InputError, plain
 from asperity.rating.rate import rate_case
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
-from asperity.runs.tree import Tree
+from asperity.runs.tree import from_tree, to_tree
 from asperity.slider.wear import Wear
 from asperity.units import to_si
 
@@ -65,26 +66,11 @@ class _Worn:
     work: float  #: Of the normal forces on a tooth on the way that they slide, N m
     rows: list[FloatArray]  #: Of the course
 
-    @classmethod
-    def of(cls, kept: Tree | None, nodes: int) -> Self:
-        """Return the new wheel, or what was kept of one that was left."""
-        if kept is None:
-            return cls(np.zeros(nodes), 0.0, 0.0, [])
-        depth, turns, work, rows = (np.asarray(kept[k]) for k in ("depth", "turns", "work", "rows"))
-        return cls(depth, float(turns), float(work), list(rows))
-
     def wear(self, turns: float, rate: FloatArray, work: float) -> None:
         """Wear it for so many turns, by a depth and a work in each."""
         self.depth = self.depth + turns * rate
         self.turns += turns
         self.work += turns * work
-
-    def tree(self) -> Tree:
-        """Return it as a tree of arrays."""
-        return {
-            "depth": self.depth, "turns": np.array(self.turns), "work": np.array(self.work),
-            "rows": np.array(self.rows),
-        }  # fmt: skip
 
 
 def prepare(case: Case, *, depth: str = "20 um", revolutions: str = "") -> Wearing:
@@ -130,13 +116,23 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
     step = float(new.sector.pitch * new.contact.stand.ratio / len(new.phases))
     assert problem.case is not None
     name = key(code_key(__name__), problem.case.canonical(), repr(asked[1:]))
-    now = _Worn.of(run.resume(name), flank.nodes)
+    kept = run.resume(name)
+    now = from_tree(_Worn, kept) if kept else _Worn(np.zeros(flank.nodes), 0.0, 0.0, [])
+    before: _Worn | None = None
+    ended: tuple[str, ...] = ()
     with run.interruptible():
         while True:
             phases = new.phases + step * ((len(now.rows) * _GOLDEN) % 1.0)
             model = worn_model(new, now.depth, phases)
             taken = Taken(model.resolved, step)
-            (course,) = model.courses([LoadCase(problem.load, evaluate=taken.evaluate)])
+            try:
+                (course,) = model.courses([LoadCase(problem.load, evaluate=taken.evaluate)])
+            except TooMuchError as error:
+                if before is None:
+                    raise
+                # As it was a step ago, of which all is known.
+                now, ended = before, _ended(now, error)
+                break
             now.rows.append(np.array([
                 now.turns, now.depth.max(), now.depth @ area / area.sum(), taken.force / taken.area,
                 taken.peaks[FLANK], np.ptp(course.error), course.worm_torque.mean(),
@@ -154,10 +150,11 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             # Where it wears fastest, and not beyond the depth at which it ends.
             still = (asked.depth - now.depth) / np.maximum(rate, 1e-300)
             length = min(DEEPEST / float(rate.max()), float(still.min()), left)
+            before = dataclasses.replace(now)
             now.wear(length, rate, taken.work)
             share = max(float(now.depth.max()) / asked.depth, now.turns / asked.revolutions)
             total = max(len(now.rows), math.ceil(len(now.rows) / share))
-            run.checkpoint(len(now.rows), total, now.tree)
+            run.checkpoint(len(now.rows), total, partial(to_tree, now))
     depth, turns = now.depth, now.turns
     columns = dict(zip(_COURSES, np.array(now.rows).T, strict=True))
     worn = loaded_of(worn_model(new, depth, new.phases))
@@ -187,12 +184,28 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
         node_face=problem.gearset.hand_sign * points[:, 2],
         faces=grid_faces(),
         notes=(
+            *ended,
             "all teeth wear alike, the worm does not; pressures of the course are those of the "
             "first strips of patches",
             *few_phases(problem),
             *rigid_parts(problem),
         ),
         **columns,
+    )
+
+
+def _ended(now: _Worn, error: TooMuchError) -> tuple[str, ...]:
+    """Return why a flank is worn no further."""
+    why = (
+        "worn to the worm's shape, more than half of a flank would bear at once, beyond what the "
+        "contact holds"
+        if error.full
+        else "worm and teeth would overlap by more than a tenth of the module, as nothing bears "
+        "but rims of what is worn"
+    )
+    return (
+        f"it ends before the depth or the turns asked for, {_MICRO * now.depth.max():.4g} um deep "
+        f"at most: {why}; wear goes no further in this model, whatever the torque",
     )
 
 

@@ -3,7 +3,8 @@ r"""What mounting tolerances do to exact flanks: backlash, contact pattern, tran
 The play of a mesh is the least, over the places where worm and wheel may touch, of what is nearly
 linear in how the worm stands: it is concave, so that the least of all assemblies is found at a
 corner of the tolerances. The greatest is found at the corners, between them or in the middle. How
-thick threads and teeth are turns out in the play exactly.
+thick threads and teeth are turns out in the play exactly. What warmth moves the axes apart by is
+solved for like any other offset.
 
 Lengths are in mm, angles in rad.
 """
@@ -11,21 +12,23 @@ Lengths are in mm, angles in rad.
 import dataclasses
 import itertools
 import math
-from collections.abc import Iterator
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, NamedTuple, TypeVar
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.analysis import COLUMNS, ROWS
 from asperity.flanks.meshing.backlash import worm_turn
 from asperity.flanks.meshing.pattern.marking import pattern
-from asperity.flanks.meshing.transmission import Transmission, transmission
+from asperity.flanks.meshing.transmission import Transmission, touching, transmission
 from asperity.flanks.sides import both
 from asperity.flanks.wheel.enveloped import Wheel
+from asperity.flanks.wheel.flank import RESOLVED, WheelFlank
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
-from asperity.gearset.tolerancing.allowances import Allowances
+from asperity.gearset.tolerancing.allowances import Allowances, Taken
 from asperity.gearset.tolerancing.backlash import (
+    EXACT,
     Backlash,
     Interval,
     Part,
@@ -33,6 +36,7 @@ from asperity.gearset.tolerancing.backlash import (
     thickness_parts,
 )
 from asperity.gearset.tolerancing.table import Tolerances
+from asperity.gearset.tolerancing.warmth import Warmth
 from asperity.results.table import Column, Table
 from asperity.results.words import text_of
 
@@ -40,6 +44,9 @@ _MILLIMETRES = _MICROMETRES = 1e3
 _NAMES = "centre distance", "axial offset", "shaft angle"
 _SHORT = "a", "offset", "angle"
 _MINUTES = 60.0 * 180.0 / math.pi
+# Places of the wheel in a pitch between which the least backlash is looked for.
+_SAMPLES = 8
+_Found = TypeVar("_Found")
 
 
 class Place(NamedTuple):
@@ -61,6 +68,10 @@ class Place(NamedTuple):
             if value
         )
         return ", ".join(signs) or "nominal"
+
+    def further(self, apart: float) -> "Place":
+        """Return the place with axes so much further apart, mm."""
+        return self._replace(centre_distance=self.centre_distance + apart)
 
     def of(self, pair: Pair) -> Pair:
         """Return a pair that stands off so much further."""
@@ -121,11 +132,15 @@ class Corner(NamedTuple):
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Mounted:
-    """A pair, and how its mesh is wherever tolerances let the worm stand."""
+    """A pair, and how its mesh is wherever tolerances let the worm stand.
+
+    What is ``known`` of the backlash, by place, is not looked for again.
+    """
 
     pair: Pair
     wheel: Wheel
     deviations: Place
+    known: dict[Place, float] = dataclasses.field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, pair: Pair, wheel: Wheel, given: Tolerances) -> "Mounted":
@@ -142,9 +157,13 @@ class Mounted:
         ConvergenceError
             The worm does not reach the wheel all over the pitch.
         """
+        return self._at(place, transmission)
+
+    def _at(self, place: Place, found: Callable[[Pair, WheelFlank], _Found]) -> dict[int, _Found]:
+        """Return what is found on both flanks with the worm at a place; raises as `meshes`."""
         pair = place.of(self.pair)
         try:
-            return both(lambda side: transmission(pair, self.wheel.flank(side)))
+            return both(lambda side: found(pair, self.wheel.flank(side)))
         except ConvergenceError as error:
             raise ConvergenceError(
                 f"at {place.name} of the tolerances {error}", reached=error.reached
@@ -152,8 +171,11 @@ class Mounted:
 
     def play(self, place: Place) -> float:
         """Return the backlash on the mean circle with the worm at a place, um."""
-        turn = worm_turn(self.meshes(place)) / self.pair.ratio
-        return 0.5 * _MICROMETRES * self.pair.geometry.wheel_mean_diameter * turn
+        if place not in self.known:
+            found = self._at(place, lambda pair, flank: touching(pair, flank, _SAMPLES))
+            turn = worm_turn(found) / self.pair.ratio
+            self.known[place] = 0.5 * _MICROMETRES * self.pair.geometry.wheel_mean_diameter * turn
+        return self.known[place]
 
     def places(self, steps: tuple[int, ...]) -> Iterator[Place]:
         """Yield the places so many deviations off, along all that may be off."""
@@ -197,12 +219,13 @@ class Mounted:
             Depth that is worn off, um.
         """
         g = self.pair.geometry
-        allowed = Allowances.of(g, given)
         middle = 0.5 * _MICROMETRES * g.wheel_mean_diameter * nominal / self.pair.ratio
-        found = {Place(): middle}
-        for place in self.places((-1, 0, 1)):
-            if place not in found:
-                found[place] = self.play(place)
+        if abs(middle) < _MICROMETRES * RESOLVED:
+            # An identical hob leaves none.
+            middle = 0.0
+        found = {Place(): middle} | {
+            place: self.play(place) for place in self.places((-1, 0, 1)) if any(place)
+        }
         alone = []
         for n, value in enumerate(self.deviations):
             if value:
@@ -211,22 +234,35 @@ class Mounted:
                     for sign in (-1.0, 1.0)
                 ]
                 alone.append(Part(_NAMES[n], min(*ends, 0.0), 0.0, max(*ends, 0.0)))
-        thread, tooth = thickness_parts(g, allowed)
         # What a thread is thinner by turns the worm by itself over the lead, and the wheel with it.
         factor = g.wheel_mean_diameter / g.wheel_reference_diameter
+        taken = Taken(-min(found.values()) / _MICROMETRES, factor)
+        allowed = Allowances.of(g, given, taken)
+        thread, tooth = thickness_parts(g, allowed)
         thread = Part(thread.name, *(factor * value for value in thread[1:]))
         parts = (Part("hob and worm", middle, middle, middle), thread, tooth, *alone)
         thickest, thinnest = thread.least + tooth.least, thread.greatest + tooth.greatest
         likely = Interval.of(parts)
-        new = Interval(
-            min(found.values()) + thickest,
-            max(found.values()) + thinnest,
-            likely.likely_least,
-            likely.likely_greatest,
-        )
+
+        def between(plays: Iterable[float], more: float) -> Interval:
+            every = tuple(plays)
+            return Interval(
+                min(every) + thickest,
+                max(every) + thinnest,
+                likely.likely_least + more,
+                likely.likely_greatest + more,
+            )
+
+        warm = None
+        if given.temperatures is not None:
+            apart = Warmth.of(gearset, given.temperatures, given.housing).apart
+            shifted = {place: self.play(place.further(apart)) for place in found}
+            warmth = shifted[Place()] - middle
+            warm = between(shifted.values(), warmth), warmth
         return assembled(
-            gearset, given, allowed, parts, new, wear, by="by the exact flanks", exact=True
-        )
+            gearset, given, allowed, parts, between(found.values(), 0.0), wear,
+            by=EXACT, exact=True, warm=warm,
+        )  # fmt: skip
 
 
 def corner_table(corners: tuple[Corner, ...], nominal: Corner, resolution: float) -> Table:

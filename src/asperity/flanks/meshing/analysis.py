@@ -1,7 +1,7 @@
 """Tooth contact analysis of a worm and its wheel: one call for all that is known of both flanks."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,7 +11,13 @@ from asperity.flanks.meshing.backlash import Play, play, set_backlash
 from asperity.flanks.meshing.contact_lines import ContactLines, contact_lines
 from asperity.flanks.meshing.ease_off import EaseOff, ease_off
 from asperity.flanks.meshing.kinematics import Kinematics, kinematics
-from asperity.flanks.meshing.lubrication import Load, LoadedLines, loaded_lines
+from asperity.flanks.meshing.lubrication import (
+    Load,
+    LoadedLines,
+    Pressed,
+    loaded_lines,
+    pressed_lines,
+)
 from asperity.flanks.meshing.pattern.area import node_areas
 from asperity.flanks.meshing.pattern.marking import Pattern, pattern
 from asperity.flanks.meshing.transmission import SAMPLES, Transmission, transmission
@@ -239,9 +245,7 @@ def analyse(
     ConvergenceError
         The worm does not reach the wheel's teeth all over the pitch.
     """
-    meshes = both(lambda side: transmission(pair, wheel.flank(side), samples))
-    if pair.backlash is not None:
-        meshes = set_backlash(meshes, pair.backlash)
+    meshes = _meshes(pair, wheel, samples)
     free = play(meshes)
     speed = worm_speed if load is None else load.worm_speed
     flanks = both(lambda side: _flank(meshes[side], free, rows, columns, speed, load))
@@ -255,6 +259,32 @@ def analyse(
         pair=thinned,
         flanks=flanks,
     )
+
+
+def hertz_pressure_max(pair: Pair, wheel: Wheel, load: Pressed, side: int = 1) -> float:
+    """Return the greatest Hertzian pressure on the contact lines of a flank over a pitch, MPa.
+
+    It is that of `analyse` on the same maps and angles, without the rest.
+
+    Raises
+    ------
+    InputError, ConvergenceError
+        As of `analyse`, or no contact line bears the load.
+    """
+    mesh = _meshes(pair, wheel, SAMPLES)[side]
+    flank = mesh.search.flank
+    grid = flank.grid(ROWS, COLUMNS)
+    motion = kinematics(mesh.search.pair, grid, side, load.worm_speed, mesh.ahead)
+    return max(
+        float(pressed_lines(mesh, lines, load).pressure.max())
+        for lines in _lines_over_a_pitch(mesh, motion, grid, _ANGLES)
+    )
+
+
+def _meshes(pair: Pair, wheel: Wheel, samples: int) -> dict[int, Transmission]:
+    """Both flanks in mesh, the worm's threads as thick as the backlash asked for leaves them."""
+    meshes = both(lambda side: transmission(pair, wheel.flank(side), samples))
+    return meshes if pair.backlash is None else set_backlash(meshes, pair.backlash)
 
 
 def _flank(
@@ -289,9 +319,16 @@ def _over_a_pitch(
     mesh: Transmission, motion: Kinematics, grid: FlankGrid, load: Load, count: int
 ) -> tuple[LoadedLines, ...]:
     """Contact lines under load at so many angles of the worm over a pitch."""
+    return tuple(
+        loaded_lines(mesh, lines, load) for lines in _lines_over_a_pitch(mesh, motion, grid, count)
+    )
+
+
+def _lines_over_a_pitch(
+    mesh: Transmission, motion: Kinematics, grid: FlankGrid, count: int
+) -> Iterator[ContactLines]:
+    """Yield the contact lines at so many angles of the worm over a pitch."""
     starts = mesh.search.pair.geometry.starts
     pitch = 2.0 * math.pi / starts
-    return tuple(
-        loaded_lines(mesh, contact_lines(motion, grid, starts, pitch * n / count), load)
-        for n in range(count)
-    )
+    for n in range(count):
+        yield contact_lines(motion, grid, starts, pitch * n / count)

@@ -13,12 +13,18 @@ Lengths are in mm, angles in rad.
 """
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.meshing.transmission import ToothSearch, Transmission, least_between
+from asperity.flanks.meshing.transmission import (
+    ToothSearch,
+    Touch,
+    Transmission,
+    least_between,
+)
 from asperity.flanks.sides import both
 from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.flank import RESOLVED
@@ -115,7 +121,7 @@ def _thinned(meshes: dict[int, Transmission], half_space: float) -> dict[int, Tr
     return both(lambda side: meshes[side].with_worm(half_space))
 
 
-def worm_turn(meshes: dict[int, Transmission]) -> float:
+def worm_turn(meshes: Mapping[int, Transmission | Touch]) -> float:
     """Return by how much the worm can be turned with the wheel held, rad, least over a pitch."""
     searches = [meshes[side].search for side in (1, -1)]
     leads = meshes[1].lead + meshes[-1].lead

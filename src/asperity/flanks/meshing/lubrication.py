@@ -17,6 +17,7 @@ Higginson's, which ISO/TR 14521's mean over the mesh comes from. Friction does n
 """
 
 import dataclasses
+from typing import Self
 
 import numpy as np
 
@@ -47,8 +48,8 @@ _MPA = 1e-6
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Load:
-    r"""What the mesh runs under.
+class Pressed:
+    r"""What presses worm and wheel together.
 
     Attributes
     ----------
@@ -56,16 +57,12 @@ class Load:
         :math:`T_2`, N m; :math:`\omega_1`, rad/s.
     contact_modulus, line_stiffness : float
         :math:`E^* = E_{red}/2`, MPa; :math:`c`, N/mm per mm of contact line.
-    dynamic_viscosity, pressure_viscosity : float
-        :math:`\eta`, Pa s; :math:`\alpha`, m²/N.
     """
 
     wheel_torque: float
     worm_speed: float
     contact_modulus: float
     line_stiffness: float
-    dynamic_viscosity: float
-    pressure_viscosity: float
 
     def __post_init__(self) -> None:
         for field in dataclasses.fields(self):
@@ -74,8 +71,8 @@ class Load:
                 raise InputError(f"{field.name} is {value:g}; it must be positive and finite")
 
     @classmethod
-    def of(cls, gearset: Gearset, operation: Operation, oil_temperature: float) -> "Load":
-        """Return the load of a gearset in operation, its oil at a temperature in K."""
+    def by(cls, gearset: Gearset, operation: Operation, **more: float) -> Self:
+        """Return what presses a gearset in operation, with what else the class has."""
         worm, wheel = gearset.worm_material, gearset.wheel_material
         modulus = hertz.contact_modulus(
             worm.youngs_modulus * _MPA,
@@ -83,14 +80,12 @@ class Load:
             wheel.youngs_modulus * _MPA,
             wheel.poisson_ratio,
         )
-        oil = operation.lubricant
         return cls(
             wheel_torque=operation.output_torque,
             worm_speed=operation.worm_speed,
             contact_modulus=modulus,
             line_stiffness=_STIFFNESS * modulus,
-            dynamic_viscosity=float(oil.dynamic_viscosity(oil_temperature)),
-            pressure_viscosity=oil.base.pressure_viscosity,
+            **more,
         )
 
     def line_load(self, motion: Kinematics, twist: FloatArray | float) -> FloatArray:
@@ -102,6 +97,30 @@ class Load:
         some = motion.on_flank & (lever > 0.0)
         closed = np.maximum(lever * twist - motion.gap, 0.0)
         return np.where(some, self.line_stiffness * closed, 0.0)
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Load(Pressed):
+    r"""What the mesh runs under: what presses it, and the oil.
+
+    Attributes
+    ----------
+    dynamic_viscosity, pressure_viscosity : float
+        :math:`\eta`, Pa s; :math:`\alpha`, m²/N.
+    """
+
+    dynamic_viscosity: float
+    pressure_viscosity: float
+
+    @classmethod
+    def of(cls, gearset: Gearset, operation: Operation, oil_temperature: float) -> Self:
+        """Return the load of a gearset in operation, its oil at a temperature in K."""
+        oil = operation.lubricant
+        return cls.by(
+            gearset, operation,
+            dynamic_viscosity=float(oil.dynamic_viscosity(oil_temperature)),
+            pressure_viscosity=oil.base.pressure_viscosity,
+        )  # fmt: skip
 
 
 class LoadedNumbers(Quantities):
@@ -183,8 +202,29 @@ class LoadedLines:
         )
 
 
-def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedLines:
-    """Return load, pressure and film along contact lines of a mesh.
+@dataclasses.dataclass(frozen=True, eq=False)
+class PressedLines:
+    """What contact lines bear; arrays hold a number for each piece of line.
+
+    Attributes
+    ----------
+    motion : Kinematics
+        At the middles of the pieces.
+    twist : float
+        By which the wheel yields, rad.
+    load, radius, pressure : ndarray
+        N/mm; of the Hertzian line contact, mm; MPa. No load and pressure where the gap is open.
+    """
+
+    motion: Kinematics
+    twist: float
+    load: FloatArray
+    radius: FloatArray
+    pressure: FloatArray
+
+
+def pressed_lines(mesh: Transmission, lines: ContactLines, load: Pressed) -> PressedLines:
+    """Return load and Hertzian pressure along contact lines of a mesh.
 
     Raises
     ------
@@ -213,12 +253,26 @@ def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedL
     w = np.where(length > 0.0, load.line_load(motion, twist), 0.0)
     # Where worm and wheel fit each other better than a plane a plane, they do as the latter.
     radius = 1.0 / np.maximum(motion.line_curvature, 1e-9)
+    pressure = np.asarray(hertz.line_contact_stress(w, radius, 1.0, load.contact_modulus))
+    return PressedLines(motion, twist, w, radius, pressure)
+
+
+def loaded_lines(mesh: Transmission, lines: ContactLines, load: Load) -> LoadedLines:
+    """Return load, pressure and film along contact lines of a mesh.
+
+    Raises
+    ------
+    InputError
+        As of `pressed_lines`.
+    """
+    pressed = pressed_lines(mesh, lines, load)
+    motion = pressed.motion
     return LoadedLines(
         lines=lines,
-        twist=twist,
-        load=w,
-        pressure=np.asarray(hertz.line_contact_stress(w, radius, 1.0, load.contact_modulus)),
-        film=film_thickness(load, w, radius, motion.entrainment),
+        twist=pressed.twist,
+        load=pressed.load,
+        pressure=pressed.pressure,
+        film=film_thickness(load, pressed.load, pressed.radius, motion.entrainment),
         sliding_speed=motion.sliding_speed,
         entrainment=motion.entrainment,
     )

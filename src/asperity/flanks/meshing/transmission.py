@@ -15,6 +15,7 @@ import dataclasses
 import functools
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
@@ -253,6 +254,17 @@ class Transmission(Quantities):
         return np.asarray(np.mod(steps.astype(np.int64), samples))
 
 
+class Touch(NamedTuple):
+    """Where a flank bears over a pitch: what a `Transmission` has but its range."""
+
+    search: ToothSearch
+    wheel_angle: FloatArray
+    lead: FloatArray
+    tooth_angle: FloatArray
+    tooth_lead: FloatArray
+    contact: FloatArray
+
+
 def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Transmission:
     """Return the transmission of a pair on one flank, at so many places of the wheel in a pitch.
 
@@ -261,6 +273,13 @@ def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Trans
     ConvergenceError
         There are places at which the worm reaches no tooth.
     """
+    found = touching(pair, flank, samples)
+    range_ = _range(found.search, found.lead) / pair.ratio
+    return Transmission(**found._asdict(), peak_to_peak=range_)
+
+
+def touching(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Touch:
+    """Return where a flank bears over a pitch, as `transmission` has it; errors as there."""
     search = ToothSearch(pair, flank)
     angle = search.places(samples)
     index = np.mod(np.arange(angle.size) + round(angle[0] / (search.pitch / samples)), samples)
@@ -282,15 +301,7 @@ def transmission(pair: Pair, flank: WheelFlank, samples: int = SAMPLES) -> Trans
             lead[index[k]] = found[k, 0]
             contact[index[k]] = found[k, 1:]
     beta = np.asarray(np.arange(samples) * (search.pitch / samples), dtype=np.float64)
-    return Transmission(
-        search=search,
-        wheel_angle=beta,
-        lead=lead,
-        tooth_angle=angle,
-        tooth_lead=found[:, 0],
-        contact=contact,
-        peak_to_peak=_range(search, lead) / pair.ratio,
-    )
+    return Touch(search, beta, lead, angle, found[:, 0], contact)
 
 
 def _range(search: ToothSearch, lead: FloatArray) -> float:

@@ -26,6 +26,22 @@ FIT_SOURCE = Source("GOST 3675-81", "from memory", "j_n,min by fit")
 _MILLIMETRES = 1e3
 
 
+class Taken(NamedTuple):
+    """What mounting and hob take of the backlash on the mean circle in the worst case, mm.
+
+    ``turned`` is how much there is on it for each part that a thread is thinner in the axial
+    section.
+    """
+
+    backlash: float
+    turned: float = 1.0
+
+    @classmethod
+    def of(cls, geometry: Geometry, off: float) -> "Taken":
+        """Return it by geometry, of the deviation of the centre distance, mm."""
+        return cls(2.0 * off * math.tan(geometry.axial_pressure_angle))
+
+
 class Allowances(NamedTuple):
     """What a gearset may be off by, mm.
 
@@ -50,8 +66,20 @@ class Allowances(NamedTuple):
     words: Mapping[str, str]
 
     @classmethod
-    def of(cls, geometry: Geometry, given: Tolerances) -> "Allowances":
+    def of(
+        cls, geometry: Geometry, given: Tolerances, taken: "Taken | None" = None
+    ) -> "Allowances":
         """Return what the table allows of a gearset.
+
+        Parameters
+        ----------
+        geometry : Geometry
+            Of the gearset.
+        given : Tolerances
+            The table.
+        taken : Taken, optional
+            What a fit has to make up for by the exact flanks; left out: by geometry, of the centre
+            distance.
 
         Raises
         ------
@@ -76,7 +104,7 @@ class Allowances(NamedTuple):
             upper, words["thread"] = 0.0, "DIN 3967, series 25"
             if given.fit is not None:
                 least = fit_backlash(geometry.centre_distance, given.fit)
-                upper = _upper(geometry, least, off, tooth[0])
+                upper = _upper(geometry, least, taken or Taken.of(geometry, off), tooth[0])
                 words["thread"] = f"GOST 3675, fit {given.fit}; DIN 3967, series 25"
             lower = upper - thickness_tolerance(geometry.worm_pitch_diameter)
         if -lower >= 0.5 * geometry.normal_pitch:
@@ -117,9 +145,8 @@ def _centre(geometry: Geometry, given: str | None) -> tuple[float, str]:
         raise InputError(f"tolerances.centre_distance is {given!r}; {error}") from None
 
 
-def _upper(geometry: Geometry, least: float, off: float, tooth: float) -> float:
+def _upper(geometry: Geometry, least: float, taken: Taken, tooth: float) -> float:
     """Upper allowance of the thread that leaves a normal backlash in the worst case, mm."""
     slant = math.cos(geometry.lead_angle)
     along = least / (math.cos(geometry.pressure_angle) * slant)
-    wanted = along + 2.0 * off * math.tan(geometry.axial_pressure_angle) + tooth
-    return -slant * max(0.0, wanted)
+    return -slant * max(0.0, along + taken.backlash + tooth) / taken.turned

@@ -11,8 +11,8 @@ deviations are normal, and within three standard deviations of their middle, 99.
 Warmth adds :math:`2a(\alpha_h\Delta T_h - \sum_i s_i\alpha_i\Delta T_i)\tan\alpha_x`, where
 :math:`s_i` is the share of the centre distance that each material takes, and flanks that are worn
 by :math:`\delta` normal to them add :math:`\delta/(\cos\alpha_n\cos\gamma)`. This is geometry, of
-no standard. The exact flanks, which touch elsewhere at another centre distance, have another slope
-to each side: `asperity.flanks.measuring.corners`.
+no standard, and no bound: exact flanks touch elsewhere at another centre distance, where they are
+steeper, and know their hob. What a user is told is theirs, `asperity.flanks.study.rated_play`.
 """
 
 import math
@@ -28,6 +28,7 @@ from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
 
 GEOMETRY = "by geometry"
+EXACT = "by the exact flanks"
 _MICROMETRES = 1e3
 _ARCMINUTES = 60.0 * 180.0 / math.pi
 
@@ -323,13 +324,19 @@ def assembled(
     *,
     by: str,
     exact: bool = False,
+    warm: tuple[Interval, float] | None = None,
 ) -> Backlash:
-    """Return the backlash of a new gearset and what each deviation brings (um), warm and worn."""
+    """Return the backlash of a new gearset and what each deviation brings (um), warm and worn.
+
+    Where it is known, ``warm`` is the interval of the warm one, and by how much its middle moves.
+    """
     g = gearset.geometry
     said = measures(g, exact=exact)
     states = {"new": new}
     warmth = None
-    if given.temperatures is not None:
+    if warm is not None:
+        states["warm"], warmth = warm
+    elif given.temperatures is not None:
         warmth = warm_backlash(gearset, given.temperatures, given.housing)
         states["warm"] = Interval(*(value + warmth for value in states["new"]))
     more = None if wear is None else wear / said[1].factor

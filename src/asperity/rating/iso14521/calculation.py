@@ -11,7 +11,6 @@ exceeds, with the friction at the speed of the part that has the greatest and th
 
 import dataclasses
 import math
-from typing import Any
 
 import numpy as np
 
@@ -31,6 +30,7 @@ from asperity.rating.iso14521 import (
     strength,
 )
 from asperity.rating.iso14521.housed import housing_of
+from asperity.rating.iso14521.most_worn import chosen, of_alike, place_of_most
 from asperity.rating.iso14521.wearing import sump_of, temperatures, wear_of
 from asperity.units.standards import FROM_SI
 
@@ -43,6 +43,9 @@ _OF_WEAR = (
     "W_NS", "W_ML", "J_W", "s_star", "N_L", "s_Wm_mm", "delta_Wlim_mm",
 )  # fmt: skip
 """What leads to the wear of a part of a duty cycle, by the keys of a rating."""
+
+_ADDED = "N_L", "s_Wm_mm", "delta_Wn_mm"
+"""What adds up over the parts."""
 
 
 _OF_TEETH = (
@@ -264,45 +267,30 @@ def _let_down(part: Inputs, own: Values) -> None:
 def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None:
     """Add up the wear of a duty cycle and find its hottest part.
 
-    Depths worn off add up, each by torque, speed and temperature of its part; what leads to them is
-    told of the part that wears most. Each part lasts long enough for the sump to settle.
+    Depths worn off add up, and paths and turns, each by torque, speed and temperature of its part;
+    what leads to them is told of the load that wears most, in however many parts it is given. Each
+    part lasts long enough for the sump to settle.
     """
     if given.together:
-        worst = int(np.nanargmax(np.append(parts[0]["delta_Wn_mm"], -1.0)))
-        place = min(worst, len(given.duty) - 1)
+        depths = np.broadcast_to(parts[0]["delta_Wn_mm"], (len(given.duty),))
+        place = int(np.argmax(of_alike(given, [np.nan_to_num(depths)])[0]))
         for key in _OF_WEAR:
             v[key] = float(np.broadcast_to(parts[0][key], (len(given.duty),))[place])
     else:
         for place, own in enumerate(parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
-        most = _place_of_most([own["delta_Wn_mm"] for own in parts])
+        most = place_of_most(of_alike(given, [own["delta_Wn_mm"] for own in parts]))
         there = [most == place for place in range(len(parts))] if np.ndim(most) else []
         for key in _OF_WEAR:
-            v[key] = _chosen(most, there, [own[key] for own in parts])
-    v["delta_Wn_mm"] = given.total(own["delta_Wn_mm"] for own in parts)
+            v[key] = chosen(most, there, [own[key] for own in parts])
+    for key in _ADDED:
+        v[key] = given.total(own[key] for own in parts)
     v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
     v["theta_S_max_degC"] = given.greatest(own["theta_S_degC"] for own in parts)
     hours = given.total(own["part_hours"] for own in parts)
     heat = (own["part_hours"] * own["loss_total_W"] for own in parts)
     v["loss_mean_W"] = given.total(heat) / hours
     v["loss_max_W"] = given.greatest(own["loss_total_W"] for own in parts)
-
-
-def _place_of_most(depths: list[Real]) -> Any:
-    plain: list[Any] = [getattr(depth, "value", depth) for depth in depths]
-    return np.argmax(np.stack(np.broadcast_arrays(*plain)), axis=0)
-
-
-def _chosen(most: Any, there: list[Any], values: list[Real]) -> Real:
-    """Return the value of the part that is most: of one gearset, or of each of many."""
-    if not there:
-        return values[int(most)]
-    if all(value is values[0] for value in values):
-        return values[0]
-    chosen = np.array(np.broadcast_to(values[0], np.shape(most)))
-    for here, value in zip(there[1:], values[1:], strict=True):
-        np.copyto(chosen, value, where=here)
-    return chosen
 
 
 def _forces(given: Inputs, v: Values, torque: Real) -> None:

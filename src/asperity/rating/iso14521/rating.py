@@ -214,6 +214,8 @@ def _equations(given: Inputs) -> dict[str, str]:
         by_case["Z_u"] = "1"
     if given.duty:
         by_case |= {
+            "N_L": "sum of 60 L_h n_1/u over the duty cycle",
+            "s_Wm_mm": "sum of s* sigma_Hm a/E_red N_L over the duty cycle",
             "delta_Wn_mm": "sum of J_W s_Wm over the duty cycle",
             "Z_h": "min((25000/L_He)^(1/6), 1.6 k_r)",
             "safety_temperature": "theta_Slim/theta_Smax",

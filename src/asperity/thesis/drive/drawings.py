@@ -91,22 +91,33 @@ def _of_thesis(axes: "Axes", value: float) -> None:
 
 
 def torque_over_time(dataset: "xr.Dataset") -> "Figure":
-    """Draw the torque of the first cycles, contact lost in grey, and means so far."""
-    figure, (upper, lower) = axes_grid(2, height=6.8)
+    """Draw the torque from the load on, its first cycles alone, and means so far.
+
+    Contact lost is grey, in the first two.
+    """
+    figure, (whole, upper, lower) = axes_grid(3, height=9.6)
+    begins = 1e3 * dataset["steps"].values
     time = 1e3 * dataset["time"].values
-    upper.fill_between(
-        time, 0.0, 1.0, where=dataset["open"].values > 0.5, color=_GREY, linewidth=0,
-        label="no contact", transform=upper.get_xaxis_transform(),
-    )  # fmt: skip
-    line(upper, 0, time, dataset["torque"], "$T_B$", linewidth=1.0)
-    for value, name, dashes in (
-        ("static", "without vibration", (5, 2)),
-        ("thesis", "7.4 N m of the thesis", DOTTED),
+    _torque(whole, time, dataset)
+    whole.set(xlabel="time from the load on (ms)", xlim=(0.0, time[-1]))
+    top = whole.get_xaxis_transform()
+    edges = [0.0, *begins, time[-1]]
+    for name, left, right in zip(
+        ("load", "run-up", "steady", "vibration"), edges[:-1], edges[1:], strict=True
     ):
-        upper.axhline(float(dataset[value]), color=BLACK, dashes=dashes, label=name, linewidth=1.2)
-    upper.set(xlabel="time from the start of the vibration (ms)", ylabel="$T_B$ (N m)")
-    upper.set_xlim(time[0], time[-1])
-    legend_above(upper, 4)
+        if left > 0.0:
+            whole.axvline(left, color=BLACK, linewidth=0.7)
+        whole.text(
+            0.5 * (left + right), 0.96, name, transform=top, va="center", ha="center", fontsize=9,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
+        )  # fmt: skip
+    whole.margins(y=0.15)
+    legend_above(whole, 4)
+    _torque(upper, time - begins[-1], dataset)
+    upper.set(
+        xlabel="time from the start of the vibration (ms)",
+        xlim=(0.0, 1e3 * float(dataset["first"])),
+    )
     cycles = dataset["cycles"]
     lower.plot(
         cycles, dataset["cycle"], ".", color="#8C8C8C", markersize=3,
@@ -125,8 +136,22 @@ def torque_over_time(dataset: "xr.Dataset") -> "Figure":
     )  # fmt: skip
     limit(lower, 1.0)
     lower.set(xscale="log", xlabel="cycles from the start", ylabel="mean, so far or of a cycle")
-    legend(lower, loc="upper right")
+    legend_above(lower, 2)
     return figure
+
+
+def _torque(axes: "Axes", time: Any, dataset: "xr.Dataset") -> None:
+    axes.fill_between(
+        time, 0.0, 1.0, where=dataset["open"].values > 0.5, color=_GREY, linewidth=0,
+        label="no contact", transform=axes.get_xaxis_transform(),
+    )  # fmt: skip
+    line(axes, 0, time, dataset["torque"], "$T_B$", linewidth=1.0)
+    for value, name, dashes in (
+        ("static", "without vibration", (5, 2)),
+        ("thesis", "7.4 N m of the thesis", DOTTED),
+    ):
+        axes.axhline(float(dataset[value]), color=BLACK, dashes=dashes, label=name, linewidth=1.2)
+    axes.set_ylabel("$T_B$ (N m)")
 
 
 def advantage(dataset: "xr.Dataset") -> "Figure":

@@ -22,7 +22,7 @@ from asperity.thesis.drive.simulations import (
 )
 from asperity.thesis.exhibits import Computed, figure
 
-_CYCLES, _ROWS = 10, 120
+_CYCLES, _FIRST, _ROWS = 120, 10, 120
 
 
 def over_ratio(groups: dict[str, Sequence[Simulation]]) -> dict[str, Any]:
@@ -98,16 +98,19 @@ def _laws() -> Computed:
 
 @figure("7.10", drawings.torque_over_time)
 def _over_time() -> Computed:
-    from asperity.thesis.drive.marches import from_start
+    from asperity.thesis.drive.marches import from_load
 
     last = simulation(conditions(3)[-1])
-    found = from_start(last.case, last.settings, _CYCLES, _ROWS)
+    found = from_load(last.case, last.settings, _CYCLES, _ROWS)
     whole = last.shaken()
     cycles = np.arange(1, whole.cycle_torque.size + 1)
     dataset = described(
-        time=(("time",), found["time"], "s", "time from the start of the vibration"),
+        time=(("time",), found["time"], "s", "time from the load on"),
+        first=((), _FIRST / found["frequency"], "s", "the first cycles, shown alone"),
+        steps=(("step",), found["steps"], "s", "begin of run-up, steady running and vibration"),
         torque=(("time",), found["torque"], "N m", "torque of the worm's shaft at B"),
         open=(("time",), found["open"], "1", "share of the time without contact"),
+        load=(("time",), found["wheel"], "N m", "torque of the mesh on the wheel"),
         cycles=(("cycles",), cycles, "1", "cycles from the start"),
         worm=(
             ("cycles",), np.cumsum(whole.cycle_torque) / cycles / whole.static, "1",
@@ -128,7 +131,7 @@ def _over_time() -> Computed:
         thesis_static=((), UNSHAKEN, "N m", "torque without vibration, thesis"),
         thesis=((), SHAKEN, "N m", "mean torque with vibration, thesis"),
     )  # fmt: skip
-    return dataset, [last, "asperity.thesis.drive.marches.from_start"]
+    return dataset, [last, "asperity.thesis.drive.marches.from_load"]
 
 
 def system_efficiencies(found: Sequence[Shaken]) -> FloatArray:

@@ -245,7 +245,7 @@ def over_direction(dataset: "xr.Dataset") -> "Figure":
 
 _ARC = 0.14
 _BODIES, _ROOTS = ("N'", "N'₁"), ("M", "M'¹", "M'²", "M₁")
-_BESIDE_ROOTS = ((-16, -4), (-26, -6), (-26, 2), (6, 4))
+_BESIDE_ROOTS = ((-16, -4), (6, 6), (-26, 2), (6, 4))
 
 
 def increment(dataset: "xr.Dataset") -> "Figure":
@@ -254,7 +254,7 @@ def increment(dataset: "xr.Dataset") -> "Figure":
     body, root = dataset["body"].values, dataset["root"].values
     base = dataset["base"].values
     stretched = ((root[0], body[0]), (root[1], body[1]), (root[3], body[1]))
-    shifts = ((-64, -14), (-12, 14), (6, 8))
+    shifts = ((-64, -14), (-56, 42), (6, 8))
     asperity(axes, body, root, stretched, dataset["deflection"].values, shifts)
     for at, name, beside in zip(body, _BODIES, ((-14, -14), (8, -8)), strict=True):
         axes.annotate(name, at, beside, textcoords="offset points")
@@ -270,7 +270,8 @@ def increment(dataset: "xr.Dataset") -> "Figure":
         size = _ARC * n
         arc = at[:, None] + size * np.array([-np.cos(turn), np.sin(turn)])
         axes.plot(*arc, color=COLOURS[n], linewidth=1.2)
-        axes.annotate(name, arc[:, 12], (-12, -2), textcoords="offset points", color=COLOURS[n])
+        beside = (-4, -15) if n == 1 else (-11, -5)
+        axes.annotate(name, arc[:, 5], beside, textcoords="offset points", color=COLOURS[n])
     axes.plot([body[1][0] - 2.6 * _ARC, body[1][0]], [body[1][1]] * 2, color=BLACK, linewidth=0.6)
     edge = np.array([body[1][0] + 0.12, root[1][1]])
     _arrow(axes, edge, edge + np.array([0.0, base[1]]), "EF = Δy$_b$ of the base")

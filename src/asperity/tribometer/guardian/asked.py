@@ -4,7 +4,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from asperity.tribometer.instruments.protocols import Input, Poll, Reading, Waveform
+from asperity.tribometer.instruments.protocols import Input, Instrument, Poll, Reading, Waveform
 
 
 class Line(Protocol):
@@ -17,7 +17,7 @@ class Line(Protocol):
         """Return what an object gives, with its bytes."""
 
 
-class _Asked:
+class _Asked(Instrument):
     """What they share.
 
     Parameters
@@ -29,8 +29,6 @@ class _Asked:
     name : str
         What messages call it.
     """
-
-    by_hand = False
 
     def __init__(self, line: Line, key: str, name: str) -> None:
         self.name = name

@@ -19,6 +19,7 @@ from asperity.tribometer.instruments.protocols import (
     Input,
     InstrumentError,
     Poll,
+    Scope,
     WallClock,
 )
 from asperity.tribometer.reduction.blocks import unit_scale
@@ -42,7 +43,7 @@ class _Watched:
     head: bytes | None = None
 
 
-class FolderScope:
+class FolderScope(Scope):
     """A device that writes files into a folder.
 
     Parameters
@@ -61,8 +62,6 @@ class FolderScope:
     InstrumentError
         There is no such folder.
     """
-
-    by_hand = False
 
     def __init__(
         self, inputs: tuple[Input, ...], folder: Path, late: float, clock: Clock | None = None
@@ -110,13 +109,6 @@ class FolderScope:
     def stop(self) -> None:
         """Watch no more."""
         self._interval = 0.0
-
-    def safe(self) -> None:
-        """Watch no more."""
-        self.stop()
-
-    def close(self) -> None:
-        """Nothing is held."""
 
     def _listed(self) -> list[Path]:
         try:

@@ -44,7 +44,7 @@ def beaten(future: "cf.Future[T]", beat: Callable[[], None], limit: float) -> T:
                 raise
 
 
-class ScopeInTime:
+class ScopeInTime(Scope):
     """An oscilloscope that is opened when it is needed, so that its absence keeps nothing on.
 
     Parameters
@@ -62,8 +62,6 @@ class ScopeInTime:
     beat : callable
         Tells who switches off that the procedure waits for it.
     """
-
-    by_hand = False
 
     def __init__(
         self,
@@ -112,10 +110,6 @@ class ScopeInTime:
     def stop(self) -> None:
         """End the stream."""
         self._done(lambda: None if self._scope is None else self._scope.stop(), _ENDING)
-
-    def safe(self) -> None:
-        """End the stream."""
-        self.stop()
 
     def close(self) -> None:
         """Let go of the device."""

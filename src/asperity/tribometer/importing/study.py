@@ -1,11 +1,13 @@
 """The command ``asperity rig import``: what a laboratory's program wrote, to a recording."""
 
+import contextlib
 import dataclasses
 import datetime
 import json
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -16,16 +18,46 @@ from asperity.tribometer.channels import Channels
 from asperity.tribometer.importing.columns import Sampled, sampled
 from asperity.tribometer.importing.files import OWN, form_of, read_joined, told_of
 from asperity.tribometer.importing.heads import Told
-from asperity.tribometer.importing.listened import findings
 from asperity.tribometer.importing.result import Imported
 from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.recording import Event, Recording
+from asperity.tribometer.recording.hdf5 import Counts
 from asperity.tribometer.recording.layout import BEYOND, MISSING
+from asperity.tribometer.reduction.study import Reducible, heard_in
 from asperity.tribometer.tables import tables_of
 
 _UNDATED = (
     "the file tells no date: its recording is dated by this import; say when it began by --start"
 )
+
+
+@dataclasses.dataclass(frozen=True)
+class _Held(Recording):
+    """A recording that is in memory, and in no file yet."""
+
+    counts: Counts = dataclasses.field(default_factory=lambda: np.zeros((0, 0), np.int16))
+
+    @contextlib.contextmanager
+    def _counts(self) -> Iterator[Any]:
+        yield self.counts
+
+
+# Bytes that were changed may be scales that no sensor has.
+@np.errstate(all="ignore")
+def findings(
+    found: Sampled, events: Sequence[Event], case: Case, name: str, began: datetime.datetime
+) -> tuple[dict[str, Any], ...]:
+    """Return what is wrong with what was heard; nothing where it cannot be reduced at all."""
+    rows, _ = found.counts.shape
+    held = _Held(
+        Path(name), found.sources, rows, found.interval, began, {},
+        tuple(events), (), simulated=False, counts=found.counts,
+    )  # fmt: skip
+    try:
+        segments, heard = heard_in(Reducible(held, case))
+    except InputError:
+        return ()
+    return heard.told(segments)
 
 
 @dataclasses.dataclass(frozen=True)

@@ -1,10 +1,9 @@
 """An output of a supply that is described by what is said to it."""
 
-import contextlib
 from collections.abc import Mapping
 
-from asperity.errors import InputError, shown
-from asperity.tribometer.instruments.lines import Line, opened_line
+from asperity.errors import InputError
+from asperity.tribometer.instruments.lines import Line, SpokenDevice, opened_line
 from asperity.tribometer.instruments.parameters import Output
 from asperity.tribometer.instruments.protocols import InstrumentError, Reading
 from asperity.tribometer.instruments.words import number_of
@@ -12,7 +11,7 @@ from asperity.tribometer.instruments.words import number_of
 _SHARE, _STEP = 0.005, 0.02  # of what was told, and V or A of a coarse device
 
 
-class DescribedSupply:
+class DescribedSupply(SpokenDevice):
     """An output of a supply.
 
     Parameters
@@ -25,11 +24,8 @@ class DescribedSupply:
         To the device; its outputs share it.
     """
 
-    by_hand = False
-
     def __init__(self, words: Output, name: str, line: Line) -> None:
-        self.name = name
-        self._words, self._line = words, line
+        super().__init__(name, words, line)
         self._limited = words.current_limit is None
 
     def identify(self) -> str:
@@ -62,12 +58,6 @@ class DescribedSupply:
         """Give none."""
         self._tell("off")
 
-    def safe(self) -> None:
-        """Give none; what an earlier command left on the line is thrown away first."""
-        with contextlib.suppress(InstrumentError):
-            self._line.clear()
-        self.off()
-
     def reading(self) -> Reading:
         """Return what it measures; None where it cannot be asked."""
         with self._line.lock:
@@ -77,26 +67,14 @@ class DescribedSupply:
         """Return whether the device says its output is on; None where it cannot be asked."""
         if not self._words.ask_output:
             return None
-        answer = self._ask("ask_output")
-        try:
-            return self._words.is_on(answer)
-        except ValueError:
-            raise self._nonsense("ask_output", answer) from None
-
-    def close(self) -> None:
-        """Let go of the line."""
-        self._line.close()
+        on: bool = self._read("ask_output", self._words.is_on)[0]
+        return on
 
     def _set(self, what: str, value: float, unit: str) -> None:
         self._tell(f"set_{what}", value=value)
-        if self._words.ask_error:
-            answer = self._ask("ask_error")
-            if not answer.startswith(self._words.no_error):
-                raise InstrumentError(
-                    f"{self.name} refuses {value:g} {unit}: {shown(answer)}", kind="refused"
-                )
+        self._accepted(f"{value:g} {unit}")
         if getattr(self._words, f"ask_{what}"):
-            found = self._number(f"ask_{what}")
+            found, _ = self._read(f"ask_{what}", number_of)
             if abs(found - value) > _STEP + _SHARE * abs(value):
                 raise InstrumentError(
                     f"{self.name} was told {value:g} {unit} and is set to {found:g} {unit}",
@@ -105,14 +83,7 @@ class DescribedSupply:
 
     def _measured(self, what: str) -> float | None:
         key = f"measure_{what}"
-        return self._number(key) if getattr(self._words, key) else None
-
-    def _number(self, key: str) -> float:
-        answer = self._ask(key)
-        try:
-            return number_of(answer)
-        except ValueError:
-            raise self._nonsense(key, answer) from None
+        return self._read(key, number_of)[0] if getattr(self._words, key) else None
 
     def _tell(self, key: str, **given: float) -> None:
         with self._line.lock:
@@ -122,17 +93,11 @@ class DescribedSupply:
     def _ask(self, key: str) -> str:
         with self._line.lock:
             self._select()
-            return self._line.ask(self._words.filled(key))
+            return super()._ask(key)
 
     def _select(self) -> None:
         if self._words.select:
             self._line.tell(self._words.filled("select"))
-
-    def _nonsense(self, key: str, answer: str) -> InstrumentError:
-        return InstrumentError(
-            f"{self.name} answered {shown(self._words.filled(key))} with {shown(answer)}",
-            kind="half an answer",
-        )
 
 
 def open_described(outputs: Mapping[str, Output]) -> dict[str, DescribedSupply]:

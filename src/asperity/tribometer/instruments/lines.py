@@ -1,13 +1,17 @@
 """Lines to instruments: a serial port, or VISA; a line goes out, and one may come back."""
 
+import contextlib
 import functools
 import threading
 import time
-from typing import Any, Protocol
+from collections.abc import Callable
+from typing import Any, Protocol, TypeVar
 
 from asperity.errors import MissingExtraError, shown
-from asperity.tribometer.instruments.protocols import InstrumentError
+from asperity.tribometer.instruments.protocols import Instrument, InstrumentError
 from asperity.tribometer.instruments.words import ENDS, Spoken
+
+T = TypeVar("T")
 
 _MOST_ANSWER = 4096
 _SILENCE = 0.02  # s, after which an answer without an end has ended.
@@ -257,6 +261,60 @@ class VisaLine(_Line):
 def opened_line(name: str, words: Spoken) -> Line:
     """Return the line to an instrument by its port or its address."""
     return SerialLine(name, words) if words.port else VisaLine(name, words)
+
+
+class SpokenDevice(Instrument):
+    """What devices share that are spoken to by lines; how one is switched off is its own.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    words : Spoken
+        What is said to it.
+    line : Line
+        To the device.
+    """
+
+    def __init__(self, name: str, words: Any, line: Line) -> None:
+        self.name = name
+        self._words, self._line = words, line
+
+    def off(self) -> None:
+        """Switch it off."""
+        raise NotImplementedError
+
+    def safe(self) -> None:
+        """Switch it off; what an earlier command left on the line is thrown away first."""
+        with contextlib.suppress(InstrumentError):
+            self._line.clear()
+        self.off()
+
+    def close(self) -> None:
+        """Let go of the line."""
+        self._line.close()
+
+    def _ask(self, key: str) -> str:
+        return self._line.ask(self._words.filled(key))
+
+    def _read(self, key: str, read: Callable[[str], T]) -> tuple[T, str]:
+        """Ask, and return what is read of the answer beside it."""
+        answer = self._ask(key)
+        try:
+            return read(answer), answer
+        except ValueError:
+            raise InstrumentError(
+                f"{self.name} answered {shown(self._words.filled(key))} with {shown(answer)}",
+                kind="half an answer",
+            ) from None
+
+    def _accepted(self, what: str) -> None:
+        """See that it has no error to tell, where it can be asked."""
+        if not self._words.ask_error:
+            return
+        answer = self._ask("ask_error")
+        if not answer.startswith(self._words.no_error):
+            raise InstrumentError(f"{self.name} refuses {what}: {shown(answer)}", kind="refused")
 
 
 class _Reported:

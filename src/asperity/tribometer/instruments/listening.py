@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from asperity.tribometer.instruments.inputs import volts_a_count
-from asperity.tribometer.instruments.protocols import Input, InstrumentError, Scope
+from asperity.tribometer.instruments.protocols import Input, InstrumentError, Listener, Scope
 from asperity.tribometer.parameters import Sonotrode
 
 _INTERVAL = 1e-4  # s, or less where a plan is sampled faster
@@ -15,7 +15,7 @@ _HEARD, _LOOKS = 0.5, 3  # of that, at least, and looks until so much has come
 _STILL = 0.05  # Of the drive signal's swing, which is no vibration.
 
 
-class ScopeListener:
+class ScopeListener(Listener):
     """Opens an oscilloscope, hears the drive signal for a moment, and lets go of it.
 
     Parameters
@@ -31,8 +31,6 @@ class ScopeListener:
     frequencies : tuple of float
         That the drive is told, Hz.
     """
-
-    by_hand = False
 
     def __init__(
         self,
@@ -51,10 +49,6 @@ class ScopeListener:
         self._opened = opened
         swing = sonotrode.highest_voltage - sonotrode.lowest_voltage
         self._still = _STILL * swing / sonotrode.amplifier_gain
-
-    def identify(self) -> str:
-        """Return its name."""
-        return self.name
 
     def moves(self) -> bool:
         """Return whether the drive signal moves; raises InstrumentError where none is heard."""
@@ -93,9 +87,3 @@ class ScopeListener:
                 kind="sensor at its limit",
             )
         return False
-
-    def safe(self) -> None:
-        """Nothing is open."""
-
-    def close(self) -> None:
-        """Nothing is open."""

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from asperity.arrays import FloatArray
 from asperity.errors import InputError, shown
 from asperity.runs.asking import typed_line
-from asperity.tribometer.instruments.protocols import Person, Reading, Waveform
+from asperity.tribometer.instruments.protocols import Instrument, Person, Reading, Waveform
 from asperity.units import split_unit, to_si
 
 _MOST_TRIES = 5
@@ -81,7 +81,7 @@ def _typed(text: str) -> str:
     return line
 
 
-class _Manual:
+class _Manual(Instrument):
     """What a person does in an instrument's place."""
 
     by_hand = True
@@ -93,9 +93,6 @@ class _Manual:
     def identify(self) -> str:
         """Return its name."""
         return f"{self.name}, by hand"
-
-    def close(self) -> None:
-        """Let go of it."""
 
 
 class ManualVibration(_Manual):
@@ -165,9 +162,6 @@ class ManualTachometer(_Manual):
         """Ask for the speed of a motor, rad/s."""
         return self._person.read(f"Speed of the {motor} disc's motor", "rad/s")
 
-    def safe(self) -> None:
-        """A tachometer does nothing."""
-
 
 class ManualAccelerometer(_Manual):
     """An accelerometer whose amplitude a person reads off another instrument."""
@@ -186,6 +180,3 @@ class ManualAccelerometer(_Manual):
         interval = 1.0 / (32.0 * frequency)
         at = interval * np.arange(max(32, round(duration / interval)))
         return interval, amplitude * np.sin(2.0 * np.pi * frequency * at)
-
-    def safe(self) -> None:
-        """An accelerometer does nothing."""

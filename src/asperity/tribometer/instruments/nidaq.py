@@ -15,6 +15,7 @@ from asperity.tribometer.instruments.protocols import (
     Input,
     InstrumentError,
     Poll,
+    Scope,
     WallClock,
 )
 
@@ -36,7 +37,7 @@ def _package() -> tuple[Any, Any, tuple[type[BaseException], ...]]:
     return (nidaqmx, AnalogMultiChannelReader), constants, (errors.DaqError, missing)
 
 
-class NiDaq:
+class NiDaq(Scope):
     """An NI-DAQmx device whose inputs are sampled together.
 
     Parameters
@@ -57,8 +58,6 @@ class NiDaq:
     InstrumentError
         There is no such device.
     """
-
-    by_hand = False
 
     def __init__(
         self,
@@ -133,10 +132,6 @@ class NiDaq:
                     task.stop()
                 finally:
                     task.close()
-
-    def safe(self) -> None:
-        """End the stream."""
-        self.stop()
 
     def close(self) -> None:
         """Let go of the device."""

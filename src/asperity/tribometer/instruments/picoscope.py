@@ -16,6 +16,7 @@ from asperity.tribometer.instruments.protocols import (
     Input,
     InstrumentError,
     Poll,
+    Scope,
     WallClock,
 )
 
@@ -61,7 +62,7 @@ def _driver() -> Any:
     return ps4000a
 
 
-class PicoScope:
+class PicoScope(Scope):
     """A PicoScope 4824.
 
     Parameters
@@ -80,8 +81,6 @@ class PicoScope:
     InstrumentError
         No device answers.
     """
-
-    by_hand = False
 
     def __init__(
         self, inputs: tuple[Input, ...], serial: str = "", clock: Clock | None = None
@@ -185,10 +184,6 @@ class PicoScope:
         if self._streaming:
             self._streaming = False
             self._check(self._driver.ps4000aStop(self._handle), "stopping it")
-
-    def safe(self) -> None:
-        """End the stream."""
-        self.stop()
 
     def close(self) -> None:
         """Let go of the device."""

@@ -101,7 +101,7 @@ class Reading:
 
 @runtime_checkable
 class Instrument(Protocol):
-    """What every instrument can do.
+    """What every instrument can do; who derives from its kind need say only what is its own.
 
     Attributes
     ----------
@@ -112,16 +112,19 @@ class Instrument(Protocol):
     """
 
     name: str
-    by_hand: bool
+    by_hand: bool = False
 
     def identify(self) -> str:
         """Return what the device says it is; raises InstrumentError where nothing answers."""
+        return self.name
 
     def safe(self) -> None:
         """Put it into its safe state, whatever it does; raises InstrumentError if that fails."""
+        return  # nothing is switched
 
     def close(self) -> None:
         """Let go of it."""
+        return  # nothing is held
 
 
 @runtime_checkable
@@ -139,6 +142,10 @@ class Scope(Instrument, Protocol):
     def stop(self) -> None:
         """End the stream."""
 
+    def safe(self) -> None:
+        """End the stream."""
+        self.stop()
+
 
 @runtime_checkable
 class VibrationDrive(Instrument, Protocol):
@@ -152,6 +159,10 @@ class VibrationDrive(Instrument, Protocol):
 
     def off(self) -> None:
         """Stop."""
+
+    def safe(self) -> None:
+        """Stop."""
+        self.off()
 
     def keep_alive(self) -> None:
         """Tell a device that watches its line that somebody is there."""
@@ -172,6 +183,10 @@ class Supply(Instrument, Protocol):
 
     def off(self) -> None:
         """Give none."""
+
+    def safe(self) -> None:
+        """Give none."""
+        self.off()
 
     def reading(self) -> Reading:
         """Return what it gives."""

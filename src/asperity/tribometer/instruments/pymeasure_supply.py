@@ -9,7 +9,7 @@ from typing import Any
 
 from asperity.errors import InputError, MissingExtraError
 from asperity.tribometer.instruments.parameters import Supplies
-from asperity.tribometer.instruments.protocols import InstrumentError, Reading
+from asperity.tribometer.instruments.protocols import InstrumentError, Reading, Supply
 
 _DRIVERS = "pymeasure.instruments"
 
@@ -18,7 +18,7 @@ _LIMITS = "current_limit", "current_setpoint"
 _MEASURED = "measured_{}", "measure_{}", "{}_measured", "output_{}"
 
 
-class PyMeasureSupply:
+class PyMeasureSupply(Supply):
     """An output of a supply that PyMeasure has a driver for.
 
     Drivers name things differently: what sets the voltage is ``voltage_setpoint`` or ``voltage``,
@@ -36,8 +36,6 @@ class PyMeasureSupply:
     current_limit : float, optional
         A; left out, what the supply is set to stands.
     """
-
-    by_hand = False
 
     def __init__(self, output: Any, name: str, current_limit: float | None = None) -> None:
         self.name = name
@@ -108,10 +106,6 @@ class PyMeasureSupply:
         """Give none."""
         self._switch(False)
 
-    def safe(self) -> None:
-        """Give none."""
-        self.off()
-
     def reading(self) -> Reading:
         """Return what it measures; None where the driver only tells what was set."""
         return Reading(self._measured("voltage"), self._measured("current"))
@@ -136,9 +130,6 @@ class PyMeasureSupply:
 
         on: bool | None = self._done(asked)
         return on
-
-    def close(self) -> None:
-        """Let go of it; the line is that of the driver."""
 
     def _switch(self, on: bool) -> None:
         if hasattr(type(self._output), "output_enabled"):

@@ -17,9 +17,11 @@ from asperity.tribometer.instruments.protocols import (
     Clock,
     Counts,
     Input,
+    Instrument,
     InstrumentError,
     Poll,
     Reading,
+    Scope,
     Waveform,
 )
 from asperity.tribometer.recording import Recording
@@ -47,24 +49,7 @@ class PlayedClock:
         self._now += max(0.0, seconds)
 
 
-class _Played:
-    """What the instruments of a replay share."""
-
-    by_hand = False
-    name: str
-
-    def identify(self) -> str:
-        """Return what is played."""
-        return self.name
-
-    def safe(self) -> None:
-        """Do nothing: what has happened cannot be switched off."""
-
-    def close(self) -> None:
-        """Let go of it."""
-
-
-class ReplayScope(_Played):
+class ReplayScope(Scope):
     """An oscilloscope that hands out recordings, one with every start.
 
     When a recording is over nothing comes any more, as from a cable that was pulled.
@@ -157,10 +142,6 @@ class ReplayScope(_Played):
         """End the play."""
         self._played = None
 
-    def safe(self) -> None:
-        """End the play."""
-        self.stop()
-
     def close(self) -> None:
         """Let go of it."""
         self.stop()
@@ -178,7 +159,7 @@ def _inputs(recording: Recording) -> tuple[Input, ...]:
     )  # fmt: skip
 
 
-class ReplayVibration(_Played):
+class ReplayVibration(Instrument):
     """The vibration as it was recorded."""
 
     def __init__(self, scope: ReplayScope) -> None:
@@ -204,7 +185,7 @@ class ReplayVibration(_Played):
         return False
 
 
-class _NoEar(_Played):
+class _NoEar(Instrument):
     name = "ear at the drive signal"
 
     def moves(self) -> bool:
@@ -212,7 +193,7 @@ class _NoEar(_Played):
         return False
 
 
-class ReplaySupply(_Played):
+class ReplaySupply(Instrument):
     """A supply as it was recorded."""
 
     def __init__(self, scope: ReplayScope, motor: str) -> None:
@@ -240,7 +221,7 @@ class ReplaySupply(_Played):
         return False
 
 
-class _NoTachometer(_Played):
+class _NoTachometer(Instrument):
     name = "tachometer"
 
     def speed(self, motor: str) -> float:

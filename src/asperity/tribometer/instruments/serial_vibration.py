@@ -1,11 +1,10 @@
 """A vibration controller or signal generator, spoken to by the lines of the configuration."""
 
-import contextlib
 import dataclasses
 from typing import Any
 
 from asperity.errors import InputError, shown
-from asperity.tribometer.instruments.lines import opened_line
+from asperity.tribometer.instruments.lines import SpokenDevice, opened_line
 from asperity.tribometer.instruments.parameters import Controller
 from asperity.tribometer.instruments.protocols import InstrumentError, Waveform
 from asperity.tribometer.instruments.words import filled, number_of
@@ -37,7 +36,7 @@ class Levels:
         }
 
 
-class SerialVibration:
+class SerialVibration(SpokenDevice):
     """A controller that takes a line for each command and may answer with one.
 
     Parameters
@@ -61,51 +60,40 @@ class SerialVibration:
         known and this was another.
     """
 
-    by_hand = False
-
     def __init__(self, controller: Controller, levels: Levels | None = None) -> None:
-        self.name = f"vibration controller at {controller.where}"
-        self._says = controller
         if controller.set_levels and levels is None:
             raise InputError("controller.set_levels needs the voltages of [sonotrode]")
         self._levels = {} if levels is None else levels.named()
-        self._line = opened_line(self.name, controller)
+        name = f"vibration controller at {controller.where}"
+        super().__init__(name, controller, opened_line(name, controller))
         self._set: dict[str, Any] = {}
         self.unlike_off = ""
 
     def identify(self) -> str:
         """Return what it answers to ``controller.identify``, or its name where there is none."""
-        if not self._says.identify:
+        if not self._words.identify:
             return self.name
-        return self._asked("identify")
+        return self._ask("identify")
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
         """Set waveform and frequency, Hz."""
-        words = {"sine": self._says.sine, "triangle": self._says.triangle}
+        words = {"sine": self._words.sine, "triangle": self._words.triangle}
         if waveform not in words:
             raise InputError(f"{waveform!r} is not a waveform of {self.name}")
         self._set = {"waveform": words[waveform], "frequency": frequency}
-        for text in self._says.set_levels:
-            self._said(filled(text, output=self._says.output, **self._levels))
+        for text in self._words.set_levels:
+            self._said(filled(text, output=self._words.output, **self._levels))
         self._tell("set_waveform")
         self._tell("set_frequency")
-        if self._says.ask_error:
-            answer = self._asked("ask_error")
-            if not answer.startswith(self._says.no_error):
-                raise InstrumentError(
-                    f"{self.name} refuses what it was told: {shown(answer)}", kind="refused"
-                )
+        self._accepted("what it was told")
         set_to = {**self._levels, "frequency": frequency}
         for what, unit, share in _READ_BACK:
-            if what in set_to and getattr(self._says, f"ask_{what}"):
+            if what in set_to and getattr(self._words, f"ask_{what}"):
                 self._compare(what, set_to[what], unit, share)
 
     def _compare(self, what: str, wanted: float, unit: str, share: float) -> None:
-        answer = self._asked(f"ask_{what}")
-        try:
-            told = number_of(answer, getattr(self._says, f"{what}_answer"))
-        except ValueError:
-            raise self._nonsense(f"ask_{what}", answer) from None
+        form = getattr(self._words, f"{what}_answer")
+        told, _ = self._read(f"ask_{what}", lambda answer: number_of(answer, form))
         size = wanted if what == "frequency" else self._levels["amplitude"]
         if not abs(told - wanted) <= share * abs(size):
             raise InstrumentError(
@@ -121,62 +109,40 @@ class SerialVibration:
         """Stop."""
         self._tell("stop")
 
-    def safe(self) -> None:
-        """Stop; what an earlier command left on the line is thrown away first."""
-        with contextlib.suppress(InstrumentError):
-            self._line.clear()
-        self.off()
-
     def keep_alive(self) -> None:
         """Send the command that keeps it vibrating, where it has one."""
-        if self._says.keep_alive:
+        if self._words.keep_alive:
             self._tell("keep_alive")
 
     def vibrates(self) -> bool | None:
         """Return what it answers, asked whether it is on; None where it has no such command."""
-        if not self._says.ask_output:
+        if not self._words.ask_output:
             return None
-        answer = self._asked("ask_output")
-        try:
-            on = self._says.is_on(answer)
-        except ValueError:
-            raise self._nonsense("ask_output", answer) from None
-        known = self._says.output_on or not self._says.output_off
+        on: bool
+        on, answer = self._read("ask_output", self._words.is_on)
+        known = self._words.output_on or not self._words.output_off
         self.unlike_off = (
             ""
             if known or not on
             else (
-                f"it answered {shown(self._says.filled('ask_output'))} with {shown(answer)}, not "
-                f"{shown(self._says.output_off)}"
+                f"it answered {shown(self._words.filled('ask_output'))} with {shown(answer)}, not "
+                f"{shown(self._words.output_off)}"
             )
         )
         return on
 
-    def close(self) -> None:
-        """Let go of the line."""
-        self._line.close()
-
     def _tell(self, key: str) -> None:
-        self._said(self._says.filled(key, **self._set))
+        self._said(self._words.filled(key, **self._set))
 
     def _said(self, text: str) -> None:
         """Send a line and look at the answer, if the dialect has one."""
-        if not self._says.answer:
+        if not self._words.answer:
             self._line.tell(text)
             return
         answer = self._line.ask(text)
-        if answer != self._says.answer:
+        if answer != self._words.answer:
             raise InstrumentError(
                 f"{self.name} answered {shown(text)} with {shown(answer)}, not "
-                f"{self._says.answer!r}",
+                f"{self._words.answer!r}",
                 kind="half an answer",
             )
-
-    def _asked(self, key: str) -> str:
-        return self._line.ask(self._says.filled(key))
-
-    def _nonsense(self, key: str, answer: str) -> InstrumentError:
-        return InstrumentError(
-            f"{self.name} answered {shown(self._says.filled(key))} with {shown(answer)}",
-            kind="half an answer",
-        )

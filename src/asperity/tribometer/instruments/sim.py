@@ -13,9 +13,13 @@ from asperity.tribometer.instruments.protocols import (
     FULL_SCALE,
     Counts,
     Input,
+    Instrument,
     InstrumentError,
     Poll,
     Reading,
+    Scope,
+    Supply,
+    VibrationDrive,
     Waveform,
 )
 from asperity.tribometer.signals import SIMULATED
@@ -197,27 +201,15 @@ class SimulatedClock:
         self._rig.now += max(0.0, seconds)
 
 
-class _Simulated:
+class _Simulated(Instrument):
     """What the simulated instruments share."""
-
-    by_hand = False
 
     def __init__(self, rig: SimulatedRig, name: str) -> None:
         self.name = f"simulated {name}"
         self._rig = rig
 
-    def identify(self) -> str:
-        """Return its name."""
-        return self.name
 
-    def safe(self) -> None:
-        """Do nothing; what measures disturbs nothing."""
-
-    def close(self) -> None:
-        """Let go of it."""
-
-
-class SimulatedScope(_Simulated):
+class SimulatedScope(_Simulated, Scope):
     """The oscilloscope."""
 
     def __init__(self, rig: SimulatedRig) -> None:
@@ -243,12 +235,8 @@ class SimulatedScope(_Simulated):
         """End the stream."""
         self._rig.end()
 
-    def safe(self) -> None:
-        """End the stream."""
-        self.stop()
 
-
-class SimulatedVibration(_Simulated):
+class SimulatedVibration(_Simulated, VibrationDrive):
     """The vibration controller."""
 
     def __init__(self, rig: SimulatedRig) -> None:
@@ -269,10 +257,6 @@ class SimulatedVibration(_Simulated):
         self._rig.change()
         self._rig.on -= {"vibration"}
 
-    def safe(self) -> None:
-        """Stop."""
-        self.off()
-
     def keep_alive(self) -> None:
         """Nothing watches a simulated line."""
 
@@ -281,7 +265,7 @@ class SimulatedVibration(_Simulated):
         return "vibration" in self._rig.on
 
 
-class SimulatedSupply(_Simulated):
+class SimulatedSupply(_Simulated, Supply):
     """An output of a supply."""
 
     def __init__(self, rig: SimulatedRig, output: str) -> None:
@@ -302,10 +286,6 @@ class SimulatedSupply(_Simulated):
         """Give none."""
         self._rig.change()
         self._rig.on -= {self._output}
-
-    def safe(self) -> None:
-        """Give none."""
-        self.off()
 
     def reading(self) -> Reading:
         """Return what it gives."""

@@ -21,7 +21,6 @@ from asperity.tribometer.reduction.blocks import Blocks, angle, turns
 from asperity.tribometer.reduction.combined_uncertainty import TORQUE, Joint, estimate_jointly
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.following import BRONZE, CURRENT, STEEL, Following
-from asperity.tribometer.reduction.geared import geared_numbers
 from asperity.tribometer.reduction.heard.acceleration import Heard as Tones
 from asperity.tribometer.reduction.heard.listen import Listened
 from asperity.tribometer.reduction.levels import Levels
@@ -354,3 +353,14 @@ def _file(
         file=recording.name, simulated=recording.simulated, distance=distance, path=path,
         path_deviation=path_deviation, shaken_distance=shaken, gaps=gaps, **numbers,
     )  # fmt: skip
+
+
+def geared_numbers(
+    pair: Pair, blocks: Blocks, segment: Segment, worm_motor: float
+) -> dict[str, Any]:
+    """Return the worm's speed, rpm, and the wheel's torque, N m, with vibration."""
+    found: dict[str, Any] = {"worm_speed": worm_motor / pair.drives.gear_ratio * 30.0 / math.pi}
+    if "torque_bronze" in blocks.means:
+        window = slice(segment.shaken.first, segment.shaken.last + 1)
+        found["wheel_torque"] = abs(float(np.nanmean(blocks.means["torque_bronze"][window])))
+    return found

@@ -62,12 +62,17 @@ const [X, Y, Z] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
 /** @type {[string, {seen: string, behind: string}][]} */
 const CIRCLES = [["plane", circle(X, Y)], ["upright", circle(X, Z)], ["upright", circle(Y, Z)]];
 
-/** The ball of a body that may be shaken any way. */
-export function Ball() {
+/**
+ * The ball of a body that may be shaken any way.
+ * @param {{refused: boolean, now: boolean}} props what is set is `refused`: the ball is as it was then; or answered
+ */
+export function Ball({ refused, now }) {
   const { setAll } = useCase();
   const box = useRef(null);
-  const [direction, elevation] = ["direction", "elevation"].map((key) =>
-    inUnit(useValue(`vibration.${key}`).text, "deg") || 0);
+  const typed = ["direction", "elevation"].map((key) => inUnit(useValue(`vibration.${key}`).text, "deg") || 0);
+  const known = useRef(typed);
+  if (now && !refused) known.current = typed;
+  const [direction, elevation] = refused ? known.current : typed;
   const line = lineOf(direction, elevation);
   const other = line.map((each) => -each);
   const [front, back] = dot(line, TOWARDS) >= 0 ? [line, other] : [other, line];
@@ -95,6 +100,7 @@ export function Ball() {
     <circle class="grip" cx=${px} cy=${py} r="8" ...${anyWay} onPointerMove=${dragged}
       onPointerDown=${(event) => event.currentTarget.setPointerCapture(event.pointerId)}><title>drag: which way it is
         shaken, in space</title></circle></svg>
-    <figcaption class="says">direction ${digits(direction, 3)}°, elevation ${digits(elevation, 3)}°</figcaption>
+    <figcaption class="says">${refused ? "before: " : ""}direction ${
+      digits(direction, 3)}°, elevation ${digits(elevation, 3)}°</figcaption>
   </figure>`;
 }

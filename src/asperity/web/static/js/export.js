@@ -81,7 +81,10 @@ export async function png(svg) {
   await image.decode();
   const canvas = document.createElement("canvas");
   [canvas.width, canvas.height] = [2 * image.naturalWidth, 2 * image.naturalHeight];
-  /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d")).drawImage(image, 0, 0, canvas.width, canvas.height);
+  const on = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+  on.fillStyle = "#fff";
+  on.fillRect(0, 0, canvas.width, canvas.height);
+  on.drawImage(image, 0, 0, canvas.width, canvas.height);
   URL.revokeObjectURL(address);
   return new Promise((done, failed) => canvas.toBlob((blob) =>
     (blob ? done(blob) : failed(new Error("the picture is too large"))), "image/png"));

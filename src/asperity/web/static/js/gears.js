@@ -92,8 +92,8 @@ export function Gears({ geometry, mode = "", speed, pressed = null }) {
       <${Legend} range=${range} unit=${shown ? "MPa" : "m/s"} label=${shown
         ? "largest pressure over a pitch, in the middle of the wheel's face"
         : "sliding velocity, along the line on which teeth touch"} /></div>
-    <p class="says">To scale, cut through the middle of the wheel, with straight flanks of the worm; slowed. The ringed
-      dots are where teeth touch now, the grey ones turn with the worm, whose flanks slide out of the picture.
+    <p class="says">To scale, cut through the middle of the wheel, with straight flanks of the worm; slowed. Ringed
+      dots are where teeth touch now; the small ones on the worm turn with it: its flanks slide out of the picture.
       ${mode ? ` Shaken: ${WAYS[mode]}, far more than it is${mode === "screw" ? ""
         : ", so that teeth seem to overlap"}.` : ""}</p>
   </section>`;

@@ -5,8 +5,14 @@ import { download, fileOf } from "./figure.js";
 
 const STYLES = ["style.css", "gear.css", "stage.css"];
 /** What of a screen is of use with a server only. */
-const OF_SERVER = ".controls, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav,"
+const OF_SERVER = ".controls, .asks-for, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav,"
   + " .choice, .passing, .to-press, .grip, .drop, .of-server, .on-paper, label:has(input), label:has(select)";
+/** A command that takes longer to read is folded away: what is found comes first. */
+const LONG = 160;
+const made = (said, command) => (command.length > LONG
+  ? `<details class="says"><summary>${said}, by this command</summary><code>${command}</code></details>`
+  : `<p class="says">${said}: <code>${command}</code></p>`);
+
 /** What a file has at most, bytes: so much is sent by every means. */
 const MOST = 1_950_000;
 const POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
@@ -121,7 +127,7 @@ body { display: block; max-width: 46rem; margin: 0 auto; padding: 1rem .75rem; }
 main { padding: 0; } .columns { display: block; } td { overflow-wrap: break-word; } pre { overflow: auto; }
 .drawn { width: 100%; height: auto; } h1 + .says { margin: .3rem 0 .8rem; }</style></head>
 <body><main><h1>${safe(heading)}</h1>
-<p class="says">Made on ${day} by asperity ${safe(about.value?.version)}: <code>${safe(told.command)}</code></p>
+${made(`Made on ${day} by asperity ${safe(about.value?.version)}`, safe(told.command))}
 ${moves.length ? `<p><button type="button" id="play">let it move</button></p>` : ""}
 ${moves.length < all.length ? `<p class="says">Some of what moves on the page stands still here: it is too large for one
 file.</p>` : ""}

@@ -51,9 +51,13 @@ export function App({ screens, children }) {
   const { screen, params } = route.value;
   const here = screens.find(({ name }) => name === screen);
   if (here?.kind) last[here.kind] = caseParams(params);
+  const before = useRef("");
   useEffect(() => {
     // On a phone the screens are one row, which scrolls.
     document.querySelector("nav [aria-current]")?.scrollIntoView({ block: "nearest", inline: "center" });
+    // What was pressed is gone with its screen: the keyboard goes on from the answer, not from the list of screens.
+    if (before.current && document.activeElement === document.body) document.getElementById("main")?.focus();
+    before.current = screen;
   }, [screen]);
   useEffect(() => {
     document.title = `${here?.title ?? "?"} · asperity`;

@@ -1,6 +1,5 @@
 /** A body on its shaken plate, slowed until it is seen: what bends, what slips, which way friction points. */
 import { html, signal, useLayoutEffect, useMemo, useRef } from "../vendor/preact.js";
-import { Ball } from "./ball.js";
 import { useValue } from "./form.js";
 import { moving as moves, Play, plays } from "./frames.js";
 import {
@@ -9,6 +8,7 @@ import {
 import { useCase } from "./state.js";
 import { anyWay, useTouch } from "./touch.js";
 import { digits, inUnit, split } from "./units.js";
+import { Later } from "./work.js";
 
 /** When the picture is, in cycles. */
 export const moment = signal(0.25);
@@ -21,6 +21,9 @@ const [LEAST, MOST] = [0.1, 100];
 /** What of the drawing is seen: on a phone its middle. @returns {[number, number]} from where, and how wide */
 const seen = () => (innerWidth < NARROW ? MIDDLE : [0, WIDTH]);
 
+/** Which way it is shaken in space, where it may be. */
+const ball = () => import("./ball.js");
+const rounded = new Intl.NumberFormat("en");
 const turn = (degrees) => (degrees * Math.PI) / 180;
 
 /** Why there is less friction, in a sentence. */
@@ -103,13 +106,15 @@ function useMotion(picture, moving, runs) {
   }, [moving]);
 }
 
-const slower = (frequency) => (frequency > 0 ? `${digits(frequency * SHOWN, 2)} times slower than it is` : "");
+const slower = (frequency) => (frequency > 0
+  ? `${rounded.format(Number(digits(frequency * SHOWN, 2)))} times slower than it is` : "");
 
 /**
  * The picture, with what stops it.
- * @param {{series?: Record<string, number[]>, ratio?: number, k?: number, limit?: number}} props
+ * @param {{series?: Record<string, number[]>, ratio?: number, k?: number, limit?: number, refused?: boolean,
+ *   now?: boolean}} props
  */
-export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
+export function Stage({ series, ratio = NaN, k = NaN, limit = NaN, refused = false, now = true }) {
   const picture = useRef(null);
   const runs = plays.value;
   const shaken = series?.force && k > 0 && limit > 0;
@@ -167,13 +172,16 @@ export function Stage({ series, ratio = NaN, k = NaN, limit = NaN }) {
             ${digits(direction, 3)}°, k ${digits(k, 3)}</text>`}
       </g>
     </svg>
-    <div class="told">${inSpace ? html`<${Ball} />` : null}<p class="why">${words}</p></div>
+    <div class=${inSpace ? "told in-space" : "told"}>${inSpace
+      ? html`<${Later} load=${ball} part="Ball" refused=${refused} now=${now} />` : null}
+      <p class="why">${words}</p></div>
     <div class="row">
       <${Play} />
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
         value=${Math.round(STEPS * (moment.peek() % 1))}
         ...${touch} /></label>`}
-      <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? "" : "Drag the round handle."}
+      <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? null
+          : html`<span class="to-press">Drag the round handle.</span>`}
         <span class="sign-of"><span class="key holds"></span> bristles hold</span>
         <span class="sign-of"><span class="key slips"></span> they slip</span></span>
     </div>

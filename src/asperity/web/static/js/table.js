@@ -13,8 +13,10 @@ import { html } from "../vendor/preact.js";
  */
 export function Table({ columns, rows, region, wide = "", label, kind, caption }) {
   /** @param {Column} column @param {any} row @param {number} at */
-  const cell = ([, made, as], row, at) =>
-    as === "row" ? html`<th scope="row">${made(row, at)}</th>` : html`<td class=${as}>${made(row, at)}</td>`;
+  const cell = ([head, made, as], row, at) =>
+    as === "row" ? html`<th scope="row">${made(row, at)}</th>`
+      // On a phone it stands beside what is in the cell, see .cards.
+      : html`<td class=${as} data-head=${typeof head === "string" ? head : undefined}>${made(row, at)}</td>`;
   const table = html`<table class=${kind} aria-label=${label}>
     ${caption ? html`<caption>${caption}</caption>` : null}
     ${columns.some(([head]) => head) ? html`<thead><tr>${columns.map(([head, , as, more]) => html`

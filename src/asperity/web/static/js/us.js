@@ -120,7 +120,7 @@ export function written(text, count = 5) {
   if (Number.isNaN(number)) return text;
   const found = to(unit.replace("°", "deg"));
   const said = found ? `${digits(number * found[1] + found[2], count)} ${found[0]}` : text;
-  return said.replace(/\bdeg([CF])\b/, "°$1").replace(/(?<=\d )um\b/, "µm").replaceAll("**2", "²")
+  return said.replace(/\bdeg([CF])\b/, "°$1").replace(/(?<=\d )u(?=[msNW]\b)/, "µ").replaceAll("**2", "²")
     .replaceAll("**3", "³");
 }
 

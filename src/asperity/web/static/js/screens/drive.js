@@ -43,12 +43,12 @@ const Ratio = ({ found, answer }) => html`
 function Ledger({ answer, found }) {
   const most = Math.max(...POWERS.map(([key]) => Math.abs(answer[key])), 1e-12);
   const bar = ([key, , sign]) =>
-    html`<${Sided} value=${sign * answer[key]} most=${most} kind=${sign > 0 ? "more" : "less"} />`;
+    html`<${Sided} value=${-sign * answer[key]} most=${most} kind=${sign > 0 ? "more" : "less"} />`;
   const powers = POWERS.map(([key, name, sign]) => ({ name, value: sign * answer[key] }));
-  return html`<${Strips} powers=${powers} label="mean powers" />
-    <${Table} kind="bars" caption="Mean powers: to the right what is put in, to the left where it goes" rows=${POWERS}
-      columns=${[["", ([, said]) => said, "row"], ["", bar],
-        ["", ([key]) => html`<${Num} entry=${found[key]} count=${4} />`, "right"]]} />
+  return html`<div class="pair"><${Strips} powers=${powers} label="mean powers" />
+      <${Table} kind="bars" caption="Mean powers: to the left what is put in, to the right where it goes" rows=${POWERS}
+        columns=${[["", ([, said]) => said, "row"], ["", bar],
+          ["", ([key]) => html`<${Num} entry=${found[key]} count=${4} />`, "right"]]} /></div>
     <p class="says">what is missing, over what is put in: ${digits(answer.closure, 2)}</p>`;
 }
 

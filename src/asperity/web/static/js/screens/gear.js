@@ -213,7 +213,7 @@ function Columns({ entries, answer }) {
   const columns = names.map((name, at) => [STANDARDS[name], cell(name, at), "right"])
     .filter((_, at) => answer[names[at]]);
   return html`<section class="panel wide"><h2>By three standards</h2>
-    <${Table} region="three standards" wide="whole" rows=${[["verdict"], ...SIDE_BY_SIDE]}
+    <${Table} region="three standards" wide="whole standards" rows=${[["verdict"], ...SIDE_BY_SIDE]}
       columns=${[["what", ([what]) => what, "row"], ...columns]} /></section>`;
 }
 
@@ -233,7 +233,7 @@ function Locking({ locking: { verdicts, lead_angle_deg: lead } }) {
 
 function Efficiency({ sway, geometry, setAll }) {
   const rise = route.value.params.rise ?? USUAL;
-  return html`<section class="panel wide"><h2>What moves the efficiency</h2>
+  return html`<section class="panel wide"><h2>What moves the efficiency of the teeth</h2>
     <p class="choice"><label for="rise">each raised alone by</label>${" "}
       <select id="rise" value=${rise} onChange=${(event) => setParam("rise", event.target.value)}>
         ${sway.rises_percent.slice(1).map((each) => html`<option value=${String(each)}>${each} %</option>`)}

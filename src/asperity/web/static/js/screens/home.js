@@ -2,6 +2,7 @@
 import { html } from "../../vendor/preact.js";
 import { about } from "../api.js";
 import { address, go } from "../state.js";
+import { inWords } from "../symbols.js";
 import { lastOpened } from "../visited.js";
 
 /** Slanted threads and teeth, as many as make one turn of the picture. */
@@ -68,7 +69,7 @@ function Begin() {
     <div class="begin">${some.map(({ screen, said, cases }) => html`<div key=${screen}><h3>${said}</h3>
       <ul class="plain">${cases.slice(0, SHOWN).map(({ name, alias, title }) => html`<li key=${name}>
         <a href=${address({ screen, params: { case: name } })}>${alias || name}</a>${" "}
-        <span class="says">${title}</span></li>`)}</ul></div>`)}</div></section>` : null;
+        <span class="says">${inWords(title)}</span></li>`)}</ul></div>`)}</div></section>` : null;
 }
 
 export function view() {

@@ -140,8 +140,9 @@ function Bring({ name, rec }) {
         ${[...new Set([...files, rec].filter(Boolean))].map((each) => html`<option key=${each} value=${each}>
           ${each.replace(/^jobs\/(.{6}).*\//, "$1…/")}</option>`)}
       </select>
-      <label for="drop">or drop a file here</label>
-      <input id="drop" type="file" accept=${EXPORTS} onChange=${(event) => take(event.target.files[0])} />
+      <span>or drop a file here</span>
+      <label class="pressed">choose a file <input type="file" class="hidden" accept=${EXPORTS}
+        onChange=${(event) => take(event.target.files[0])} /></label>
       <button type="button" disabled=${!name} onClick=${record}>record one on the simulated rig</button>
     </div>
     <p class="says" role="status">${said || html`A recording (.nc), or what an oscilloscope exported
@@ -152,10 +153,9 @@ function Bring({ name, rec }) {
 const SIGNS = { good: ["✓", "good"], doubtful: ["~", "warn"], refused: ["✗", "bad"] };
 const NUMBERS = [
   ["frequency (Hz)", "commanded_Hz"], ["torque before (N m)", "torque_before_Nm"],
-  ["torque with (N m)", "torque_with_Nm"], ["change (%)", "torque_change_percent"], [html`k<sub>v</sub>`, "k_v"],
+  ["torque with (N m)", "torque_with_Nm"], ["change (%)", "torque_change_percent"], ["kᵥ", "k_v"],
   ["sliding before (mm/s)", "sliding_velocity_before_mm_s"],
 ];
-const plain = (head) => ({ head, of: (value) => value });
 const percent = (ratio) => (ratio === null ? null : 100 * (ratio - 1));
 const shown = (value) => (value === null ? "–" : digits(value, 4));
 
@@ -185,9 +185,9 @@ function Levels({ segments }) {
   const quality = ({ quality: found, flags }) => html`
     <span class=${SIGNS[found][1]}>${SIGNS[found][0]} ${found}</span> <span class="says">${flags.join("; ")}</span>`;
   return html`<section class="panel" aria-label="levels"><h2>What vibration did</h2>
-    <${Table} region="levels of all segments" wide="levels" rows=${segments} columns=${[
+    <${Table} region="levels of all segments" wide="levels cards" rows=${segments} columns=${[
       ["segment", (_, at) => at + 1, "row"],
-      ...NUMBERS.map(([said, key]) => ({ key, ...(typeof said === "string" ? headed(said) : plain(said)) }))
+      ...NUMBERS.map(([said, key]) => ({ key, ...headed(said) }))
         .map(({ key, head, of }) => [head, (one) =>
           html`<span data-key=${key} data-value=${one[key]}>${shown(of(one[key]))}</span>`, "right"]),
       ["95 % interval (%)", (one) => one.torque_change_ci95_percent?.map(shown).join(" to ") ?? "–", "right"],

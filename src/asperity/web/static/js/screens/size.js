@@ -18,8 +18,10 @@ const ASKED = [["ratio", "ratio", "15"], ["output_torque", "torque of the wheel"
 const COLUMNS = [
   ["centre_distance_mm", "a (mm)", 5], ["starts", "z₁", 3], ["wheel_teeth", "z₂", 4],
   ["axial_module_mm", "m (mm)", 4], ["diameter_factor", "q", 4], ["profile_shift", "x₂", 3],
-  ["efficiency", "efficiency", 4], ["margin", "margin", 3], ["mass_kg", "mass (kg)", 3],
+  ["efficiency", "efficiency (%)", 4], ["margin", "margin", 3], ["mass_kg", "mass (kg)", 3],
 ];
+/** Shares of one, told in percent. */
+const PERCENT = ["efficiency"];
 /** Of what is kept beside the safeties; the ratio is asked above. */
 const KEPT = ["ratio_tolerance", "self_locking", "locking_margin", "centre_distance", "wheel_diameter", "hobs",
   "safety"];
@@ -112,7 +114,7 @@ function Proposals({ found, options, through, parts }) {
     ...COLUMNS.map(([key, said, count]) => ({ key, count, ...headed(said) })).map(({ key, count, head, of }) => [
       html`<button type="button" class="quiet" onClick=${() => sort(key)}>
         ${head}${by === key ? (way === "up" ? " ▲" : " ▼") : ""}</button>`,
-      (one) => digits(of(one[key]), count), "right",
+      (one) => digits((PERCENT.includes(key) ? 100 : 1) * of(one[key]), count), "right",
       { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none" },
     ]),
     ...(found.some(({ hob }) => hob) ? [["hob", ({ hob }) => hob]] : []),
@@ -165,7 +167,8 @@ function TradeOff({ answer }) {
   const permitted = headed("permissible torque (N m)");
   const take = ({ says, torque, settings }) => html`<button type="button" onClick=${() => apply(settings)}
     aria-label=${`take ${says}, ${amount(torque, "N m")}`}>take</button>`;
-  return html`<${Plot} title="Efficiency against permissible torque" y="efficiency (%)" onPick=${pick} height=${320}
+  return html`<${Plot} title="Efficiency of the teeth against permissible torque" y="of the teeth (%)"
+      onPick=${pick} height=${320}
       x=${{ label: "permissible torque by BS 721", unit: "N m", values: torques }}
       series=${[
         { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
@@ -174,7 +177,7 @@ function TradeOff({ answer }) {
     <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
       ["open", take], ["design", ({ says }) => says],
       [permitted.head, ({ torque }) => digits(permitted.of(torque), 4), "right"],
-      ["efficiency (%)", ({ efficiency }) => digits(100 * efficiency, 4), "right"], ["verdict", verdict],
+      ["efficiency of the teeth (%)", ({ efficiency }) => digits(100 * efficiency, 4), "right"], ["verdict", verdict],
     ]} />`;
 }
 
@@ -237,8 +240,9 @@ export function view() {
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
       <${Loads} loads=${loads} /><${Kept} rest=${rest} />
-      ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency and margin together. Oil,
-          materials, roughness and life are the case's${loads ? html`, and so are its loads (${loads}), which
+      ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency (of the gearbox)
+          and margin. Oil, materials, roughness and life are the case's${loads
+          ? html`, and so are its loads (${loads}), which
           wear, pitting and heat are judged by; strength is by the torque above` : null}${through
           ? html`; its torque through the travel, ${written(through)}, is not, since it goes with another torque: ${
           parts === 3 ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>

@@ -107,7 +107,7 @@ function Chapter({ number, title, text, claims, figures }) {
   const made = figures.filter(({ kept }) => kept).length;
   return html`<section class="panel" aria-label=${`chapter ${number}`}>
     <h2>${number} ${title}</h2><p class="says">${quoted(text)}</p>
-    ${claims.length ? html`<${Table} region=${`claims of chapter ${number}`} wide="claims"
+    ${claims.length ? html`<${Table} region=${`claims of chapter ${number}`} wide="cards claims"
         rows=${claims.map((one) => ({ ...one, key: one.id }))} columns=${COLUMNS} />
       <${Beneath} title=${`Claims of chapter ${number}`} columns=${columns} />` : null}
     ${figures.length ? html`<details>
