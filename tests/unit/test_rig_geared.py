@@ -138,3 +138,11 @@ def test_a_sonotrode_tells_the_velocity_of_its_own_direction():
     sonotrode = case_of().require(Sonotrode)
     assert sonotrode.velocity("axial", 750.0) == pytest.approx(59e-3)
     assert sonotrode.velocity("transverse", 750.0) is None
+
+
+def test_a_channel_that_is_read_again_is_the_same_and_of_the_same_class():
+    one, other = (case_of()[Channels].torque_steel for _ in range(2))
+    assert one == other
+    assert type(one) is type(other)
+    assert type(one).table == "channels.torque_steel"
+    assert type(case_of()[Channels].torque_bronze).table == "channels.torque_bronze"
