@@ -318,8 +318,8 @@ def _states(
     missing: list[float] = []
     for velocity in velocities:
         try:
-            at_drive = velocity == drive
-            found[velocity] = solve_periodic(_at(model, velocity), history=False, judged=at_drive)
+            there = _at(model, velocity)
+            found[velocity] = solve_periodic(there, history=False, judged=velocity == drive)
         except (ConvergenceError, InputError) as error:
             # A step can be too coarse at the table's ends; at the drive velocity it is the case's.
             if isinstance(error, InputError) and velocity == drive:
@@ -339,8 +339,7 @@ def _at(model: Model, velocity: float) -> Model:
     if model.vibration is None:
         raise InputError("nothing vibrates")
     slider = model.slider.model_copy(update={"drive_velocity": abs(velocity)}, units="SI")
-    given = model.vibration.displacement_amplitude is not None
-    if given and velocity > 0.0:
+    if velocity > 0.0 and model.vibration.displacement_amplitude is not None:
         return dataclasses.replace(model, slider=slider)
     vibration = model.vibration.model_copy(
         update={
@@ -356,8 +355,7 @@ def _at(model: Model, velocity: float) -> Model:
 
 def _row(model: Model, answer: SlideResult) -> FloatArray:
     force = model.full_friction
-    ledger = answer.ledger
-    if ledger is None:
+    if (ledger := answer.ledger) is None:
         raise ConvergenceError("a periodic state came without its ledger")
     row = np.empty(COLUMNS)
     row[[FORCE, FORCE_Y]] = answer.ratio, answer.friction_mean[1] / force
@@ -374,9 +372,8 @@ def _without_vibration(model: Model) -> HomogenisedLaw:
     friction, drive = model.friction, model.slider.drive_velocity
     force = model.full_friction
     scales = [v for v in (drive, friction.stribeck_velocity) if v > 0.0]
-    points = _POINTS_BELOW + _POINTS_ABOVE
-    speeds = np.geomspace(_LOWEST * min(scales), _HIGHEST * max(scales), points)
-    speeds = _with_drive(speeds, drive)
+    ends, points = (_LOWEST * min(scales), _HIGHEST * max(scales)), _POINTS_BELOW + _POINTS_ABOVE
+    speeds = _with_drive(np.geomspace(*ends, points), drive)
     ratio = (friction.static_mu or friction.mu) / friction.mu
     viscous = friction.viscous_damping / force
     share = np.array([stribeck_share(v, ratio, friction.stribeck_velocity) for v in speeds])
@@ -389,8 +386,7 @@ def _without_vibration(model: Model) -> HomogenisedLaw:
     if model.normal is not None:
         # What lies still normal to the plane does so at any speed; the feet wear by theirs.
         told = told_by(solve_periodic(model, history=False))
-        still = told | {"wear_integral": 0.0}
-        rest = np.append(rest, list(still.values()))
+        rest = np.append(rest, list((told | {"wear_integral": 0.0}).values()))
         worn = np.multiply.outer(speeds / drive, np.array(list(told.values())) - rest[COLUMNS:])
         front = np.hstack([front, rest[COLUMNS:] + worn])
     return HomogenisedLaw(
