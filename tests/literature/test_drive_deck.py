@@ -163,6 +163,10 @@ def test_the_rim_is_held_where_the_package_holds_it(setup):
 
 
 HAS_CCX = pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX is not installed")
+# Minutes each.
+BY_ONE_TOOTH = pytest.mark.campaign(
+    tried_by="test_calculix_finds_the_torques_and_the_deflection_of_the_package"
+)
 
 
 def run_by_calculix(setup, folder):
@@ -199,6 +203,7 @@ def test_calculix_finds_the_torques_and_the_deflection_of_the_package(setup, tmp
 
 
 @HAS_CCX
+@BY_ONE_TOOTH
 def test_calculix_finds_the_torques_and_the_deflection_of_five_teeth(tmp_path):
     setup = TeethSetup.from_case(case("drive.teeth=5", "friction.model=coulomb"))
     found, turned = run_by_calculix(setup, tmp_path)
@@ -210,6 +215,7 @@ def test_calculix_finds_the_torques_and_the_deflection_of_five_teeth(tmp_path):
 
 
 @HAS_CCX
+@BY_ONE_TOOTH
 @pytest.mark.parametrize("share", [-5.0 / 12.0, 0.0])
 def test_calculix_finds_the_torque_as_a_pitch_passes_a_sector_of_three_teeth(share, tmp_path):
     # What lies between repeats: a revolution of the worm is four pitches.
