@@ -32,8 +32,6 @@ KEYED = {
     "shafts",
     "flank",
     "drive",
-    "misalign",
-    "relief",
     "roots",
     "wear",
     "slide",

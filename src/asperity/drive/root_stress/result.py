@@ -1,7 +1,7 @@
 """What the roots of a loaded wheel's teeth bear."""
 
 from collections.abc import Mapping, Sequence
-from typing import ClassVar, NamedTuple, Self
+from typing import Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
@@ -192,18 +192,34 @@ class RootStress(OfDrive):
             f"{self.tension_face:.2g} mm from the middle of the face{own}",
         )
 
+    @property
+    def rows(self) -> list[dict[str, float | int]]:
+        """One mapping a phase."""
+        courses = self.worm_angle, self.tooth_course, self.tension_course, self.compression_course
+        return [
+            {
+                "worm_angle_rad": float(angle),
+                "tooth": int(tooth),
+                "tension_MPa": _MEGA * float(tension),
+                "compression_MPa": _MEGA * float(compression),
+            }
+            for angle, tooth, tension, compression in zip(*courses, strict=True)
+        ]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return every number, and those of each phase."""
+        return super().to_json() | {"phases": self.rows}
+
     def tables(self) -> tuple[Table, ...]:
         """Return the numbers, and a row a phase."""
         rows = [
             (
-                Number.of(float(angle), ".4g", f"worm_angle.{n}"),
-                str(int(self.tooth_course[n])),
-                Number.of(_MEGA * float(self.tension_course[n]), ".1f", f"tension_course.{n}"),
-                Number.of(
-                    _MEGA * float(self.compression_course[n]), ".1f", f"compression_course.{n}"
-                ),
+                Number.of(row["worm_angle_rad"], ".4g", f"phases.{n}.worm_angle_rad"),
+                str(row["tooth"]),
+                Number.of(row["tension_MPa"], ".1f", f"phases.{n}.tension_MPa"),
+                Number.of(row["compression_MPa"], ".1f", f"phases.{n}.compression_MPa"),
             )
-            for n, angle in enumerate(self.worm_angle)
+            for n, row in enumerate(self.rows)
         ]
         course = Table.of(
             ("worm (rad)", "tooth", "tension (MPa)", "compression (MPa)"), rows, left=0
