@@ -1,13 +1,18 @@
 """Units of the US on the page: each number as `--units us` shows it, a switch that stays."""
 
+import math
 import re
 
 import pytest
 from apparatus.browser import answered, copied, settled
 from playwright.sync_api import expect
 
+from asperity.casefile.forms import forms
+from asperity.errors import InputError
 from asperity.files.shipped import shipped_case
 from asperity.results.unit_systems import US, converted, shown_in
+from asperity.units import measures, to_si
+from asperity.web.answer import case_tables
 
 INCH, POUND_FORCE = 0.0254, 4.4482216152605
 PREFIXES = {"": 1.0, "G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
@@ -115,6 +120,36 @@ def test_the_page_has_the_units_of_the_command_line(seen):
         assert name == US[unit].unit.replace("uin", "µin"), unit
         assert factor == pytest.approx(US[unit].factor, rel=1e-13), unit
         assert sum(plus) == US[unit].offset, unit
+
+
+def test_a_unit_of_another_quantity_is_refused_as_the_command_line_refuses_it(seen):
+    page = seen.open("home")
+    settled(page)
+    keys = [key for table in forms(case_tables()).values() for key in table["keys"]]
+    fields = sorted({key["unit"] for key in keys if key["kind"] == "quantity"})
+    names = [name for name in measures.listed()[1] if "_" not in name]
+    names += [f"k{name}" for name in ("N", "m", "Pa", "V", "W", "Hz", "N m", "g")]
+    names += ["dag", "constructor", "m/", "lb-in", "lbf·in", "µin", "°F", "mm²", "W/m**2/degF"]
+    pairs = [(name, unit) for name in (*names, *fields) for unit in fields]
+    found = page.evaluate(
+        "(all) => import('/js/units.js').then(({ inUnit }) =>"
+        " all.map(([name, unit]) => { const x = inUnit(`5 ${name}`, unit);"
+        " return Number.isNaN(x) ? null : x; }))",
+        pairs,
+    )
+    taken = 0
+    for (name, unit), number in zip(pairs, found, strict=True):
+        try:
+            # As a field has it: powers with their sign, a speed of rotation in SI.
+            kept = {"rpm": "rad/s"}.get(unit, re.sub(r"(?<=m)([23])", r"**\1", unit))
+            wanted = to_si(f"5 {name}", kept) * (30 / math.pi if unit == "rpm" else 1)
+        except InputError:
+            assert number is None, (name, unit, number)
+        else:
+            assert number == pytest.approx(wanted, rel=1e-12, abs=1e-9), (name, unit)
+            taken += 1
+    # Each field takes its own unit, and few others.
+    assert len(fields) <= taken < len(pairs) / 10
 
 
 def test_a_switch_stays_and_what_is_typed_in_inches_is_the_same_in_json(seen, server):

@@ -4,7 +4,7 @@ import { forms, useCaseFile } from "./api.js";
 import { fault, instead, useCase } from "./state.js";
 import { inWords, printed } from "./symbols.js";
 import { useTouch } from "./touch.js";
-import { digits, factor, inUnit, split } from "./units.js";
+import { digits, inUnit, split } from "./units.js";
 import { shown, written } from "./us.js";
 
 /** Words of a key: `drive_velocity` is "drive velocity". */
@@ -202,8 +202,8 @@ export function Slider({ path, label, low, high, unit, log, step }) {
     const at = Number(event.target.value);
     const wanted = byRatio ? least * 10 ** (at / STEPS_A_DECADE) : at;
     // In the unit that is written, so that 0.5 mm/s does not become 0.0005 m/s.
-    const written = split(text)[1] || own;
-    const value = written === own ? wanted : (wanted * factor(own)) / factor(written);
+    const written = (Number.isFinite(now) && split(text)[1]) || own;
+    const value = inUnit(`${wanted} ${own}`, written);
     set(path, `${digits(value, byRatio ? KEPT : 6)}${written ? ` ${written}` : ""}`);
   };
   const id = `slide-${path.replace(".", "-")}`;

@@ -106,8 +106,8 @@ function useMotion(picture, moving, runs) {
   }, [moving]);
 }
 
-const slower = (frequency) => (frequency > 0
-  ? `${rounded.format(Number(digits(frequency * SHOWN, 2)))} times slower than it is` : "");
+const slower = (frequency) => (frequency > 0 && frequency < 1e300
+  ? `${rounded.format(Number(digits(frequency * SHOWN, 2)))} times slower than it is, ` : "");
 
 /**
  * The picture, with what stops it.
@@ -180,7 +180,7 @@ export function Stage({ series, ratio = NaN, k = NaN, limit = NaN, refused = fal
       ${runs ? null : html`<label class="row">moment of the cycle <input type="range" min="0" max=${STEPS} step="1"
         value=${Math.round(STEPS * (moment.peek() % 1))}
         ...${touch} /></label>`}
-      <span class="says">${slower(frequency)}, seen ${from}. ${side && !inSpace ? null
+      <span class="says">${slower(frequency)}seen ${from}. ${side && !inSpace ? null
           : html`<span class="to-press">Drag the round handle.</span>`}
         <span class="sign-of"><span class="key holds"></span> bristles hold</span>
         <span class="sign-of"><span class="key slips"></span> they slip</span></span>
