@@ -254,14 +254,44 @@ def test_a_turn_beyond_the_sector_is_refused(setup):
             calculix_files(setup, onward)
 
 
+def pressure_of(made):
+    """What the slope at rest of a deck says of the pressure: full friction over its deflection."""
+    return made.stick * made.problem.friction.max_deflection / made.model.friction
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4])
+def test_the_slope_at_rest_is_of_the_pressure_that_the_load_makes(angle):
+    made = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
+    contact = made.balance.contact
+    valid = np.arange(contact.answer.pressure.shape[1]) < 4 * contact.candidates.counts[:, :1]
+    p, area = contact.answer.pressure[valid], contact.candidates.weights[valid]
+    # All of the load: a point of contact at the wheel's pitch circle, rubbed by the worm.
+    geometry = made.pair.geometry
+    lead, alpha = geometry.lead_angle, geometry.pressure_angle
+    arm = 0.5e-3 * geometry.wheel_mean_diameter
+    share = np.cos(alpha) * np.cos(lead) - made.model.friction * np.sin(lead)
+    assert p @ area == pytest.approx(LOAD / arm / share, rel=0.05)
+    found = pressure_of(made)
+    assert found == pytest.approx(np.average(p, weights=p * area), rel=1e-3)
+    # Of Hertz's pressures the mean by force is 3/4 of the largest on an ellipse, 8/(3 pi) on a line.
+    assert 0.9 * 0.75 < found / p.max() < 1.1 * 8.0 / (3.0 * np.pi)
+    # Whatever the model balanced since.
+    again = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
+    again.at(-0.6).balance  # noqa: B018
+    assert pressure_of(again) == pytest.approx(found, rel=1e-6)
+
+
+def test_the_slope_of_a_deck_of_one_tooth_is_of_all_the_load_on_it(setup):
+    given = case("drive.teeth=1", f"operation.output_torque={LOAD} N m")
+    sharing = TeethSetup.from_case(given)
+    assert np.count_nonzero(sharing.balance.action.normal) > 1
+    assert sharing.stick == pytest.approx(alone(given).stick, rel=1e-6)
+
+
 @HAS_CCX
 @pytest.mark.parametrize("angle", [0.0, 0.4])
 def test_calculix_finds_the_torque_with_the_slope_at_rest_of_dahl_s_law(angle, tmp_path):
     made = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
-    # The law's slope at rest is full friction over its deflection.
-    friction = made.problem.friction
-    pressure = made.stick * friction.max_deflection / made.model.friction
-    assert 0.1e9 < pressure < 2e9
     found, _ = run_by_calculix(made, tmp_path)
     assert found[-1][1] == pytest.approx(made.balance.worm_torque, rel=2e-2)
 

@@ -22,7 +22,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.solve import prepare
 from asperity.drive.static.equilibrium import Balance, Equilibrium
 from asperity.drive.static.solve import StaticModel
-from asperity.drive.teeth.contact import CONTACT_STIFFNESS
+from asperity.drive.teeth.contact import CONTACT_STIFFNESS, TeethContact
 from asperity.drive.teeth.sector import RIM
 from asperity.errors import InputError
 from asperity.flanks.worm.setting import Pair
@@ -227,12 +227,16 @@ class TeethSetup:
         r"""Shear stress per slip of flanks before they slide, Pa/m.
 
         Of a law with an elastic deflection its slope at rest, :math:`\mu p/s_{max}`, at the mean
-        pressure, weighted by the force that it carries; of Coulomb's a fifth of the contact's.
+        pressure, weighted by the force that it carries; of Coulomb's a fifth of the contact's. The
+        pressure is that of the deck's own teeth under all of the load.
         """
         friction = self.problem.friction
         if friction.model == "coulomb":
             return _STICK * self.stiffness
-        end = self.balance
+        sector = self.model.sector
+        # Of its own: that of the model is another's as soon as another angle is balanced.
+        contact = TeethContact(sector, self.model.friction, most=sector.teeth)
+        end = Equilibrium(contact).balance(self.ends, self.problem.load)
         force, pressed = 0.0, 0.0
         for k, number in enumerate(4 * end.contact.candidates.counts[:, 0]):
             pressure = end.contact.answer.pressure[k, :number]
