@@ -273,11 +273,12 @@ def test_the_slope_at_rest_is_of_the_pressure_that_the_load_makes(angle):
     assert p @ area == pytest.approx(LOAD / arm / share, rel=0.05)
     found = pressure_of(made)
     assert found == pytest.approx(np.average(p, weights=p * area), rel=1e-3)
-    # Of Hertz's pressures the mean by force is 3/4 of the largest on an ellipse, 8/(3 pi) on a line.
+    # Of Hertz's pressures the mean by force is 3/4 of the largest on an ellipse, 8/(3 pi) on a
+    # line.
     assert 0.9 * 0.75 < found / p.max() < 1.1 * 8.0 / (3.0 * np.pi)
     # Whatever the model balanced since.
     again = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
-    again.at(-0.6).balance  # noqa: B018
+    assert again.at(-0.6).balance.action.wrench[5] == pytest.approx(LOAD, rel=1e-6)
     assert pressure_of(again) == pytest.approx(found, rel=1e-6)
 
 
