@@ -100,7 +100,8 @@ def _model(setup: TeethSetup) -> Iterator[str]:
             f"** Friction is Coulomb's: the law of the case, {law}, is not in this deck, since "
             "CalculiX takes none of a user's. Once all slides, as at the end, the two are one. "
             f"What it has of the law is its slope at rest, {setup.stick:.4g} Pa/m at the mean "
-            "pressure of the teeth of this deck; how that falls before all slides, and that it goes by pressure, it has not."
+            "pressure of the teeth of this deck; how that falls before all slides, and that it "
+            "goes by pressure, it has not."
         )
     yield "** Run: ccx teeth"
     yield from mesh_lines(wheel, "C3D8I", element_set=WHEEL)
