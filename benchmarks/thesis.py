@@ -4,7 +4,8 @@ Run it with ``make bench``. They are made into a folder that holds nothing yet, 
 from before, on one core; kernels not yet compiled are compiled on the way.
 
 With ``--whole`` it is all of it and by the clock, on all cores: the first run of a user, whose
-cache is empty; one with another folder to write to; and one that finds everything done.
+cache is empty; one with another folder to write to; and one that finds everything done. It
+ends with 1 where one of them takes longer than is promised.
 """
 
 import os
@@ -34,7 +35,7 @@ def whole():
             began = time.perf_counter()
             subprocess.run(words, check=True, capture_output=True, env=environment)
             seconds[name] = time.perf_counter() - began
-    finish({"all": seconds}, most=MOST)
+    finish({"all": seconds}, held={name: MOST[name] for name in seconds})
 
 
 def main():

@@ -72,6 +72,24 @@ def test_search_and_verdict_leave_what_fits_and_say_how_much(page):
     expect(everything).to_have_count(whole)
 
 
+@pytest.mark.parametrize("words", [("ηges", "η_ges", "eta_ges"), ("vgm", "v_gm", "V_GM")])
+def test_a_symbol_is_found_as_it_is_set_as_it_is_written_and_by_its_letter_s_name(page, words):
+    shown = page.locator("article.claim:visible, section figure:visible, section .wide:visible")
+    whole, counts = shown.count(), []
+    sought = page.get_by_role("searchbox")
+    for word in words:
+        sought.fill(word)
+        counts.append(shown.count())
+    assert 0 < counts[0] < whole
+    assert min(counts) == counts[0], counts
+
+
+@pytest.mark.parametrize("mu", ["\u00b5", "\u03bc"])
+def test_either_sign_of_mu_is_found(page, mu):
+    page.get_by_role("searchbox").fill(mu)
+    assert page.locator("article.claim:visible").count() > 0
+
+
 def test_on_a_phone_nothing_goes_beyond_the_page_but_tables_that_scroll_in_theirs(page):
     page.set_viewport_size(PHONE)
     assert page.locator("table.numbers").count() > 0

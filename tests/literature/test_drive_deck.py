@@ -15,7 +15,7 @@ from asperity.contact.candidates.records import Answer, Candidates
 from asperity.drive.deck import TeethSetup, abaqus_files, calculix_files
 from asperity.drive.deck.calculix import deflection, torques
 from asperity.drive.deck.facets import on_faces, rows_of
-from asperity.drive.deck.setup import SLID, WORM, turned_about
+from asperity.drive.deck.setup import PER_TURN, SLID, WORM, turned_about
 from asperity.drive.teeth.sector import RIM
 from asperity.errors import InputError
 from asperity.flanks.worm.distance import distances
@@ -169,9 +169,9 @@ BY_ONE_TOOTH = pytest.mark.campaign(
 )
 
 
-def run_by_calculix(setup, folder):
+def run_by_calculix(setup, folder, onward=0.0):
     """Torques of wheel and worm after each increment, N m, and the wheel's deflection, rad."""
-    for name, text in calculix_files(setup).items():
+    for name, text in calculix_files(setup, onward).items():
         (folder / name).write_text(text)
     done = subprocess.run(
         ["ccx", "teeth"], cwd=folder, capture_output=True, text=True, check=False, timeout=3600
@@ -186,7 +186,9 @@ def run_by_calculix(setup, folder):
     )
     turned = re.findall(rf"set WHEEL_TURNING.*\n\n\s+\d+(?:\s+{FLOAT})+\s+({FLOAT})", told)
     found = [torques(setup, one[:3], one[3:]) for one in sums]
-    return found, deflection(setup, float(turned[-1]))
+    end = setup.at(setup.ends + onward)
+    more = end.touching - setup.touching
+    return found, more + deflection(setup, float(turned[-1]))
 
 
 @HAS_CCX
@@ -216,7 +218,7 @@ def test_calculix_finds_the_torques_and_the_deflection_of_five_teeth(tmp_path):
 
 @HAS_CCX
 @BY_ONE_TOOTH
-@pytest.mark.parametrize("share", [-5.0 / 12.0, 0.0])
+@pytest.mark.parametrize("share", [-0.5, -5.0 / 12.0, -0.25, 0.0, 0.25, 0.5])
 def test_calculix_finds_the_torque_as_a_pitch_passes_a_sector_of_three_teeth(share, tmp_path):
     # What lies between repeats: a revolution of the worm is four pitches.
     made = TeethSetup.from_case(case("drive.teeth=3", "friction.model=coulomb"))
@@ -227,21 +229,79 @@ def test_calculix_finds_the_torque_as_a_pitch_passes_a_sector_of_three_teeth(sha
 
 
 @HAS_CCX
+@BY_ONE_TOOTH
+def test_calculix_turns_the_worm_on_in_increments_that_are_short_beside_a_face(setup, tmp_path):
+    onward = 0.13
+    # The error goes with the square of an increment: 2.8 times the deflection in one, as a point
+    # of the wheel goes on along the plane of the worm's face that it met when it began.
+    found, turned = run_by_calculix(setup, tmp_path, onward)
+    assert len(found) >= 7 + onward / (2.0 * np.pi / PER_TURN / 3.0)
+    end = setup.at(onward)
+    assert found[-1][0] == pytest.approx(LOAD, rel=1e-4)
+    assert found[-1][1] == pytest.approx(end.balance.worm_torque, rel=2e-2)
+    assert turned == pytest.approx(end.touching - end.balance.wheel_angle, rel=5e-2)
+
+
+def test_a_turn_beyond_the_sector_is_refused(setup):
+    pitch = setup.model.sector.pitch * setup.pair.ratio
+    for angle in (0.51 * pitch, -60.0 * pitch, np.nan):
+        with pytest.raises(InputError, match="take whole pitches away"):
+            setup.at(angle)
+    with pytest.raises(InputError, match="take whole pitches away"):
+        calculix_files(setup.at(0.4 * pitch), 0.2 * pitch)
+    for onward in (-0.1, 0.6, np.nan):
+        with pytest.raises(InputError, match="turns on by 0 to"):
+            calculix_files(setup, onward)
+
+
+def pressure_of(made):
+    """What the slope at rest of a deck says of the pressure: full friction over its deflection."""
+    return made.stick * made.problem.friction.max_deflection / made.model.friction
+
+
+@pytest.mark.parametrize("angle", [0.0, 0.4])
+def test_the_slope_at_rest_is_of_the_pressure_that_the_load_makes(angle):
+    made = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
+    contact = made.balance.contact
+    valid = np.arange(contact.answer.pressure.shape[1]) < 4 * contact.candidates.counts[:, :1]
+    p, area = contact.answer.pressure[valid], contact.candidates.weights[valid]
+    # All of the load: a point of contact at the wheel's pitch circle, rubbed by the worm.
+    geometry = made.pair.geometry
+    lead, alpha = geometry.lead_angle, geometry.pressure_angle
+    arm = 0.5e-3 * geometry.wheel_mean_diameter
+    share = np.cos(alpha) * np.cos(lead) - made.model.friction * np.sin(lead)
+    assert p @ area == pytest.approx(LOAD / arm / share, rel=0.05)
+    found = pressure_of(made)
+    assert found == pytest.approx(np.average(p, weights=p * area), rel=1e-3)
+    # Of Hertz's pressures the mean by force is 3/4 of the largest on an ellipse, 8/(3 pi) on a
+    # line.
+    assert 0.9 * 0.75 < found / p.max() < 1.1 * 8.0 / (3.0 * np.pi)
+    # Whatever the model balanced since.
+    again = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
+    assert again.at(-0.6).balance.action.wrench[5] == pytest.approx(LOAD, rel=1e-6)
+    assert pressure_of(again) == pytest.approx(found, rel=1e-6)
+
+
+def test_the_slope_of_a_deck_of_one_tooth_is_of_all_the_load_on_it(setup):
+    given = case("drive.teeth=1", f"operation.output_torque={LOAD} N m")
+    sharing = TeethSetup.from_case(given)
+    assert np.count_nonzero(sharing.balance.action.normal) > 1
+    assert sharing.stick == pytest.approx(alone(given).stick, rel=1e-6)
+
+
+@HAS_CCX
 @pytest.mark.parametrize("angle", [0.0, 0.4])
 def test_calculix_finds_the_torque_with_the_slope_at_rest_of_dahl_s_law(angle, tmp_path):
     made = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)
-    # The law's slope at rest is full friction over its deflection.
-    friction = made.problem.friction
-    pressure = made.stick * friction.max_deflection / made.model.friction
-    assert 0.1e9 < pressure < 2e9
     found, _ = run_by_calculix(made, tmp_path)
     assert found[-1][1] == pytest.approx(made.balance.worm_torque, rel=2e-2)
 
 
 def test_the_worm_turned_by_a_pitch_stands_as_it_stood(setup):
     pitch = setup.model.sector.pitch * setup.pair.ratio
-    on = setup.at(pitch)
-    assert on.balance.worm_torque == pytest.approx(setup.balance.worm_torque, rel=1e-6)
-    assert on.touching - setup.touching == pytest.approx(setup.model.sector.pitch, rel=1e-6)
+    # The two ends of it: further the sector's own teeth would leave the worm.
+    before, on = setup.at(-pitch / 2.0), setup.at(pitch / 2.0)
+    assert on.balance.worm_torque == pytest.approx(before.balance.worm_torque, rel=1e-6)
+    assert on.touching - before.touching == pytest.approx(setup.model.sector.pitch, rel=1e-6)
     # What is written of it faces the wheel at either angle.
     assert on.worm.points[:, 1].mean() == pytest.approx(setup.worm.points[:, 1].mean(), abs=1e-5)

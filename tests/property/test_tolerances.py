@@ -18,7 +18,7 @@ from asperity.commands import case_tables
 from asperity.flanks.measuring.corners import Mounted, Place
 from asperity.flanks.meshing.backlash import worm_turn
 from asperity.flanks.meshing.transmission import transmission
-from asperity.flanks.parameters import Hob
+from asperity.flanks.parameters import Hob, Mount
 from asperity.flanks.sides import both
 from asperity.flanks.study.rated_play import Made, exact_backlash
 from asperity.flanks.wheel.enveloped import Wheel
@@ -183,6 +183,14 @@ def test_a_fit_leaves_its_least_backlash_by_the_exact_flanks(name):
     assert found.least == pytest.approx(least, abs=1e-9)
 
 
+def test_a_fit_that_leaves_none_does_not_jam_by_rounding():
+    hob = read_case("gearset-3", case_tables()).get(Hob)
+    given = Tolerances(centre_distance="js7", fit="H")
+    found = exact_backlash(gearset_of("gearset-3"), Made(hob), given)
+    assert found.least == 0.0
+    assert "MAY JAM" not in str(found.sentence())
+
+
 @pytest.mark.slow
 def test_a_hob_that_is_the_worm_leaves_no_play_and_no_overlap():
     for name in ("A100", *SHIPPED):
@@ -214,6 +222,33 @@ def test_an_identical_hob_makes_the_centre_distance_count_more_where_it_closes()
     closed, opened = own.play(Place(-off)), own.play(Place(off))
     middle = backlash(A100, GIVEN).parts[2].greatest
     assert 0.0 < opened < middle < -closed
+
+
+@pytest.mark.parametrize(("hob", "mount"), [
+    (None, Mount(shaft_angle_error="0.03 deg")), (Hob(tilt="0.03 deg"), None)])  # fmt: skip
+def test_where_the_worm_stands_as_its_hob_stood_an_angle_that_may_be_off_leaves_most(hob, mount):
+    given = Tolerances(shaft_angle="0.08 deg", thread=["-100 um", "-102 um"],
+                       tooth=["-20 um", "-22 um"])  # fmt: skip
+    found = exact_backlash(gearset_of("actuator-duty"), Made(hob, mount), given)
+    # An identical hob leaves no play of its own there: what is left is off thread and tooth.
+    _, thread, tooth, angle = found.parts
+    assert found.states["new"].greatest == pytest.approx(thread.greatest + tooth.greatest, abs=1e-3)
+    assert angle.greatest == pytest.approx(-found.parts[0].middle, abs=1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("oversize", [1.0, 1.05])
+def test_no_place_has_more_play_than_the_worst_case_however_the_worm_is_mounted(oversize):
+    gearset = gearset_of("actuator-duty")
+    mount = Mount(axial_offset="15 um", shaft_angle_error="0.03 deg")
+    given = Tolerances(axial_offset="40 um", shaft_angle="0.2 deg")
+    pair = Pair.of(gearset, Hob(oversize=oversize), mount)
+    own = Mounted.of(pair, Wheel.cut(pair), given)
+    plays = own.plays()
+    rng = np.random.default_rng(7)
+    for _ in range(40):
+        place = Place(*(rng.uniform(-1, 1, 3) * own.deviations))
+        assert min(plays.values()) - 1e-6 <= own.play(place) <= max(plays.values()) + 1e-3
 
 
 @pytest.mark.slow

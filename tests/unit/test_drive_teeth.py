@@ -1,5 +1,6 @@
 """Elastic teeth as a mesh of the march: against the increments of the contact, and their energy."""
 
+import copy
 import dataclasses
 import functools
 import itertools
@@ -389,7 +390,7 @@ def test_a_march_of_teeth_goes_on_to_the_bit_from_where_it_was_left():
     left = first.tree()
     # What other steps leave in the mesh's room is nothing to it.
     whole.mesh.settled_in(np.zeros(POSES), 1.0)
-    other.restore({name: np.copy(value) for name, value in left.items()})
+    other.restore(copy.deepcopy(left))
     other.go(1)
     assert other.rows.tobytes() == whole.rows.tobytes()
     assert other.committed.tobytes() == whole.committed.tobytes()

@@ -10,7 +10,7 @@ import pytest
 from asperity.kernels.building import lean, library, link, making
 from asperity.kernels.building.compiler import hindrance
 from asperity.kernels.native import keys, load, table
-from asperity.kernels.native.entries import Entry, listed
+from asperity.kernels.native.entries import Entry, listed, shared_out
 from asperity.kernels.native.kept import UNFIT
 
 needs_compiler = pytest.mark.skipif(hindrance() is not None, reason="no library is made here")
@@ -97,9 +97,9 @@ def test_a_build_that_is_stopped_leaves_no_process(tmp_path, in_place_of_makers)
 
 def test_what_calls_much_the_same_stays_together():
     entries = listed().entries
-    parts = library._parts(entries, 3)
-    assert sorted(number for part in parts for number in part) == [*range(len(entries))]
-    rooms = [{".".join(entries[n].module.split(".")[:3]) for n in part} for part in parts]
+    parts = shared_out(entries, 3, depth=3)
+    assert sorted(each.number for part in parts for each in part) == [*range(len(entries))]
+    rooms = [{".".join(each.module.split(".")[:3]) for each in part} for part in parts]
     assert not rooms[0] & rooms[1]
     assert not rooms[1] & rooms[2]
 

@@ -240,6 +240,9 @@ def test_the_page_is_there_before_anything_is_made_and_fills(tmp_path, made, mon
 def test_an_unknown_number_is_refused_with_the_nearest():
     with pytest.raises(InputError, match=r"'4\.177' is neither .*\(did you mean '4\.17'\?\)"):
         select(["4.177"])
+    # Near to none: what there is, in a short line.
+    with pytest.raises(InputError, match=r"'9' is .*: give one such as .* a chapter, 1 to 8$"):
+        select(["9"])
 
 
 def test_a_number_asks_for_all_that_have_it_in_the_order_of_the_page():
@@ -247,6 +250,7 @@ def test_a_number_asks_for_all_that_have_it_in_the_order_of_the_page():
         "claim 2.7", "figure 2.7", "figure 4.17",
     ]  # fmt: skip
     assert [one.name for one in select(["3.2"])] == ["claim 3.2", "figure 3.2", "table 3.2"]
+    assert [one.name for one in select(["figure 7.10"])] == ["figure 7.10"]
     of_a_chapter = [one.number.partition(".")[0] for one in select(["3"])]
     assert set(of_a_chapter) == {"3"}
     assert [one for one in select([]) if one.number.startswith("3.")] == select(["3"])

@@ -120,7 +120,9 @@ def thesis(
     only: Annotated[
         list[str] | None,
         typer.Option(
-            "--only", metavar="NUMBER", help="Only what has this number, 4.17, or chapter, 4."
+            "--only",
+            metavar="NUMBER",
+            help="Only what has this number, 4.17, name, 'figure 4.17', or chapter, 4.",
         ),
     ] = None,
     out: Annotated[

@@ -1,10 +1,10 @@
 """All that is reproduced, chapter by chapter, and the module that makes each of it."""
 
 import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, suggestion
 from asperity.thesis.contact import elastic
 from asperity.thesis.contact.elastic import LONGITUDINAL, TRANSVERSE
 from asperity.thesis.drive import simulations
@@ -146,23 +146,30 @@ def everything() -> list[Exhibit]:
 
 
 def select(only: Sequence[str]) -> list[Exhibit]:
-    """Return the exhibits of some numbers, or of chapters such as ``7``; all for none.
+    """Return exhibits by number, name (``figure 4.17``) or chapter (``7``); all for none.
 
     Raises
     ------
     InputError
         There is nothing of such a number.
     """
-    numbers = {exhibit.number for exhibit in everything()}
-    chapters = {chapter_of(number) for number in numbers}
-    for number in only:
-        if number not in numbers | chapters:
+    every = everything()
+    known = {exhibit.number for exhibit in every} | {exhibit.name for exhibit in every}
+    chapters = {chapter_of(exhibit.number) for exhibit in every}
+    for asked in only:
+        if asked not in known | chapters:
             raise InputError(
-                f"{number!r} is neither a figure nor a table nor a claim that is reproduced"
-                f"{nearest(number, sorted(numbers, key=_order))}"
+                f"{asked!r} is neither a figure nor a table nor a claim that is reproduced"
+                f"{suggestion(asked, sorted(known)) or _chapters(chapters)}"
             )
     return [
         exhibit
-        for exhibit in everything()
-        if not only or exhibit.number in only or chapter_of(exhibit.number) in only
+        for exhibit in every
+        if not only or {exhibit.number, exhibit.name, chapter_of(exhibit.number)} & set(only)
     ]
+
+
+def _chapters(chapters: Collection[str]) -> str:
+    """End of a message about a number that is near to none."""
+    numbers = sorted(map(int, chapters))
+    return f": give one such as 4.17, or a chapter, {numbers[0]} to {numbers[-1]}"

@@ -5,26 +5,53 @@ before a step to after it, which is off the arc by nanometres. The rim turns as 
 against the worm, then as a constant torque and the worm let it. Friction is Coulomb's.
 """
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.drive.deck.setup import FLANK, WHEEL, WORM, TeethSetup, turned_about
+from asperity.drive.deck.setup import FLANK, PER_TURN, WHEEL, WORM, TeethSetup, turned_about
 from asperity.drive.teeth.sector import RIM
+from asperity.errors import InputError
 from asperity.mesh.inp import mesh_lines, numbers
 
 DECK = "teeth.inp"
 _TURNING = "wheel_turning"
 _INCREMENTS = (4, 3)
+# A point of the wheel goes on along the plane of the worm's face it met when an increment began:
+# its error goes with the square of what slides in one.
+_LONGEST = 2.0 * math.pi / PER_TURN / 3.0  # rad of the worm, of a face
+_FURTHEST = math.radians(30.0)  # of the layer's faces, to where it ends beside the contact
 
 
-def calculix_files(setup: TeethSetup) -> dict[str, str]:
-    """Return the files a CalculiX user needs, by name."""
-    return {DECK: "\n".join([*_deck(setup), ""])}
+def calculix_files(setup: TeethSetup, onward: float = 0.0) -> dict[str, str]:
+    """Return the files a CalculiX user needs, by name.
+
+    Parameters
+    ----------
+    setup : TeethSetup
+        What is written.
+    onward : float
+        Turn of the worm in a third step under the load, rad, 0 to 0.52; none for 0. Its increments
+        are a third of a face of the worm's mesh at most. Its end is that of
+        ``setup.at(setup.ends + onward)``.
+
+    Raises
+    ------
+    InputError
+        It is out of range, or ends where the sector has no tooth (`TeethSetup.at`).
+    """
+    if not 0.0 <= onward <= _FURTHEST:
+        raise InputError(
+            f"onward is {onward:.6g} rad; the worm turns on by 0 to {_FURTHEST:.6g} rad, as far as "
+            "its faces reach: begin at another angle"
+        )
+    setup.at(setup.ends + onward)
+    return {DECK: "\n".join([*_deck(setup, onward), ""])}
 
 
-def _deck(setup: TeethSetup) -> Iterator[str]:
+def _deck(setup: TeethSetup, onward: float) -> Iterator[str]:
     wheel, worm = setup.wheel, setup.worm
     nodes = len(wheel.points)
     centre, turning = nodes + len(worm.points) + 1, nodes + len(worm.points) + 2
@@ -32,12 +59,15 @@ def _deck(setup: TeethSetup) -> Iterator[str]:
     yield from _rim(wheel.node_set(RIM) + 1, centre, turning)
     begun = setup.wheel_angles[0], setup.worm_angles[0]
     there = np.arange(len(worm.points)) + nodes + 1
-    for step, most in enumerate(_INCREMENTS, start=1):
+    angles = setup.worm_angles
+    steps = list(zip(_INCREMENTS, angles[1:], strict=True))
+    if onward > 0.0:
+        steps.append((math.ceil(onward / _LONGEST), angles[2] + onward))
+    for step, (most, angle) in enumerate(steps, start=1):
         yield from _step(most, centre, turning)
         if step == 1:
             yield f"{turning}, 3, 3, {numbers(setup.wheel_angles[1] - begun[0])[:-1]}"
-        turn = setup.worm_angles[step] - begun[1]
-        yield from _moved(there, worm.points, setup.axis, setup.origin, turn)
+        yield from _moved(there, worm.points, setup.axis, setup.origin, angle - begun[1])
         if step > 1:
             yield from ("*CLOAD", f"{turning}, 3, {numbers(-setup.problem.load)[:-1]}")
         yield from _told()
@@ -70,7 +100,8 @@ def _model(setup: TeethSetup) -> Iterator[str]:
             f"** Friction is Coulomb's: the law of the case, {law}, is not in this deck, since "
             "CalculiX takes none of a user's. Once all slides, as at the end, the two are one. "
             f"What it has of the law is its slope at rest, {setup.stick:.4g} Pa/m at the mean "
-            "pressure; how that falls before all slides, and that it goes by pressure, it has not."
+            "pressure of the teeth of this deck; how that falls before all slides, and that it "
+            "goes by pressure, it has not."
         )
     yield "** Run: ccx teeth"
     yield from mesh_lines(wheel, "C3D8I", element_set=WHEEL)

@@ -22,7 +22,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.solve import prepare
 from asperity.drive.static.equilibrium import Balance, Equilibrium
 from asperity.drive.static.solve import StaticModel
-from asperity.drive.teeth.contact import CONTACT_STIFFNESS
+from asperity.drive.teeth.contact import CONTACT_STIFFNESS, TeethContact
 from asperity.drive.teeth.sector import RIM
 from asperity.errors import InputError
 from asperity.flanks.worm.setting import Pair
@@ -37,7 +37,7 @@ SLID = 5e-3
 
 _APART = 15e-6  # m, of the flanks at the start
 _SWEPT = math.radians(55.0)  # to both sides of the line of centres
-_PER_TURN, _ON_FLANK = 240, 12
+PER_TURN, _ON_FLANK = 240, 12
 _THICK = 0.3  # mm, of the layer that stands for a rigid thread
 _STICK = 0.2  # of Coulomb's friction before it slides, over the contact's stiffness
 FLANK, WORM, WHEEL = "wheel_flanks", "worm_flanks", "wheel"
@@ -96,7 +96,20 @@ class TeethSetup:
         Decks at angles over a pitch are the worm's turning in steps without inertia: after a pitch
         the next tooth is where this one was, and a revolution of the worm is as many pitches as it
         has starts, one of the wheel as many as it has teeth.
+
+        Raises
+        ------
+        InputError
+            It is more than half a pitch from the middle tooth's, or no number.
         """
+        pitch = self.model.sector.pitch * self.pair.ratio
+        # As much room as the last digits of a half pitch take.
+        if not abs(angle) <= (0.5 + 1e-9) * pitch:
+            raise InputError(
+                f"angle is {angle:.6g} rad; the sector's middle tooth meshes from {-pitch / 2:.6g} "
+                f"to {pitch / 2:.6g} rad: after a pitch of {pitch:.6g} rad all repeats, take whole "
+                "pitches away"
+            )
         return dataclasses.replace(self, ends=angle)
 
     @property
@@ -182,7 +195,7 @@ class TeethSetup:
         worm = self.pair.worm
         # Denser towards the root, where the flank bends.
         rho, axial = worm.curve(np.linspace(0.0, 1.0, _ON_FLANK) ** 2)[:2]
-        count = 1 + math.ceil(2.0 * _SWEPT * _PER_TURN / (2.0 * math.pi))
+        count = 1 + math.ceil(2.0 * _SWEPT * PER_TURN / (2.0 * math.pi))
         # Turned by the worm's angle it is about the line of centres again.
         turn = np.linspace(-_SWEPT, _SWEPT, count) - self.ends
         place = 2.0 * worm.half_pitch * space
@@ -214,12 +227,16 @@ class TeethSetup:
         r"""Shear stress per slip of flanks before they slide, Pa/m.
 
         Of a law with an elastic deflection its slope at rest, :math:`\mu p/s_{max}`, at the mean
-        pressure, weighted by the force that it carries; of Coulomb's a fifth of the contact's.
+        pressure, weighted by the force that it carries; of Coulomb's a fifth of the contact's. The
+        pressure is that of the deck's own teeth under all of the load.
         """
         friction = self.problem.friction
         if friction.model == "coulomb":
             return _STICK * self.stiffness
-        end = self.balance
+        sector = self.model.sector
+        # Of its own: that of the model is another's as soon as another angle is balanced.
+        contact = TeethContact(sector, self.model.friction, most=sector.teeth)
+        end = Equilibrium(contact).balance(self.ends, self.problem.load)
         force, pressed = 0.0, 0.0
         for k, number in enumerate(4 * end.contact.candidates.counts[:, 0]):
             pressure = end.contact.answer.pressure[k, :number]

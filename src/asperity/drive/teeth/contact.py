@@ -121,6 +121,8 @@ class TeethContact:
         Flank of the teeth, 1 (driving) or -1.
     coupled : bool
         Whether teeth give way to what loads their neighbours.
+    most : int, optional
+        Teeth that may be in mesh, odd; three, or those of the sector if left out.
     """
 
     def __init__(
@@ -130,11 +132,12 @@ class TeethContact:
         *,
         side: int = 1,
         coupled: bool = True,
+        most: int | None = None,
     ) -> None:
         self.sector = sector
         self.side = side
         self.stand = Stand.of(sector.wheel.pair)
-        self.slots = max(3, sector.teeth)
+        self.slots = most or max(3, sector.teeth)
         body = sector.body
         self.candidates = Candidates.workspace(body, self.slots)
         self.answer = Answer.workspace(body, self.slots)

@@ -2,9 +2,11 @@ r"""What mounting tolerances do to exact flanks: backlash, contact pattern, tran
 
 The play of a mesh is the least, over the places where worm and wheel may touch, of what is nearly
 linear in how the worm stands: it is concave, so that the least of all assemblies is found at a
-corner of the tolerances. The greatest is found at the corners, between them or in the middle. How
-thick threads and teeth are turns out in the play exactly. What warmth moves the axes apart by is
-solved for like any other offset.
+corner of the tolerances. The greatest is found where the axes are furthest apart and, along the
+offset and the angle, at an end, where the worm stands as its hob stood (an identical hob leaves a
+kink there), or between them: what is concave is climbed along one and then the other until neither
+finds more. How thick threads and teeth are turns out in the play exactly. What warmth moves the
+axes apart by is solved for like any other offset.
 
 Lengths are in mm, angles in rad.
 """
@@ -46,6 +48,9 @@ _SHORT = "a", "offset", "angle"
 _MINUTES = 60.0 * 180.0 / math.pi
 # Places of the wheel in a pitch between which the least backlash is looked for.
 _SAMPLES = 8
+# A climb: the share of a tolerance that it looks beside a place, and finds the top to; what is a
+# gain, um; and how often it may turn.
+_BESIDE, _FINE, _GAIN, _TURNS = 1.0 / 64.0, 1e-4, 1e-5, 8
 _Found = TypeVar("_Found")
 
 
@@ -177,12 +182,79 @@ class Mounted:
             self.known[place] = 0.5 * _MICROMETRES * self.pair.geometry.wheel_mean_diameter * turn
         return self.known[place]
 
-    def places(self, steps: tuple[int, ...]) -> Iterator[Place]:
-        """Yield the places so many deviations off, along all that may be off."""
-        own = [steps if value else (0,) for value in self.deviations]
-        for signs in itertools.product(*own):
-            off = (sign * value for sign, value in zip(signs, self.deviations, strict=True))
+    def places(self, steps: tuple[int, ...], *more: Place) -> Iterator[Place]:
+        """Yield the places so many deviations off, along all that may be off.
+
+        And as far off as places that are given besides, along what they lie within.
+        """
+        own = []
+        for axis, value in enumerate(self.deviations):
+            ends = [step * value for step in steps] if value else [0.0]
+            own.append([*ends, *(at[axis] for at in more if abs(at[axis]) < value)])
+        for off in itertools.product(*(dict.fromkeys(steps) for steps in own)):
             yield Place(*off)
+
+    @property
+    def home(self) -> Place:
+        """Where the worm stands as its hob stood, along the wheel's axis and in its angle."""
+        cut, stands, mirror = self.pair.cutting, self.pair.mounting, self.pair.mirror
+        return Place(
+            0.0,
+            mirror * (cut.axial_offset - stands.axial_offset),
+            mirror * (cut.tilt - stands.tilt),
+        )
+
+    def plays(self, apart: float = 0.0) -> dict[Place, float]:
+        """Return the backlash, um, where it may be least and greatest, with axes so far apart, mm.
+
+        The places are those of the tolerances, before their axes move apart.
+        """
+        found = {place: self._apart(place, apart) for place in self.places((-1, 0, 1), self.home)}
+        top = self._climbed(max(found, key=found.__getitem__), (1, 2), apart)
+        found[top] = self._apart(top, apart)
+        return found
+
+    def _apart(self, place: Place, apart: float) -> float:
+        return self.play(place.further(apart))
+
+    def _climbed(self, start: Place, axes: tuple[int, ...], apart: float = 0.0) -> Place:
+        """Return where the play is greatest, climbing along axes by turns."""
+        top = start
+        for _ in range(_TURNS):
+            before = top
+            for axis in axes:
+                top = self._top(top, axis, apart)
+            if top == before or len(axes) == 1:
+                break
+        return top
+
+    def _top(self, start: Place, axis: int, apart: float) -> Place:
+        """Return where the play is greatest along one axis, of which the start is a place."""
+        off = self.deviations[axis]
+        if not off:
+            return start
+
+        def at(value: float) -> Place:
+            return Place(*(value if k == axis else own for k, own in enumerate(start)))
+
+        least = self._apart(start, apart) + _GAIN
+        for sign in (-1.0, 1.0):
+            beside = start[axis] + sign * _BESIDE * off
+            if abs(beside) <= off and self._apart(at(beside), apart) > least:
+                break
+        else:
+            # What is concave and falls to both sides is greatest here.
+            return start
+        from scipy.optimize import minimize_scalar
+
+        best = minimize_scalar(
+            lambda value: -self._apart(at(float(value)), apart),
+            bounds=tuple(sorted((start[axis], sign * off))),
+            method="bounded",
+            options={"xatol": _FINE * off},
+        )
+        found = at(float(best.x))
+        return found if self._apart(found, apart) > least else start
 
     def corners(self) -> tuple[Corner, ...]:
         """Return how it meshes at the corners; none where the worm stands without tolerance."""
@@ -223,17 +295,9 @@ class Mounted:
         if abs(middle) < _MICROMETRES * RESOLVED:
             # An identical hob leaves none.
             middle = 0.0
-        found = {Place(): middle} | {
-            place: self.play(place) for place in self.places((-1, 0, 1)) if any(place)
-        }
-        alone = []
-        for n, value in enumerate(self.deviations):
-            if value:
-                ends = [
-                    found[Place(*(sign * value if k == n else 0.0 for k in range(3)))] - middle
-                    for sign in (-1.0, 1.0)
-                ]
-                alone.append(Part(_NAMES[n], min(*ends, 0.0), 0.0, max(*ends, 0.0)))
+        self.known[Place()] = middle
+        found = self.plays()
+        alone = [self._alone(n, found) for n, value in enumerate(self.deviations) if value]
         # What a thread is thinner by turns the worm by itself over the lead, and the wheel with it.
         factor = g.wheel_mean_diameter / g.wheel_reference_diameter
         taken = Taken(-min(found.values()) / _MICROMETRES, factor)
@@ -256,13 +320,26 @@ class Mounted:
         warm = None
         if given.temperatures is not None:
             apart = Warmth.of(gearset, given.temperatures, given.housing).apart
-            shifted = {place: self.play(place.further(apart)) for place in found}
+            shifted = self.plays(apart)
             warmth = shifted[Place()] - middle
             warm = between(shifted.values(), warmth), warmth
         return assembled(
             gearset, given, allowed, parts, between(found.values(), 0.0), wear,
             by=EXACT, exact=True, warm=warm,
         )  # fmt: skip
+
+    def _alone(self, axis: int, found: dict[Place, float]) -> Part:
+        """Return what one deviation brings, nothing else off; what is found may be more."""
+        middle = found[Place()]
+        own = {
+            place: value
+            for place, value in found.items()
+            if not any(off for k, off in enumerate(place) if k != axis)
+        }
+        top = max(own, key=own.__getitem__)
+        if axis:
+            top = self._climbed(top, (axis,))
+        return Part(_NAMES[axis], min(own.values()) - middle, 0.0, self.play(top) - middle)
 
 
 def corner_table(corners: tuple[Corner, ...], nominal: Corner, resolution: float) -> Table:

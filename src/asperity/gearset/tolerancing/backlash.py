@@ -30,6 +30,8 @@ from asperity.results.words import Number, Sentence, text_of
 GEOMETRY = "by geometry"
 EXACT = "by the exact flanks"
 _MICROMETRES = 1e3
+# What is below this is rounding of allowances that leave nothing, um.
+_ROUNDING = 1e-3
 _ARCMINUTES = 60.0 * 180.0 / math.pi
 
 
@@ -75,6 +77,10 @@ class Interval(NamedTuple):
     def times(self, factor: float) -> "Interval":
         """Return it by another measure."""
         return Interval(*(factor * value for value in self))
+
+    def rounded(self) -> "Interval":
+        """Return it with what is rounding told as none."""
+        return Interval(*(0.0 if abs(value) < _ROUNDING else value for value in self))
 
 
 class Measure(NamedTuple):
@@ -343,6 +349,7 @@ def assembled(
     if more is not None:
         last = states.get("warm", states["new"])
         states["worn"] = Interval(*(value + more for value in last))
+    states = {name: interval.rounded() for name, interval in states.items()}
     return Backlash(states, parts, said, warmth, more, by, allowed)
 
 
