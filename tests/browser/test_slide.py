@@ -383,3 +383,14 @@ def test_a_refused_elevation_keeps_its_field_and_the_old_headline_is_of_before(s
     settled(page)
     expect(page.locator(".fault, .of-before")).to_have_count(0)
     expect(page.locator(".ball figcaption")).to_have_text("direction 0°, elevation 90°")
+
+
+def test_what_is_refused_elsewhere_leaves_the_ball_to_the_hand(seen):
+    page = seen.open("slide", case="pin-on-disc")
+    expect(page.locator(".headline [data-key=ratio]")).to_be_visible()
+    page.get_by_label("mass, typed").fill("abc")
+    page.get_by_label("mass, typed").press("Enter")
+    expect(page.locator(".fault")).to_contain_text("slider.mass")
+    page.get_by_label("elevation, typed").fill("30 deg")
+    page.get_by_label("elevation, typed").press("Enter")
+    expect(page.locator(".ball figcaption")).to_have_text("direction 0°, elevation 30°")

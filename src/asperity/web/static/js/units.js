@@ -6,7 +6,7 @@ const PREFIX = {
   pico: 1e-12,
 };
 const BASES = ["m", "s", "g", "K", "A", "rad"];
-/** Units as the command line has them: names, how much of what one is, and where its scale begins. */
+/** Units as on the command line: names, how much of what one is, where its scale begins. */
 const UNITS = Object.fromEntries(`m meter metre=1 m;s second sec=1 s;g gram=1 g;K kelvin=1 K;A ampere=1 A;
 % percent=0.01;rad radian=1 rad;deg degree °=0.017453292519943295 rad;arcmin arcminute=2.908882086657216e-4 rad;
 turn rev revolution=360 deg;rpm=1 turn/min;min minute=60 s;h hr hour=3600 s;Hz hertz=1 1/s;
@@ -55,7 +55,7 @@ function measure(text) {
   return (known[text] = { size, powers, zero: 0 });
 }
 
-/** A unit that is typed, by names and powers; `kind`: the powers wanted. */
+/** A typed unit by names and powers; `kind`: the powers wanted. */
 function read(unit, kind) {
   const text = unit.replaceAll("**", "^").replaceAll("²", "2").replaceAll("³", "3").replace(/°(?=[CF])/g, "deg")
     .replace(/\/\s*\(([^()/]+)\)/, (_, under) => `/${under.trim().split(/\s*[*·]\s*|\s+/).join("/")}`);

@@ -83,7 +83,7 @@ export function view() {
       </section>
       <${Headline} numbers=${numbers} />
       <${Stage} series=${point.data?.series} ratio=${answer.ratio} k=${answer.velocity_ratio}
-        limit=${answer.static_drive_force_N} refused=${Boolean(point.error)} now=${point.now} />
+        limit=${answer.static_drive_force_N} refused=${/n\.(dir|elev)/.test(point.error?.message)} now=${point.now} />
       <section class="shown" aria-label="what comes of it">
         <${Curves} k=${answer.velocity_ratio} ratio=${answer.ratio} failed=${Boolean(point.error)} />
         ${drawn}
