@@ -230,6 +230,7 @@ def test_a_refused_text_leaves_no_unit_and_goes_when_it_is_emptied(slide):
     expect(slide.locator(".fault")).to_be_visible()
     typed(slide, "frequency, typed", "4")
     expect(box).to_have_value("4 kHz")
+    settled(slide)
     typed(slide, "frequency, typed", "-3")
     expect(slide.locator(".fault")).to_be_visible()
     typed(slide, "frequency, typed", "")
