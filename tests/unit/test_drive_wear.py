@@ -178,6 +178,15 @@ def test_a_flank_that_wears_no_further_ends_with_the_cause_and_what_is_known(
 
 
 @pytest.mark.slow
+def test_after_its_most_steps_it_ends_with_what_is_known(monkeypatch):
+    monkeypatch.setattr(solve, "_MOST_STEPS", 2)
+    found = solve.answer(solve.prepare(case(), depth="6 um"), Run())
+    assert len(found.turns) == 3
+    assert 1.0 < found.depth_max < 6.0
+    assert "steps" in found.notes[0]
+
+
+@pytest.mark.slow
 def test_it_ends_after_so_many_turns():
     found = solve.answer(solve.prepare(case(), revolutions="10"), Run())
     assert found.revolutions == pytest.approx(10.0, rel=1e-12)

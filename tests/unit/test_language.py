@@ -112,6 +112,7 @@ DUTIES = [
         ("rate", ("tolerances.fit=C", "tolerances.centre_distance=js7")),
         ("rexs", ()),
         *((("shafts", ("worm_shaft.load=[{at='2 mm', radial='3000 N'}]",)),
+           ("shafts", ("worm_shaft.bearing=[{at='24 mm', carries='both'}, {at='186 mm'}]",)),
            ("rate", ("worm_shaft.bearing=[{at='8 mm', carries='both'}, {at='45 mm'}]",)))
           if "worm_shaft" in raw else ()),
     )
@@ -151,6 +152,9 @@ WORDY = [
     ("gearset-3", "spectrum.step=60 N m, 700 rpm, 10 h", "spectrum.duty=S3 15 %",
      "gearset.wheel_material=EN-GJS-400-15", "gearset.flank=ZC"),
     ("gearset-3", "operation.input_power=2 kW", "rating.iso14521_edition=1998"),
+    # What may jam.
+    ("gearset-3", "tolerances.thread=['0 um','-10 um']", "tolerances.tooth=['-40 um','-60 um']",
+     "tolerances.centre_distance=js9"),
 ]  # fmt: skip
 
 

@@ -40,6 +40,16 @@ _MOST_STEPS = 500
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 _ENOUGH = 1e-9
 _HOUR, _MICRO, _MILLI3, _MEGA = 3600.0, 1e6, 1e9, 1e6
+_FURTHER = "; wear goes no further in this model, whatever the torque"
+_FULL = (
+    "worn to the worm's shape, more than half of a flank would bear at once, beyond what the "
+    f"contact holds{_FURTHER}"
+)
+_OVERLAP = (
+    "worm and teeth would overlap by more than a tenth of the module, as nothing bears but rims of "
+    f"what is worn{_FURTHER}"
+)
+_MANY = f"that is {_MOST_STEPS} steps, each {_MICRO * DEEPEST:g} um where it wears fastest by then"
 _COURSES = (
     "turns", "depth_course", "mean_course", "pressure_course", "peak_course", "error_course",
     "torque_course", "deflection_course", "area_course",
@@ -131,7 +141,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
                 if before is None:
                     raise
                 # As it was a step ago, of which all is known.
-                now, ended = before, _ended(now, error)
+                now, ended = before, _ended(before, _FULL if error.full else _OVERLAP)
                 break
             now.rows.append(np.array([
                 now.turns, now.depth.max(), now.depth @ area / area.sum(), taken.force / taken.area,
@@ -143,10 +153,8 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             if now.depth.max() >= asked.depth * (1.0 - _ENOUGH) or left <= _ENOUGH * now.turns:
                 break
             if len(now.rows) > _MOST_STEPS:
-                raise InputError(
-                    f"more than {_MOST_STEPS} steps, after {now.turns:.4g} turns: take a smaller "
-                    "--depth or fewer --revolutions"
-                )
+                ended = _ended(now, _MANY)
+                break
             # Where it wears fastest, and not beyond the depth at which it ends.
             still = (asked.depth - now.depth) / np.maximum(rate, 1e-300)
             length = min(DEEPEST / float(rate.max()), float(still.min()), left)
@@ -194,18 +202,11 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
     )
 
 
-def _ended(now: _Worn, error: TooMuchError) -> tuple[str, ...]:
+def _ended(worn: _Worn, why: str) -> tuple[str, ...]:
     """Return why a flank is worn no further."""
-    why = (
-        "worn to the worm's shape, more than half of a flank would bear at once, beyond what the "
-        "contact holds"
-        if error.full
-        else "worm and teeth would overlap by more than a tenth of the module, as nothing bears "
-        "but rims of what is worn"
-    )
     return (
-        f"it ends before the depth or the turns asked for, {_MICRO * now.depth.max():.4g} um deep "
-        f"at most: {why}; wear goes no further in this model, whatever the torque",
+        f"it ends before the depth or the turns asked for, {_MICRO * worn.depth.max():.4g} um deep "
+        f"at most: {why}",
     )
 
 
