@@ -290,6 +290,7 @@ def test_the_slope_of_a_deck_of_one_tooth_is_of_all_the_load_on_it(setup):
 
 
 @HAS_CCX
+@BY_ONE_TOOTH
 @pytest.mark.parametrize("angle", [0.0, 0.4])
 def test_calculix_finds_the_torque_with_the_slope_at_rest_of_dahl_s_law(angle, tmp_path):
     made = alone(case("drive.teeth=1", f"operation.output_torque={LOAD} N m")).at(angle)

@@ -93,6 +93,7 @@ def test_three_teeth_feel_the_forces_and_moments_that_the_loaded_contact_gives_t
 
 
 @pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_calculix_finds_the_same_stress_at_the_fillet")
 def test_on_finer_hexahedra_the_stress_stays():
     loads = loads_of(static())
     worst = max(loads, key=lambda load: load.normal)
