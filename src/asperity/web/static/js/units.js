@@ -22,8 +22,8 @@ BTU Btu=1055.05585262 J;acre=43560 ft2;hp horsepower=550 ft lbf/s`
   }));
 const FACTOR = /(?:^|\s*([*/·])\s*|\s+)(?:1(?!\d)|([a-zµμ]+|[%°]))(?:\s*\^\s*(-?\d+)|([23]))?/iy;
 
-/** @typedef {{size: number, powers: number[], zero: number}} Measure in the bases */
-/** @type {Record<string, Measure | null>} */
+/** Of each unit {size, powers, zero}, in the bases. */
+/** @type {Record<string, any>} */
 const known = Object.fromEntries(["", ...BASES].map((one) =>
   [one, { size: 1, powers: BASES.map((each) => Number(each === one)), zero: 0 }]));
 
@@ -36,7 +36,7 @@ function named(name) {
   return unit && { ...unit, size: PREFIX[start] * Number(size) * unit.size, zero: Number(zero) };
 }
 
-/** What a unit is worth, of names and powers; null where it is none. @returns {Measure | null} */
+/** What a unit is worth, of names and powers; null where it is none. @returns {any} */
 function measure(text) {
   if (Object.hasOwn(known, text)) return known[text];
   known[text] = null;
