@@ -2,8 +2,8 @@
 
 Run it with ``make bench``. Every line gives a time and a ratio: on a shared machine only the ratio
 means something, but for two times that are held as bounds: of a million variants with three steps,
-and of a spectrum of ten thousand. All runs are on one core. The other ways: a loop of the package's single calls,
-and the formulas written down plainly for floats, unchecked.
+and of a spectrum of ten thousand. All runs are on one core. The other ways: a loop of the package's
+single calls, and the formulas written down plainly for floats, unchecked.
 """
 
 import math
