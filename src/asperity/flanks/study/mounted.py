@@ -11,7 +11,7 @@ class MountedStudy(FlankStudy):
 
     drawings: ClassVar[Mapping[str, str]] = {
         **FlankStudy.drawings,
-        "corners": "asperity.flanks.study.corner_plots:corners",
+        "corners": "asperity.flanks.study.plots:corners",
     }
     captions: ClassVar[Mapping[str, str]] = {
         **FlankStudy.captions,
