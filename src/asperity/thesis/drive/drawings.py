@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.results.figures import BLACK, BLUE, COLOURS, GREEN, VERMILION, axes_grid, legend
-from asperity.thesis.drawing import DOTTED, asperity, legend_above, limit, line, marks
+from asperity.thesis.drawing import DOTTED, arrow, asperity, legend_above, limit, line, marks
 from asperity.thesis.flanks.drawings import BRONZE, STEEL, View, paint
 from asperity.thesis.flanks.shapes import Shape
 
@@ -232,11 +232,11 @@ def model(dataset: "xr.Dataset") -> "Figure":
         axes.annotate(name, end, beside, textcoords="offset points", weight="bold")
     axes.annotate("AB: 4394 N m/rad", ends[1], (10, -22), textcoords="offset points")
     tip = ends[1] + _projected(_WHOLE, 26.0 * dataset["axis"].values)
-    axes.annotate("", tip, ends[1], arrowprops={"arrowstyle": "->", "color": BLACK})
+    arrow(axes, ends[1], tip, BLACK, arrowstyle="->")
     axes.annotate("X", tip, (4, -2), textcoords="offset points")
     for name, direction in zip("YZ", dataset["across"].values, strict=True):
         end = ends[1] + _projected(_WHOLE, 26.0 * direction)
-        axes.annotate("", end, ends[1], arrowprops={"arrowstyle": "->", "color": BLACK})
+        arrow(axes, ends[1], end, BLACK, arrowstyle="->")
         axes.annotate(name, end, (4, -2), textcoords="offset points")
         axes.update_datalim([end])
     axes.update_datalim([tip])

@@ -1,7 +1,7 @@
 """The pictures about flanks and of bodies in space, each drawn from its dataset alone.
 
 What is further away is painted first, so that what is nearer hides it. Light comes from over the
-left shoulder.
+left shoulder; the projection is parallel.
 """
 
 from collections.abc import Mapping, Sequence
