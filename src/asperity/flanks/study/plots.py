@@ -255,5 +255,5 @@ def corners(dataset: "xr.Dataset") -> "Figure":
             panel.set_xlabel("from mid-face (mm)")
     if filled is not None:
         bar = figure.colorbar(filled, ax=axes)
-        bar.set_label(f"gap (µm), bare above {film:g}; dashed: as meant")
+        bar.set_label(f"gap (µm), bare above {film:g};\ndashed: as meant")
     return figure
