@@ -8,7 +8,12 @@ from collections.abc import Callable
 from typing import Any, Protocol, TypeVar
 
 from asperity.errors import MissingExtraError, shown
-from asperity.tribometer.instruments.protocols import Instrument, InstrumentError
+from asperity.tribometer.instruments.protocols import (
+    Instrument,
+    InstrumentError,
+    one_line,
+    reported,
+)
 from asperity.tribometer.instruments.words import ENDS, Spoken
 
 T = TypeVar("T")
@@ -65,13 +70,13 @@ class _Line:
 
     def tell(self, text: str) -> None:
         """Send a line."""
-        with self.lock, _Reported(self.name, self._errors):
+        with self.lock, self._reported():
             self._waited()
             self._write(text.encode("ascii") + self._end)
 
     def ask(self, text: str) -> str:
         """Send a line and return the answer without its end."""
-        with self.lock, _Reported(self.name, self._errors):
+        with self.lock, self._reported():
             if self._owed:
                 self._owed = False
                 self._answer()
@@ -83,7 +88,7 @@ class _Line:
 
     def clear(self) -> None:
         """Throw away what an earlier command left."""
-        with self.lock, _Reported(self.name, self._errors):
+        with self.lock, self._reported():
             self._clear()
 
     def close(self) -> None:
@@ -95,6 +100,12 @@ class _Line:
 
     def _clear(self) -> None:
         raise NotImplementedError
+
+    def _reported(self) -> contextlib.AbstractContextManager[None]:
+        return reported(
+            self._errors, "line lost",
+            lambda why: f"{self.name}: the line is lost ({why}); look at the cable",
+        )  # fmt: skip
 
     def _begin(self) -> None:
         """Do what a question begins with."""
@@ -222,7 +233,7 @@ class VisaLine(_Line):
             self._device.read_termination = self._answer_end.decode() or None
         except Exception as error:  # of whichever VISA library there is
             raise InstrumentError(
-                f"{name} cannot be opened: {_said(error)}; look at {words.table}.address",
+                f"{name} cannot be opened: {one_line(error)}; look at {words.table}.address",
                 kind="line lost",
             ) from None
         self._write = self._device.write_raw
@@ -316,29 +327,8 @@ class SpokenDevice(Instrument):
             raise InstrumentError(f"{self.name} refuses {what}: {shown(answer)}", kind="refused")
 
 
-class _Reported:
-    """Turns what a broken line raises into one line."""
-
-    def __init__(self, name: str, errors: tuple[type[BaseException], ...]) -> None:
-        self._name, self._errors = name, errors
-
-    def __enter__(self) -> None:
-        return None
-
-    def __exit__(self, kind: object, error: BaseException | None, _trace: object) -> None:
-        if isinstance(error, self._errors):
-            raise InstrumentError(
-                f"{self._name}: the line is lost ({_said(error)}); look at the cable",
-                kind="line lost",
-            ) from None
-
-
 def _late(error: BaseException) -> bool:
     return "TMO" in str(error)
-
-
-def _said(error: BaseException) -> str:
-    return " ".join(str(error).split()) or type(error).__name__
 
 
 def _serial() -> Any:

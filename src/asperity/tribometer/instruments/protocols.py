@@ -4,9 +4,10 @@ Each kind is a small protocol; a backend is a class that follows it. All of them
 their safe state at any time, as often as one likes.
 """
 
+import contextlib
 import dataclasses
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
@@ -39,6 +40,22 @@ class InstrumentError(AsperityError):
     def __init__(self, message: str, *, kind: str = "instrument") -> None:
         super().__init__(message)
         self.kind = kind
+
+
+def one_line(error: BaseException) -> str:
+    """Return what a driver says in one line, or what it raised where it says nothing."""
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+@contextlib.contextmanager
+def reported(
+    errors: tuple[type[BaseException], ...], kind: str, said: Callable[[str], str]
+) -> Iterator[None]:
+    """Turn what a driver raises into one line, `said` of its own words."""
+    try:
+        yield
+    except errors as error:
+        raise InstrumentError(said(one_line(error)), kind=kind) from None
 
 
 class StillOnError(InstrumentError):
