@@ -7,12 +7,12 @@ of relief. Four of the five are within 3 % of ours; 822 MPa is 4.4 % below. What
 again here to 0.5 % at all five loads: each tooth has the force of the condensed contact, and what
 the tooth gives beside a half-space is taken at the nodes of the coarse mesh as it is, and linear
 between them. At a node, and beside it, that is what the elements make of a point, 8 nm/N where
-pairs further apart lead to 1 nm/N, and the contact goes round it. With half-spaces alone, at one and the same force, the dense patches have Hertz's peak,
-and ours. Hertz decides: the ellipse of the curvatures that worm and wheel have where they touch
-(Johnson, Contact Mechanics, 4.26 to 4.29), found from exact distances alone, gives
-79.32 MPa/N^(1/3) on the middle tooth and 104.5 on the one before it. Ours stand within 2e-3 of it
-under a small load; from 10 to 366 N m the middle tooth stays within 5e-3, the other, which bears
-near its tip, within 1.5e-2.
+pairs further apart lead to 1 nm/N, and the contact goes round it. With half-spaces alone, at one
+and the same force, the dense patches have Hertz's peak, and ours. Hertz decides: the ellipse of the
+curvatures that worm and wheel have where they touch (Johnson, Contact Mechanics, 4.26 to 4.29),
+found from exact distances alone, gives 79.32 MPa/N^(1/3) on the middle tooth and 104.5 on the one
+before it. Ours stand within 2e-3 of it under a small load; from 10 to 366 N m the middle tooth
+stays within 5e-3, the other, which bears near its tip, within 1.5e-2.
 """
 
 import functools
@@ -199,7 +199,9 @@ def test_what_it_took_at_the_nodes_is_the_mesh_s_own():
     # Three elements apart both are the same; at the nodes themselves one is several times larger.
     far = inner[:, :-3].ravel(), inner[:, 3:].ravel()
     np.testing.assert_allclose(smooth[far], own[far], rtol=1e-12)
-    assert (np.diag(own)[inner] > 3.0 * np.diag(smooth)[inner]).all()
+    ratio = (np.diag(own) / np.diag(smooth))[inner]
+    assert ratio.min() > 2.0
+    assert np.median(ratio) > 4.0
 
 
 @pytest.mark.parametrize("load", OTHER)
