@@ -3,7 +3,7 @@
 from urllib.parse import urlencode
 
 import pytest
-from apparatus.browser import answered, settled
+from apparatus.browser import answered, copied, settled
 from playwright.sync_api import expect
 
 GEAR = [
@@ -103,3 +103,51 @@ def test_a_word_that_is_near_none_of_a_list_leaves_the_list_and_the_way_back(see
     page.get_by_role("button", name="back to 74.93 mm").click()
     settled(page)
     expect(page.locator(".fault")).to_have_count(0)
+
+
+LAW = {"set.friction.max_deflection": "70 nm", "set.friction.law": "split",
+       "set.friction.transfer": "0.7"}  # fmt: skip
+JOBS = [
+    ("drive", {}, "vibration.frequency", "abc", "frequency 4 kHz", "back to 20 kHz", "shake it"),
+    ("block", {}, "vibration.direction", "5 kHz", "direction 5°", "back to 0°", "settle"),
+    ("flanks", {}, "hob.tilt", "1 kg", "tilt 1°", "back to", "cut the wheel"),
+    ("rig", {"case": "disc-on-disc", **LAW}, "friction.mu", "1e400", "mu 0.1", "without mu", ""),
+]
+"""Screens whose answers are jobs': what is refused there, what mends it, and the button of one."""
+
+
+@pytest.mark.parametrize(("screen", "params", "path", "text", "mend", "back", "job"), JOBS)
+@pytest.mark.parametrize("pressed", [False, True])
+def test_where_a_job_answers_what_is_refused_is_said_as_it_is_set_and_a_mend_leaves_nothing_of_it(
+    seen, screen, params, path, text, mend, back, job, pressed
+):
+    page = seen.open(screen, **params)
+    settled(page)
+    before = page.evaluate("location.hash")
+    page.evaluate(
+        "([hash, more]) => { location.hash = hash + (hash.includes('?') ? '&' : '?') + more; }",
+        [before, urlencode({f"set.{path}": text})],
+    )
+    settled(page)
+    fault = page.locator(".fault").first
+    expect(fault).to_contain_text(f"{path} is")
+    if screen != "rig":
+        assert text not in " ".join(copied(page))
+        page.get_by_role("button", name="copy command").click()
+        expect(page.locator(".toast")).to_contain_text("not yet")
+    if screen in ("drive", "block"):
+        assert page.locator("[aria-invalid=true]").count() > 0
+    if pressed and job:
+        page.get_by_role("button", name=job, exact=True).click()
+        settled(page)
+    mending = page.locator(".mending")
+    expect(mending.get_by_role("button", name=back)).to_be_visible()
+    value = mending.locator("button.main").first.get_attribute("data-text")
+    mending.get_by_role("button", name=mend).click()
+    settled(page)
+    expect(page.locator(".fault")).to_have_count(0)
+    expect(page.locator(".mending")).to_have_count(0)
+    expect(page.locator("[aria-invalid=true]")).to_have_count(0)
+    expect(page.locator(".of-before")).to_have_count(0)
+    if screen != "rig":
+        assert f"{path}={value}" in copied(page)

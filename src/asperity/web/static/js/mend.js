@@ -44,5 +44,5 @@ export function Mending({ line, settings, before, own, setAll, unset }) {
         ${names.map((name) => html`<option>${name}</option>`)}</select>` : null}
       ${settings[path] !== before[path] && !texts(path).includes(was(path)) ? html`<button type="button"
         onClick=${() => back(path)}>
-        ${was(path) ? `back to ${written(was(path))}` : `without ${say(path)}`}</button>` : null}`)}</p>`;
+        ${was(path) ? `back to ${printed(written(was(path)))}` : `without ${say(path)}`}</button>` : null}`)}</p>`;
 }

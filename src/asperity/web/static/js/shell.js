@@ -1,6 +1,6 @@
 /** What is around every screen: where to go, the case, what to take along, what went wrong. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
-import { about, forgetCase, loadAbout, post, THERE, useAsked, useCaseFile } from "./api.js";
+import { about, useAsked, useCaseFile } from "./api.js";
 import { Behind } from "./number.js";
 import { address, called, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
 import { inWords, printed } from "./symbols.js";
@@ -135,41 +135,14 @@ function CasePicker({ kinds, first, start = {} }) {
   </div>`;
 }
 
-/** Save the case with what is set as a file of the folder, and open it. */
+/** What saves the case, loaded once somebody wants to. @param {{toml: string | null, unless: any}} props */
 function Save({ toml, unless }) {
-  const box = useRef(null);
-  const [wrong, setWrong] = useState(null);
-  const { name, reset } = useCase();
-  const close = () => (setWrong(null), box.current.close());
-  const save = async (event) => {
-    event.preventDefault();
-    const wanted = String(new FormData(event.target).get("name")).trim();
-    try {
-      const saved = await post("/api/save", { name: wanted, toml, ...(wrong?.status === THERE && { replace: true }) });
-      forgetCase(saved.name);
-      close();
-      await loadAbout();
-      reset(saved.name);
-      tell(`saved as ${about.value.folder}/${saved.name}`);
-    } catch (error) {
-      setWrong(error);
-    }
-  };
-  return html`
-    <button type="button" disabled=${!toml} onClick=${unless(() => box.current.showModal())}>
+  const [wanted, setWanted] = useState(0);
+  const { found, error } = useAsked(wanted ? "save" : "", () => import("./save.js"));
+  useEffect(() => error && tell(error.message), [error, wanted]);
+  return html`<button type="button" disabled=${!toml} onClick=${unless(() => setWanted(wanted + 1))}>
       save case</button>
-    <dialog ref=${box} aria-labelledby="save-title">
-      <form method="dialog" onSubmit=${save}>
-        <h2 id="save-title">Save the case</h2>
-        <p class="says">A file of ${about.value?.folder}; asperity on the command line takes it.</p>
-        <label>name <input name="name" required defaultValue=${`my-${name.replace(/\.toml$/, "")}`}
-          onInput=${() => setWrong(null)}
-          pattern="[A-Za-z0-9][A-Za-z0-9 _.+\\-]*" title="letters, digits, - _ ." /></label>
-        <output role="alert">${wrong?.message}</output>
-        <p class="row"><button type="submit" class="main">${wrong?.status === THERE ? "replace it" : "save"}</button>
-          <button type="button" onClick=${close}>cancel</button></p>
-      </form>
-    </dialog>`;
+    ${found ? html`<${found.Saving} toml=${toml} wanted=${wanted} />` : null}`;
 }
 
 /** What is refused as it was given, and what it must be in the units that are shown. @param {string} line */

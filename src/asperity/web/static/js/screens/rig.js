@@ -10,6 +10,7 @@ import { Screen, tell } from "../shell.js";
 import { OWN, Refusals, Signals } from "../signals.js";
 import { go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
+import { useChecked } from "../taken.js";
 import { digits } from "../units.js";
 import { headed } from "../us.js";
 import { Files, placeOf, useJob, useShipped, Work, WorkPanel } from "../work.js";
@@ -40,11 +41,15 @@ export function view() {
   const reduced = useJob("rig reduce", asked);
   const found = reduced.data?.answer;
   const example = useExample(!rec);
-  return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy} now=${!rec || seen.now}
+  // What the law begins from is asked of no recording.
+  const { error: wrong } = useChecked(name ? { case: name, settings } : null);
+  return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy}
+      now=${!wrong && (!rec || seen.now)}
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
       answer=${rec ? seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }
         : example && { ...example.reduced, notes: [] }}
-      error=${rec ? (seen.error ?? reduced.error) : null} actions=${html`<${Report} work=${reduced} />`}>
+      error=${(rec ? seen.error : null) ?? wrong ?? (rec ? reduced.error : null)}
+      actions=${html`<${Report} work=${reduced} />`}>
     <${Live} />
     ${found || example ? html`<${Most} segments=${(found ?? example).segments} />` : null}
     <${Bring} name=${name} rec=${rec} />

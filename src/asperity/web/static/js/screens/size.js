@@ -8,9 +8,10 @@ import { ReportNow } from "../report.js";
 import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
+import { useChecked } from "../taken.js";
 import { digits, split } from "../units.js";
 import { amount, headed, withUnitOf, written } from "../us.js";
-import { useJob, useTaken, WorkPanel } from "../work.js";
+import { useJob, WorkPanel } from "../work.js";
 
 const ASKED = [["ratio", "ratio", "15"], ["output_torque", "torque of the wheel", "300 N m"],
   ["worm_speed", "speed of the worm", "1500 rpm"]];
@@ -222,10 +223,11 @@ export function view() {
   const body = name ? { case: name, settings } : null;
   const write = rest && (() => call("size", { settings: rest, options: { ...options, rank }, report: true }));
   const work = useJob("optimise", body);
-  const { toml } = useTaken(work, "optimise", body);
+  const { toml, error: wrong } = useChecked(body);
   const answer = sized.data?.answer;
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy} now=${sized.now}
+      answer=${{ toml, ...sized.data }} error=${sized.error ?? wrong ?? work.error} busy=${sized.busy}
+      now=${sized.now && !wrong}
       actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
     ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold ${
