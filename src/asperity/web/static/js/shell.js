@@ -149,19 +149,26 @@ function Save({ toml, unless }) {
 const refusal = (line) => line.split(/(?=; it must )/).map((part, at) => (at ? printed(part) : part)).join("");
 
 /**
- * What mends what is refused, of the screen's case; loaded once something is.
- * @param {{error: any, now: boolean}} props
+ * @typedef {{said: string, text: string, put: (text: string) => void, usual?: string,
+ *   field: import("./mends.js").Bounds}} Other what a screen asks beside its case: what it is called, what stands
+ *   there, what sets it, what stands there where nothing is set, and what may
  */
-function Mends({ error, now }) {
+
+/**
+ * What mends what is refused, of the screen's case or beside it; loaded once something is.
+ * @param {{error: any, now: boolean, others: Record<string, Other>}} props
+ */
+function Mends({ error, now, others }) {
   const { name, settings, setAll, unset } = useCase();
   const own = useCaseFile(name)?.tables;
   // What was set when there was an answer, of the same case.
   const before = useRef({ name, settings: {} });
-  if (now && !error) before.current = { name, settings };
+  const beside = Object.entries(others).map(([key, { text }]) => [key, text]);
+  if (now && !error) before.current = { name, settings: { ...settings, ...Object.fromEntries(beside) } };
   const { found } = useAsked(error ? "mend" : "", () => import("./mend.js"));
   const last = before.current.name === name ? before.current.settings : {};
-  return error && found ? html`<${found.Mending} line=${error.message} own=${own} settings=${settings} before=${last}
-    setAll=${setAll} unset=${unset} />` : null;
+  return error && found ? html`<${found.Mending} error=${error} own=${own} settings=${settings} before=${last}
+    others=${others} setAll=${setAll} unset=${unset} />` : null;
 }
 
 /** What a reader of the numbers should know. @param {{notes: string[] | undefined}} props */
@@ -184,11 +191,13 @@ export async function copy(text) {
  *
  * @param {{title: string, lead?: string, kinds?: string[], first?: string, start?: Record<string, string>,
  *   answer?: any, error?: any, busy?: boolean, late?: boolean, now?: boolean, actions?: any,
- *   children: any}} props
+ *   others?: Record<string, Other>, children: any}} props
  *   `kinds` of the cases it opens, the `first` one of them, and the settings that each starts with;
- *   `answer` as the server gives it, with command, toml and notes; `late` and `now` as of `useLive`
+ *   `answer` as the server gives it, with command, toml and notes; `late` and `now` as of `useLive`;
+ *   `others`: what it asks beside the case, by the word that a refusal begins with, or that stands in its `of`
  */
-export function Screen({ title, lead, kinds, first, start, answer, error, busy, late, now = true, actions, children }) {
+export function Screen({ title, lead, kinds, first, start, answer, error, busy, late, now = true, actions, others = {},
+  children }) {
   useEffect(() => {
     fault.value = error?.message ?? "";
   }, [error]);
@@ -216,7 +225,7 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
       ${error ? html`<p>✗ ${refusal(error.message)}</p>` : null}
       ${error && answer?.answer ? html`<p class="says">What is shown below is of before, not of what is set now.</p>`
         : null}
-      ${kinds ? html`<${Mends} error=${error} now=${now} />` : null}
+      ${kinds ? html`<${Mends} error=${error} now=${now} others=${others} />` : null}
       ${reached.length ? html`<p class="says">
         reached: ${reached.map(([key, value]) => `${key} ${value}`).join(", ")}</p>` : null}
     </div>
