@@ -6,6 +6,8 @@ import { fault } from "./state.js";
 import { printed } from "./symbols.js";
 import { written } from "./us.js";
 
+/** What is longer is told by its name alone. */
+const LONG = 60;
 const KEY = /\b([a-z]\w*\.\w+) is /;
 
 /**
@@ -33,13 +35,18 @@ export function Mending({ error, settings, before, own, others, setAll, unset })
   if (!paths.length) return null;
   const say = (path) => others[path]?.said ?? words(path.split(".")[1] ?? path);
   const names = named === paths[0] ? namesIn(must) : [];
-  const texts = (path) => (path === named ? offered(must, now(path), others[path]?.field ?? fieldOf(path)) : []);
-  const was = (path) => before[path] ?? others[path]?.usual ?? own?.[path.split(".")[0]]?.[path.split(".")[1]];
+  const ownOf = (path) => own?.[path.split(".")[0]]?.[path.split(".")[1]];
+  // What the case itself has there is known to be taken.
+  const fieldHere = (path) => others[path]?.field ?? { ...fieldOf(path), ...(ownOf(path) && { example: ownOf(path) }) };
+  const texts = (path) => (path === named ? offered(must, now(path), fieldHere(path)) : []);
+  const was = (path) => before[path] ?? others[path]?.usual ?? ownOf(path);
+  // A list of tables is no word to read.
+  const brief = (text) => (!text || text.length > LONG ? "" : written(text));
   const put = (path, text) => (others[path] ? others[path].put(text) : setAll({ [path]: text }));
   const back = (path) => (others[path] || before[path] !== undefined ? put(path, was(path)) : unset(path));
   return html`<p class="row mending">
     ${named && named !== paths[0] ? html`<span class="says">Set since the last answer: ${
-      paths.map((path) => `${say(path)}, ${written(now(path))}`).join("; ")}.</span>` : null}
+      paths.map((path) => [say(path), brief(now(path))].filter(Boolean).join(", ")).join("; ")}.</span>` : null}
     ${paths.map((path) => html`
       ${texts(path).map((text) => html`<button type="button" class="main" key=${text} data-text=${text}
         onClick=${() => put(path, text)}>${say(path)} ${printed(written(text))}</button>`)}
@@ -49,5 +56,6 @@ export function Mending({ error, settings, before, own, others, setAll, unset })
         ${names.map((name) => html`<option>${name}</option>`)}</select>` : null}
       ${now(path) !== before[path] && !texts(path).includes(was(path)) && (was(path) || !others[path])
         ? html`<button type="button" onClick=${() => back(path)}>
-        ${was(path) ? `back to ${printed(written(was(path)))}` : `without ${say(path)}`}</button>` : null}`)}</p>`;
+        ${brief(was(path)) ? `back to ${printed(brief(was(path)))}`
+          : `${was(path) ? "back to the former" : "without"} ${say(path)}`}</button>` : null}`)}</p>`;
 }

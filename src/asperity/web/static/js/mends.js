@@ -32,8 +32,8 @@ function nearest(names, typed) {
 /** The least and the greatest that a line allows, as texts with units; "" where it names none, or not itself. */
 function bounds(must) {
   const end = (pattern) => pattern.exec(must)?.[1].trim() ?? "";
-  const AMOUNT = String.raw`([+-]?[\d.]+(?:e[+-]?\d+)? ?[^\s;,]*?)(?= and |;|,|$)`;
-  return [end(new RegExp(`(?:at least|from) ${AMOUNT}`)), end(new RegExp(`(?:at most|up to) ${AMOUNT}`))];
+  const AMOUNT = String.raw`([+-]?[\d.]+(?:e[+-]?\d+)? ?[^\s;,]*?)(?= and | to |;|,|$)`;
+  return [end(new RegExp(`(?:at least|from) ${AMOUNT}`)), end(new RegExp(`(?:at most|up to|from [^;,]+? to) ${AMOUNT}`))];
 }
 
 /** The names that a line allows, or means. */

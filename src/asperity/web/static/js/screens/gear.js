@@ -242,6 +242,8 @@ function Efficiency({ sway, geometry, setAll }) {
   </section>`;
 }
 
+const bearings = () => import("../bearings.js");
+
 export function view() {
   const { name, settings, setAll } = useCase();
   const body = name ? { case: name, settings } : null;
@@ -262,7 +264,8 @@ export function view() {
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
     <div class="columns headed moving">
       <div class="controls"><${Ratio} />
-        <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} /><//></div>
+        <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} />
+          <${Later} load=${bearings} part="ShaftBearings" name=${name} /><//></div>
       <div class="headline said-first">${answer ? html`<${Headline} verdict=${answer.verdict} />` : null}</div>
       ${answer && speed ? html`<${Gears} geometry=${answer.geometry} speed=${speed} />` : null}
       ${answer ? html`<div class="pair shown">

@@ -11,13 +11,14 @@ import { Table } from "../table.js";
 import { useChecked } from "../taken.js";
 import { digits, ratioOf, split } from "../units.js";
 import { amount, headed, withUnitOf, written } from "../us.js";
-import { useJob, WorkPanel } from "../work.js";
+import { Later, useJob, WorkPanel } from "../work.js";
 
 /**
- * What is asked: its key, what it is called, what is asked where nothing is said, and what may be.
+ * What is asked: its key, what it is called, what is asked where nothing is said, and what may be, as far as the
+ * series goes.
  * @type {[string, string, string, object][]}
  */
-const ASKED = [["ratio", "ratio", "15", { minimum: 3, maximum: 100 }],
+const ASKED = [["ratio", "ratio", "15", { minimum: 4, maximum: 100 }],
   ["output_torque", "torque of the wheel", "300 N m", { unit: "N m", minimum: 0, open: true }],
   ["worm_speed", "speed of the worm", "1500 rpm", { unit: "rpm", minimum: 0, open: true }]];
 /** @type {[string, string, number][]} */
@@ -217,6 +218,8 @@ function Kept({ rest }) {
     </details>`;
 }
 
+const bearings = () => import("../bearings.js");
+
 export function view() {
   const { name, settings } = useCase();
   const { params } = route.value;
@@ -256,6 +259,7 @@ export function view() {
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
       <${Loads} loads=${loads} /><${Kept} rest=${rest} />
+      <div class="to-press"><${Later} load=${bearings} part="ShaftBearings" name=${name} /></div>
       ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency (of the gearbox)
           and margin. Oil, materials, roughness and life are the case's${loads
           ? html`, and so are its loads (${loads}), which
