@@ -75,7 +75,7 @@ export function ShaftBearings({ name }) {
         </select>
         <p class="says figures" id=${`${id}-says`}>${printed(choices.get(value)?.says)}</p></div>`;
     }))}
-    ${listed ? null : html`<p class="says">Listed are those of the case; with a data file of your own, those that it has:
+    ${listed ? null : html`<p class="says">Listed are those of the case; with a data file of your own, its own too:
       asperity --materials FILE page.</p>`}</fieldset>`;
   return html`<${Unfolded} says="bearings of the shafts" made=${made} />`;
 }

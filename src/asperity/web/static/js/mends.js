@@ -33,7 +33,8 @@ function nearest(names, typed) {
 function bounds(must) {
   const end = (pattern) => pattern.exec(must)?.[1].trim() ?? "";
   const AMOUNT = String.raw`([+-]?[\d.]+(?:e[+-]?\d+)? ?[^\s;,]*?)(?= and | to |;|,|$)`;
-  return [end(new RegExp(`(?:at least|from) ${AMOUNT}`)), end(new RegExp(`(?:at most|up to|from [^;,]+? to) ${AMOUNT}`))];
+  return [end(new RegExp(`(?:at least|from) ${AMOUNT}`)),
+    end(new RegExp(`(?:at most|up to|from [^;,]+? to) ${AMOUNT}`))];
 }
 
 /** The names that a line allows, or means. */

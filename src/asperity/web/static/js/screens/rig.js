@@ -34,7 +34,7 @@ const SEEN = "signals.json";
 
 export function view() {
   const { name, settings } = useCase();
-  const { rec = "" } = route.value.params;
+  const { rec = "", free = FREE[0] } = route.value.params;
   const kept = Object.fromEntries(Object.entries(settings).filter(([path]) => path.startsWith(OWN)));
   const asked = rec ? { arguments: { recordings: [rec] }, settings: kept } : null;
   const seen = useLive("signals", asked && { ...asked, case: name }, 60);
@@ -42,12 +42,15 @@ export function view() {
   const found = reduced.data?.answer;
   const example = useExample(!rec);
   // What the law begins from is asked of no recording.
-  const { error: wrong } = useChecked(name ? { case: name, settings } : null);
+  const { error: wrong, toml } = useChecked(name ? { case: name, settings: { ...LAW, ...settings } } : null);
+  const again = (file) => `The command reads ${rec || example?.seen.recording}, which is not in here: in its folder it \
+gives what vibration did again. Save the case as ${file}, and asperity fit measurements.csv ${file} --free ${
+    free}, of what the command leaves with --out, fits the law.`;
   return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy}
       now=${!wrong && (!rec || seen.now)}
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
-      answer=${rec ? seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }
-        : example && { ...example.reduced, notes: [] }}
+      answer=${rec ? seen.data && { ...seen.data, toml, again, ...(reduced.data && { notes: reduced.data.notes }) }
+        : example && { ...example.reduced, notes: [], again }}
       error=${(rec ? seen.error : null) ?? wrong ?? (rec ? reduced.error : null)}
       actions=${html`<${Report} work=${reduced} />`}>
     <${Live} />
@@ -82,7 +85,7 @@ function useExample(wanted) {
   const path = reduced ? placeOf(reduced.id, SEEN) : "";
   const seen = useAsked(path, (leave) => get(path, leave)).found;
   if (!reduced || !fitted || !seen) return null;
-  return { seen: seen.answer, reduced: reduced.data, segments: reduced.data.answer.segments,
+  return { seen: seen.answer, reduced: { ...reduced.data, toml: fitted.data.toml }, segments: reduced.data.answer.segments,
     fitted: { from: fitted.id, data: fitted.data } };
 }
 

@@ -116,13 +116,13 @@ function Proposals({ found, options, through, parts }) {
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
     a = ${amount(one.centre_distance_mm, "mm", 12)}, ${one.wheel_teeth}:${one.starts}, m = ${
     amount(one.axial_module_mm, "mm", 12)}`}>take</button>`;
-  return html`<${Table} region="proposals" wide="whole proposals" kind="middle" rows=${sorted} columns=${[
-    ["open", open], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
+  return html`<${Table} region="proposals" wide="whole proposals cards" kind="middle" rows=${sorted} columns=${[
+    ["open", open, "taking"], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
     ...COLUMNS.map(([key, said, count]) => ({ key, count, ...headed(said) })).map(({ key, count, head, of }) => [
       html`<button type="button" class="quiet" onClick=${() => sort(key)}>
         ${head}${by === key ? (way === "up" ? " ▲" : " ▼") : ""}</button>`,
       (one) => digits((PERCENT.includes(key) ? 100 : 1) * of(one[key]), count), "right",
-      { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none" },
+      { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none", "data-head": head },
     ]),
     ...(found.some(({ hob }) => hob) ? [["hob", ({ hob }) => hob]] : []),
     ["least safety", (one) => limit(one.limited_by)], ["locks itself", ({ locks }) => locks],
@@ -181,8 +181,8 @@ function TradeOff({ answer }) {
         { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
         single(designs[0], 1), single(designs[1], 2)]} />
     <p class="says to-press">A click on the curve opens that gearset.</p>
-    <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
-      ["open", take], ["design", ({ says }) => says],
+    <${Table} region="designs" wide="whole designs cards" kind="middle" rows=${designs} columns=${[
+      ["open", take, "taking"], ["design", ({ says }) => says],
       [permitted.head, ({ torque }) => digits(permitted.of(torque), 4), "right"],
       ["efficiency of the teeth (%)", ({ efficiency }) => digits(100 * efficiency, 4), "right"], ["verdict", verdict],
     ]} />`;
@@ -220,6 +220,10 @@ function Kept({ rest }) {
 
 const bearings = () => import("../bearings.js");
 
+/** What gives the screen again. */
+const again = (file) => `The command gives the proposals again, by itself. Save the case as ${file}, and asperity \
+optimise ${file} finds what a higher torque costs.`;
+
 export function view() {
   const { name, settings } = useCase();
   const { params } = route.value;
@@ -243,7 +247,7 @@ export function view() {
   const { toml, error: wrong } = useChecked(body);
   const answer = sized.data?.answer;
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${{ toml, ...sized.data }} error=${sized.error ?? wrong ?? work.error} busy=${sized.busy}
+      answer=${{ toml, ...sized.data, again }} error=${sized.error ?? wrong ?? work.error} busy=${sized.busy}
       now=${sized.now && !wrong} others=${others}
       actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
