@@ -157,7 +157,7 @@ def test_where_a_job_answers_what_is_refused_is_said_as_it_is_set_and_a_mend_lea
 
 RATIO, TORQUE, SPEED = "ratio", "torque of the wheel", "speed of the worm"
 ASKED = [
-    (RATIO, "abc", "15"), (RATIO, "0", "3"), (RATIO, "1e9", "100"), (RATIO, "1e400", "15"),
+    (RATIO, "abc", "15"), (RATIO, "0", "15"), (RATIO, "1e9", "100"), (RATIO, "1e400", "15"),
     (TORQUE, "abc", "300 N m"), (TORQUE, "-5 N m", "5 N m"), (TORQUE, "500 kg", "500 N m"),
     (TORQUE, "0", "300 N m"), (TORQUE, "1e400 N m", "300 N m"),
     (SPEED, "1450 U/min", "1450 rpm"), (SPEED, "0 rpm", "1500 rpm"),
@@ -225,7 +225,8 @@ def test_an_end_of_a_grid_that_is_refused_is_mended_by_a_click(seen):
         expect(box).to_have_attribute("aria-invalid", "true")
         button = page.locator(".mending button.main")
         assert button.get_attribute("data-text") == offered, (name, text)
-        expect(page.locator(".mending").get_by_role("button", name="back to")).to_be_visible()
+        back = page.locator(".mending").get_by_role("button", name="back to")
+        expect(back).to_have_count(int(offered != was))
         button.click()
         settled(page)
         expect(page.locator(".fault, .mending, [aria-invalid=true]")).to_have_count(0)

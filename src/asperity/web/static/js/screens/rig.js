@@ -85,7 +85,8 @@ function useExample(wanted) {
   const path = reduced ? placeOf(reduced.id, SEEN) : "";
   const seen = useAsked(path, (leave) => get(path, leave)).found;
   if (!reduced || !fitted || !seen) return null;
-  return { seen: seen.answer, reduced: { ...reduced.data, toml: fitted.data.toml }, segments: reduced.data.answer.segments,
+  const { segments } = reduced.data.answer;
+  return { seen: seen.answer, reduced: { ...reduced.data, toml: fitted.data.toml }, segments,
     fitted: { from: fitted.id, data: fitted.data } };
 }
 
