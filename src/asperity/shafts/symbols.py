@@ -50,7 +50,6 @@ sigma_bm = Annotated[Real, Symbol("sigma_bm", "MPa", finite)]
 tau_m = Annotated[Real, Symbol("tau_m", "MPa", finite)]
 M = Annotated[Real, Symbol("M", "N m", not_negative)]
 T = Annotated[Real, Symbol("T", "N m", finite)]
-F_x = Annotated[Real, Symbol("F_x", "N", finite)]
 
 # Rolling bearings
 F_r = Annotated[Real, Symbol("F_r", "N", not_negative)]

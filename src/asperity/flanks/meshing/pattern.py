@@ -78,27 +78,22 @@ def part_below(
     area = np.where(all_three, whole, 0.0)
     moment = area[:, None] * (first + second + third) / 3.0
 
-    def cut(corner: FloatArray, left: FloatArray, right: FloatArray) -> FloatArray:
-        return (level - corner)[:, None] / np.stack([left - corner, right - corner], axis=1)
+    def cut(
+        here: BoolArray, *corners: tuple[FloatArray, FloatArray]
+    ) -> tuple[FloatArray, FloatArray]:
+        """Return the area and the moment of the triangle that the level cuts off at a corner."""
+        (value, at), *others = ((values[here], places[here]) for values, places in corners)
+        shares = [(level - value) / (other - value) for other, _ in others]
+        piece = whole[here] * shares[0] * shares[1]
+        sides = [t[:, None] * (to - at) for t, (_, to) in zip(shares, others, strict=True)]
+        return piece, piece[:, None] * (at + (sides[0] + sides[1]) / 3.0)
 
-    t = cut(low[one], middle[one], high[one])
-    piece = whole[one] * t[:, 0] * t[:, 1]
-    area[one] = piece
-    centre = (
-        first[one]
-        + (t[:, :1] * (second[one] - first[one]) + t[:, 1:] * (third[one] - first[one])) / 3.0
-    )
-    moment[one] = piece[:, None] * centre
-
-    t = cut(high[two], low[two], middle[two])
-    piece = whole[two] * t[:, 0] * t[:, 1]
-    area[two] = whole[two] - piece
-    centre = (
-        third[two]
-        + (t[:, :1] * (first[two] - third[two]) + t[:, 1:] * (second[two] - third[two])) / 3.0
-    )
+    lowest, between, highest = (low, first), (middle, second), (high, third)
+    area[one], moment[one] = cut(one, lowest, between, highest)
+    piece, its_moment = cut(two, highest, lowest, between)
     middle_of_all = (first[two] + second[two] + third[two]) / 3.0
-    moment[two] = whole[two, None] * middle_of_all - piece[:, None] * centre
+    area[two] = whole[two] - piece
+    moment[two] = whole[two, None] * middle_of_all - its_moment
 
     total = float(area.sum())
     if total <= 0.0:
