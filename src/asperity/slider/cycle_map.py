@@ -12,7 +12,7 @@ from asperity.slider import kernels as k
 from asperity.slider.integrators import LoadedIntegrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.pressed import march_pressed
-from asperity.slider.shooting import ACCEPTED, differentiated, run, shoot
+from asperity.slider.shooting import ACCEPTED, run, shoot
 from asperity.slider.unknowns import (
     most_unknowns,
     read_unknowns,
@@ -149,14 +149,6 @@ class Cycle:
         return self._marched(growth) if growth > UNSTABLE else growth
 
     def _by_differences(self) -> float:
-        if self.q is not None:
-            unknowns = len(self.jacobian)
-            found = np.empty((unknowns + 1, unknowns))
-            differentiated(
-                self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
-                self.rises, self.body.no_sums()[0], found,
-            )  # fmt: skip
-            self.jacobian, self.slopes = found[:unknowns], found[unknowns]
         return _growth(self.jacobian)
 
     def grows_slowly(self, growth: float) -> bool:
