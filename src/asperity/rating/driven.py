@@ -113,15 +113,15 @@ def told_of(operation: Operation, driven_by: Operation) -> tuple[str, ...]:
     return (f"{followed}, by the losses of ISO/TR 14521",) if key else ()
 
 
-def _require_consistent(given: Inputs, by_iso: bool) -> None:
+def _require_consistent(inputs: Inputs, by_iso: bool) -> None:
     """Raise InputError where the gearset's numbers do not belong together."""
     try:
-        given.gearset.require_consistent()
+        inputs.gearset.require_consistent()
     except InputError as error:
         # The end of h* tells more about a ratio or module that is too large.
         try:
             if by_iso:
-                film_parameter_of(given)
+                film_parameter_of(inputs)
         except FilmParameterError as film:
             raise FilmParameterError(
                 f"{film}; {error}", film.value, film.driver, film.limits

@@ -51,17 +51,17 @@ class DutyMean(Quantities):
         )  # fmt: skip
 
 
-def duty_mean(given: Inputs, parts: Sequence[DutyPart]) -> DutyMean | None:
+def duty_mean(inputs: Inputs, parts: Sequence[DutyPart]) -> DutyMean | None:
     """Return what the parts of a duty cycle come to together; None without any."""
     if not parts:
         return None
     hours = math.fsum(part.hours for part in parts)
-    turns = math.pi / 30.0 / float(given.gear_ratio)
+    turns = math.pi / 30.0 / float(inputs.gear_ratio)
     powers = [part.torque * part.speed * turns for part in parts]
     carried = math.fsum(p.hours * power for p, power in zip(parts, powers, strict=True))
     driven = [
         (part.hours * power, part.hours * part.loss)
-        for part, power, load in zip(parts, powers, given.duty, strict=True)
+        for part, power, load in zip(parts, powers, inputs.duty, strict=True)
         if not load.back
     ]
     out, lost = (math.fsum(each) for each in zip(*driven, strict=True)) if driven else (0.0, 0.0)
@@ -75,14 +75,14 @@ def duty_mean(given: Inputs, parts: Sequence[DutyPart]) -> DutyMean | None:
     )
 
 
-def duty_parts(given: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
+def duty_parts(inputs: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
     """Return the parts of a duty cycle; none without one."""
-    if not given.duty or "p_m_star" not in iso or "E_red_MPa" not in iso:
+    if not inputs.duty or "p_m_star" not in iso or "E_red_MPa" not in iso:
         return ()
     with masking():
-        found = parts_of(given, {key: iso[key] for key in ("p_m_star", "E_red_MPa")})
-    if given.together:
-        found = _each(found[0], len(given.duty))
+        found = parts_of(inputs, {key: iso[key] for key in ("p_m_star", "E_red_MPa")})
+    if inputs.together:
+        found = _each(found[0], len(inputs.duty))
     depths = [float(own["delta_Wn_mm"]) for own in found]
     whole = math.fsum(depths)
     return tuple(
@@ -95,7 +95,7 @@ def duty_parts(given: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
             sump=_known(float(own["theta_S_degC"])),
             loss=float(own["loss_total_W"]),
         )
-        for part, own, depth in zip(given.duty, found, depths, strict=True)
+        for part, own, depth in zip(inputs.duty, found, depths, strict=True)
     )
 
 

@@ -14,50 +14,50 @@ from asperity.results.words import Number, Sentence
 _MOST_PARTS = 3
 
 
-def loads_line(given: Inputs) -> str:
+def loads_line(inputs: Inputs) -> str:
     """Return how many loads there are, for how long, and in which duty."""
-    spectrum, how = given.operation.spectrum, given.how
-    hours = float(given.total(part.hours for part in given.loads))
-    count = len(given.duty)
+    spectrum, how = inputs.operation.spectrum, inputs.how
+    hours = float(inputs.total(part.hours for part in inputs.loads))
+    count = len(inputs.duty)
     duty = "" if spectrum is None or how.kind == "S1" else f", {' '.join(spectrum.duty.split())}"
     if how.kind == "S3":
-        duty += f" of {given.cycle / 60.0:.4g} min"
+        duty += f" of {inputs.cycle / 60.0:.4g} min"
     named = f", {spectrum.duty_class}" if spectrum is not None and spectrum.duty_class else ""
     return f"{count} load{'s' * (count > 1)} in {hours:.4g} h{named}{duty}"
 
 
 def duty_lines(
-    given: Inputs,
+    inputs: Inputs,
     found: dict[str, Rating],
     parts: Sequence[DutyPart],
     lasts: Sequence[Endurance],
     starts: Sequence[Starting],
 ) -> Iterator[str]:
     """Yield the lines of a spectrum and a housing; none without them."""
-    operation, iso = given.operation, found.get("iso14521")
+    operation, iso = inputs.operation, found.get("iso14521")
     if operation.steps is not None:
-        if mean := duty_mean(given, parts):
-            yield _over_all(given, mean)
+        if mean := duty_mean(inputs, parts):
+            yield _over_all(inputs, mean)
         yield from _shares(parts)
         if lasts:
-            hours = float(given.total(part.hours for part in given.loads))
+            hours = float(inputs.total(part.hours for part in inputs.loads))
             yield lasts[0].sentence(hours, "endurance.0")
         if "agma6034" in found:
             factor = operation.service_factor
             times = "" if factor is None else f", times a service factor of {factor:g}"
             yield f"AGMA 6034 has no load spectra: the load nearest to its limit{times}"
     if iso is not None and operation.housing is not None:
-        yield _oil(given, iso)
+        yield _oil(inputs, iso)
     if starts:
         yield starting_line(starts)
 
 
-def _over_all(given: Inputs, mean: DutyMean) -> Sentence:
+def _over_all(inputs: Inputs, mean: DutyMean) -> Sentence:
     """Return what the loads come to together, and of which one the losses before are."""
-    torque, speed = float(given.output_torque), float(given.worm_speed)
+    torque, speed = float(inputs.output_torque), float(inputs.worm_speed)
     occurs = any(
         math.isclose(torque, float(p.torque)) and math.isclose(speed, float(p.speed))
-        for p in given.duty
+        for p in inputs.duty
     )
     return mean.sentence(torque, speed, occurs=occurs, key="duty_mean")
 
@@ -78,7 +78,7 @@ def _shares(parts: Sequence[DutyPart]) -> Iterator[Sentence]:
         yield Sentence("of all wear by ISO/TR 14521: ", Sentence.joined(said))
 
 
-def _oil(given: Inputs, iso: Rating) -> Sentence:
+def _oil(inputs: Inputs, iso: Rating) -> Sentence:
     """Return the temperature of the oil by the balance and by the standard."""
     name = "theta_S_max_degC" if "theta_S_max_degC" in iso else "theta_S_degC"
     values: Any = iso
@@ -88,8 +88,8 @@ def _oil(given: Inputs, iso: Rating) -> Sentence:
         " degC by heat balance, ",
         Number.of(float(values[name]), ".0f", f"iso14521.{name}"),
     ]
-    said.append(" as given" if given.oil_temperature is not None else " by ISO's formula (S1)")
-    housing = given.operation.housing
+    said.append(" as given" if inputs.oil_temperature is not None else " by ISO's formula (S1)")
+    housing = inputs.operation.housing
     measured = housing is not None and housing.idle_loss is not None
     idle = Number.of(float(values["loss_idle_W"]), ".3g", "iso14521.loss_idle_W")
     said += ["; idling ", idle, f" W {'measured' if measured else 'by formula'}"]

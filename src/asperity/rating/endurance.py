@@ -68,20 +68,20 @@ def endurance_table(rows: Sequence[Endurance]) -> Table:
     )
 
 
-def endurance(given: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ...]:
+def endurance(inputs: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ...]:
     """Return the running time until each limit, the shortest first.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         What was rated.
     found : mapping of str to Rating
         Its ratings, by standard.
     """
-    hours = float(given.total(part.hours for part in given.loads) if given.duty else given.life)
+    hours = float(inputs.total(part.hours for part in inputs.loads) if inputs.duty else inputs.life)
     asked = {demand.path: demand.asked for demand in DEMANDS}
-    lasting = dict(_factors(given, found, asked))
-    at_all = dict(_factors(given, found, dict.fromkeys(asked, 1.0)))
+    lasting = dict(_factors(inputs, found, asked))
+    at_all = dict(_factors(inputs, found, dict.fromkeys(asked, 1.0)))
     rows = [
         Endurance(
             standard=path.partition(".")[0],
@@ -97,7 +97,7 @@ def endurance(given: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ..
 
 
 def _factors(
-    given: Inputs, found: Mapping[str, Rating], least: Mapping[str, float]
+    inputs: Inputs, found: Mapping[str, Rating], least: Mapping[str, float]
 ) -> Iterator[tuple[str, float]]:
     """Yield how many times as long it runs until each safety is the least."""
     iso: Any = found.get("iso14521", {})
@@ -107,11 +107,11 @@ def _factors(
         path = "iso14521.safety_pitting"
         of_25000 = float(iso["safety_pitting"]) / iso["Z_h"] / least[path]
         relief = _or(iso, "relief", 1.0)
-        equivalent = _or(iso, "L_He_h", given.life)
+        equivalent = _or(iso, "L_He_h", inputs.life)
         holds = _PITTING_CAP * relief * of_25000 >= 1.0
         yield path, float(25000.0 / equivalent * of_25000**6 if holds else 0.0)
     if "safety_root" in iso and "safety_wear" in iso:
-        yield (path := "iso14521.safety_root"), float(_of_root(given, iso, least[path]))
+        yield (path := "iso14521.safety_root"), float(_of_root(inputs, iso, least[path]))
     bs: Any = found.get("bs721", {})
     if "safety_wear" in bs:
         of_26000 = bs["safety_wear"] / bs["wear_life_factor"] / least["bs721.safety_wear"]
@@ -126,10 +126,10 @@ def _or(rating: Any, key: str, other: Any) -> Any:
     return rating[key] if key in rating else other  # noqa: SIM401 - a Rating has no get
 
 
-def _of_root(given: Inputs, iso: Any, least: float) -> float:
+def _of_root(inputs: Inputs, iso: Any, least: float) -> float:
     """How many times as long it runs until wear leaves too thin a root."""
     worn = min(iso["delta_Wn_mm"], iso["delta_Wlim_mm"])
     # The safety goes with the thickness, which goes down with the wear.
     room = iso["s_ft2_mm"] * (1.0 - least / iso["safety_root"])
-    borne = worn + room * math.cos(float(given.lead_angle)) / _ROOT
+    borne = worn + room * math.cos(float(inputs.lead_angle)) / _ROOT
     return borne / iso["delta_Wn_mm"] if borne <= iso["delta_Wlim_mm"] else math.inf

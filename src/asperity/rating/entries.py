@@ -102,7 +102,7 @@ def words(equation: str) -> tuple[str, ...]:
 
 
 def entries(
-    given: Inputs,
+    inputs: Inputs,
     section: str,
     values: Mapping[str, Any],
     sources: Mapping[str, Source],
@@ -112,7 +112,7 @@ def entries(
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         What the calculation started from.
     section : {'iso14521', 'bs721', 'agma6034'}
         The standard.
@@ -124,7 +124,7 @@ def entries(
     equations : mapping of str to str
         Equations that depend on the case, by key.
     """
-    made = _given_entries(given, section)
+    made = _given_entries(inputs, section)
     # What the user gave, and what is marked as a default, is no reason to trust a result less.
     trusted = {
         entry.symbol: entry.source
@@ -142,7 +142,7 @@ def entries(
             source = weakest(source, fact.source, *rests_on)
             trusted[fact.symbol] = source
         meaning = fact.meaning
-        if given.duty and fact.key == "theta_S_degC":
+        if inputs.duty and fact.key == "theta_S_degC":
             meaning += " in the part of the duty cycle that wears most"
         made.append(
             Entry(
@@ -153,20 +153,20 @@ def entries(
     return tuple(made)
 
 
-def _given_entries(given: Inputs, section: str) -> list[Entry]:
+def _given_entries(inputs: Inputs, section: str) -> list[Entry]:
     """Return the entries of what the calculation of a standard starts from."""
     known = {fact.key: fact for fact in facts("given")}
-    assumed = assumptions(given)
+    assumed = assumptions(inputs)
     made = []
     for key in starts_from(section):
         fact = known[key]
         reason = _reason(fact.path, assumed)
-        equation, source = _equation(given, fact), _source(given, fact)
+        equation, source = _equation(inputs, fact), _source(inputs, fact)
         if reason:
             source = Source("default of asperity", "own choice", reason)
-        elif fact.derived and _at(given, fact.path) is None:
-            equation, source = _derived(given, fact), DEFINITION
-        value: Any = _at(given, fact.of)
+        elif fact.derived and _at(inputs, fact.path) is None:
+            equation, source = _derived(inputs, fact), DEFINITION
+        value: Any = _at(inputs, fact.of)
         if fact.unit == "deg":
             value = math.degrees(value)
         elif "." in fact.of and fact.unit in FROM_SI:
@@ -183,11 +183,11 @@ def _given_entries(given: Inputs, section: str) -> list[Entry]:
     return made
 
 
-def assumptions(given: Inputs) -> Mapping[str, str]:
+def assumptions(inputs: Inputs) -> Mapping[str, str]:
     """Return what was assumed, by ``table.key``."""
     return {
         f"{table.table}.{key}": reason
-        for table in (given.gearset, given.operation, given.options, *given.operation.parts)
+        for table in (inputs.gearset, inputs.operation, inputs.options, *inputs.operation.parts)
         for key, reason in table.assumed.items()
     }
 
@@ -203,24 +203,24 @@ def _reason(path: str, assumed: Mapping[str, str]) -> str:
     return next((assumed[name] for name in names if name in assumed), "")
 
 
-def _equation(given: Inputs, fact: Fact) -> str:
-    if fact.of == "effective_face_width" and given.options.iso14521_face_width != "tip_chord":
+def _equation(inputs: Inputs, fact: Fact) -> str:
+    if fact.of == "effective_face_width" and inputs.options.iso14521_face_width != "tip_chord":
         chord = "sqrt(6 m_x1 d_m1 - 9 m_x1^2)"
-        return chord if given.gearset.wheel_face_width is None else f"min(b_2, {chord})"
+        return chord if inputs.gearset.wheel_face_width is None else f"min(b_2, {chord})"
     return fact.equation
 
 
-def _derived(given: Inputs, fact: Fact) -> str:
-    if fact.path == "gearset.diameter_factor" and given.gearset.worm_pitch_diameter is not None:
+def _derived(inputs: Inputs, fact: Fact) -> str:
+    if fact.path == "gearset.diameter_factor" and inputs.gearset.worm_pitch_diameter is not None:
         return "d_m1/m_x1"
     return fact.derived
 
 
-def _source(given: Inputs, fact: Fact) -> Source:
+def _source(inputs: Inputs, fact: Fact) -> Source:
     if fact.path == "gearset.tooth_proportions":
-        return PROPORTIONS[given.gearset.tooth_proportions]
+        return PROPORTIONS[inputs.gearset.tooth_proportions]
     owner, _, key = fact.of.rpartition(".")
-    thing = _at(given, owner)
+    thing = _at(inputs, owner)
     if hasattr(thing, "source"):
         found: Source = thing.source(key)
         return found

@@ -62,12 +62,12 @@ class Forces(NamedTuple):
         }
 
 
-def forces(given: Inputs, iso: Rating) -> tuple[Forces, ...]:
+def forces(inputs: Inputs, iso: Rating) -> tuple[Forces, ...]:
     """Return the forces of both directions of rotation, by a rating by ISO/TR 14521."""
     tangential, axial, radial = (float(iso[f"F_{name}_N"]) for name in ("tm1", "tm2", "rm"))
-    hand = 1.0 if given.gearset.hand == "right" else -1.0
-    arm = float(given.worm_pitch_diameter) / 2.0
-    span = float(given.bearing_span)
+    hand = 1.0 if inputs.gearset.hand == "right" else -1.0
+    arm = float(inputs.worm_pitch_diameter) / 2.0
+    span = float(inputs.bearing_span)
     made = []
     for rotation, turn in (("clockwise", -1.0), ("anticlockwise", 1.0)):
         # The worm turns by `turn` about +x; its teeth touch the wheel at y = -arm.

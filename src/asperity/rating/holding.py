@@ -85,13 +85,13 @@ def held_table(held: Sequence[Holding]) -> Table:
     )
 
 
-def holding(given: Inputs, locking: SelfLocking) -> tuple[Holding, ...]:
+def holding(inputs: Inputs, locking: SelfLocking) -> tuple[Holding, ...]:
     """Return how the load is held by each friction, with the factor on it and without."""
-    return tuple(_held(given, locking))
+    return tuple(_held(inputs, locking))
 
 
-def _held(given: Inputs, locking: SelfLocking) -> Iterator[Holding]:
-    on_worm = float(given.output_torque) / float(given.gear_ratio)
+def _held(inputs: Inputs, locking: SelfLocking) -> Iterator[Holding]:
+    on_worm = float(inputs.output_torque) / float(inputs.gear_ratio)
     factor = locking.friction_factor
     for standard, pair in itertools.groupby(locking, key=lambda verdict: verdict.standard):
         by_state = {verdict.state: verdict for verdict in pair}
@@ -101,16 +101,16 @@ def _held(given: Inputs, locking: SelfLocking) -> Iterator[Holding]:
             yield Holding(
                 standard=standard,
                 factored=applied,
-                at_rest=on_worm * _efficiency(given, static, share),
-                moving=on_worm * _efficiency(given, dynamic, share),
+                at_rest=on_worm * _efficiency(inputs, static, share),
+                moving=on_worm * _efficiency(inputs, dynamic, share),
             )
 
 
-def _efficiency(given: Inputs, verdict: Verdict, share: float) -> float:
+def _efficiency(inputs: Inputs, verdict: Verdict, share: float) -> float:
     if share == 1.0:
         return verdict.efficiency
     mu = share * verdict.friction
     if verdict.standard == "agma6034":
-        return float(mesh.wheel_driving_efficiency(mu, given.lead_angle, given.pressure_angle))
-    own = mu / friction_share(given, verdict.standard)
-    return float(efficiency.wheel_driving_efficiency(given.lead_angle, own))
+        return float(mesh.wheel_driving_efficiency(mu, inputs.lead_angle, inputs.pressure_angle))
+    own = mu / friction_share(inputs, verdict.standard)
+    return float(efficiency.wheel_driving_efficiency(inputs.lead_angle, own))

@@ -50,13 +50,13 @@ class Found(NamedTuple):
     efficiency: float
 
 
-def plastic_of(given: Inputs) -> Plastic | None:
+def plastic_of(inputs: Inputs) -> Plastic | None:
     """Return the plastic of a wheel; None where it is none."""
-    own = given.gearset.wheel_material.own
+    own = inputs.gearset.wheel_material.own
     return own if isinstance(own, Plastic) else None
 
 
-def judged(given: Inputs, plastic: Plastic) -> Found:
+def judged(inputs: Inputs, plastic: Plastic) -> Found:
     """Return what a wheel of plastic comes to.
 
     Raises
@@ -64,95 +64,95 @@ def judged(given: Inputs, plastic: Plastic) -> Found:
     InputError
         The temperature of its teeth is not known.
     """
-    celsius = given.oil_temperature
+    celsius = inputs.oil_temperature
     if celsius is None:
         raise InputError(
             f"operation.oil_temperature is missing; {plastic.name!r} is a plastic, for which no "
             "standard has a heat balance: give the temperature of its teeth"
         )
-    parts = given.duty or (Part(given.life, given.output_torque, given.worm_speed, 0.0),)
-    torque = given.operation.application_factor * float(given.output_torque)
-    force = number(wheel_tangential_force(torque, given.wheel_mean_diameter))
+    parts = inputs.duty or (Part(inputs.life, inputs.output_torque, inputs.worm_speed, 0.0),)
+    torque = inputs.operation.application_factor * float(inputs.output_torque)
+    force = number(wheel_tangential_force(torque, inputs.wheel_mean_diameter))
     thickness = number(
         strength.root_thickness(
-            given.axial_module, given.wheel_mean_diameter, given.wheel_root_diameter,
-            given.pressure_angle, given.lead_angle, 0.0,
+            inputs.axial_module, inputs.wheel_mean_diameter, inputs.wheel_root_diameter,
+            inputs.pressure_angle, inputs.lead_angle, 0.0,
         )
     )  # fmt: skip
     root = strength.root_shear_stress(
-        force, given.effective_face_width, given.axial_module,
-        strength.form_factor(given.axial_module, thickness), given.lead_angle,
-        strength.rim_factor(given.axial_module, given.rim_thickness),
+        force, inputs.effective_face_width, inputs.axial_module,
+        strength.form_factor(inputs.axial_module, thickness), inputs.lead_angle,
+        strength.rim_factor(inputs.axial_module, inputs.rim_thickness),
     )  # fmt: skip
-    ratio = float(given.gear_ratio)
+    ratio = float(inputs.gear_ratio)
     cycles = sum(60.0 * float(part.hours) * float(part.speed) / ratio for part in parts)
     depth = None
     if plastic.wear_coefficient is not None:
-        depth = sum(_worn(given, plastic, part) for part in parts)
-    efficiency = worm_driving_efficiency(given.lead_angle, plastic.friction)
-    return Found(float(root), float(_pressure(given, torque)), cycles, celsius, depth,
+        depth = sum(_worn(inputs, plastic, part) for part in parts)
+    efficiency = worm_driving_efficiency(inputs.lead_angle, plastic.friction)
+    return Found(float(root), float(_pressure(inputs, torque)), cycles, celsius, depth,
                  float(efficiency))  # fmt: skip
 
 
-def _pressure(given: Inputs, torque: float) -> Real:
+def _pressure(inputs: Inputs, torque: float) -> Real:
     """Return the mean pressure on the flank by ISO/TR 14521, MPa."""
     parameter = contact.contact_parameter(
-        given.starts, given.wheel_teeth, given.diameter_factor, given.axial_module,
-        given.centre_distance, given.pressure_angle, given.profile_shift,
-        wheel_face_width=given.effective_face_width, edition=given.options.iso14521_edition,
-        flank=given.gearset.flank,
+        inputs.starts, inputs.wheel_teeth, inputs.diameter_factor, inputs.axial_module,
+        inputs.centre_distance, inputs.pressure_angle, inputs.profile_shift,
+        wheel_face_width=inputs.effective_face_width, edition=inputs.options.iso14521_edition,
+        flank=inputs.gearset.flank,
     )  # fmt: skip
-    worm, wheel = given.gearset.worm_material, given.gearset.wheel_material
+    worm, wheel = inputs.gearset.worm_material, inputs.gearset.wheel_material
     modulus = contact.reduced_modulus(
         worm.youngs_modulus * FROM_SI["MPa"], worm.poisson_ratio,
         wheel.youngs_modulus * FROM_SI["MPa"], wheel.poisson_ratio,
     )  # fmt: skip
-    return contact.contact_stress(parameter, torque, modulus, given.centre_distance)
+    return contact.contact_stress(parameter, torque, modulus, inputs.centre_distance)
 
 
-def normal_force(given: Inputs, torque: float, friction: float) -> float:
+def normal_force(inputs: Inputs, torque: float, friction: float) -> float:
     """Return the force across the flanks, N, whose part round the wheel gives the torque.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         The gearset.
     torque : float
         Of the wheel, N m, worm driving.
     friction : float
         Of the teeth.
     """
-    round_wheel = number(wheel_tangential_force(torque, given.wheel_mean_diameter))
-    share = math.cos(float(given.pressure_angle)) * math.cos(float(given.lead_angle))
-    return float(round_wheel / (share - friction * math.sin(float(given.lead_angle))))
+    round_wheel = number(wheel_tangential_force(torque, inputs.wheel_mean_diameter))
+    share = math.cos(float(inputs.pressure_angle)) * math.cos(float(inputs.lead_angle))
+    return float(round_wheel / (share - friction * math.sin(float(inputs.lead_angle))))
 
 
-def flank_area(given: Inputs) -> float:
+def flank_area(inputs: Inputs) -> float:
     """Return the area of all flanks of the wheel that the worm works on, one side, mm^2."""
-    g = given.gearset.geometry
+    g = inputs.gearset.geometry
     high = (g.worm_addendum + g.wheel_addendum) / math.cos(g.pressure_angle)
     return float(g.wheel_teeth * g.effective_face_width * high)
 
 
-def _worn(given: Inputs, plastic: Plastic, part: Part) -> float:
+def _worn(inputs: Inputs, plastic: Plastic, part: Part) -> float:
     """Return the depth that a load wears off, mm: k F_n s over the area that it is spread over."""
     assert plastic.wear_coefficient is not None
-    speed = math.pi * float(given.worm_pitch_diameter) * float(part.speed) / 60.0  # mm/s
-    way = 1e-3 * speed / math.cos(float(given.lead_angle)) * 3600.0 * float(part.hours)  # m
-    force = normal_force(given, float(part.torque), plastic.friction)
-    return 1e9 * plastic.wear_coefficient * force * way / flank_area(given)
+    speed = math.pi * float(inputs.worm_pitch_diameter) * float(part.speed) / 60.0  # mm/s
+    way = 1e-3 * speed / math.cos(float(inputs.lead_angle)) * 3600.0 * float(part.hours)  # m
+    force = normal_force(inputs, float(part.torque), plastic.friction)
+    return 1e9 * plastic.wear_coefficient * force * way / flank_area(inputs)
 
 
-def rows_of(given: Inputs) -> tuple[tuple[Row, ...], tuple[str, ...]]:
+def rows_of(inputs: Inputs) -> tuple[tuple[Row, ...], tuple[str, ...]]:
     """Return what a wheel of plastic comes to of what its table lets it, and what is to be said.
 
     Nothing where the wheel is none. Errors as of `judged`, or where the table does not reach so
     far.
     """
-    plastic = plastic_of(given)
+    plastic = plastic_of(inputs)
     if plastic is None:
         return (), ()
-    found = judged(given, plastic)
+    found = judged(inputs, plastic)
     rows = []
     for what, there in (("root", found.root), ("flank", found.flank)):
         may = plastic.bears(what, found.celsius, found.cycles)
@@ -171,15 +171,15 @@ def rows_of(given: Inputs) -> tuple[tuple[Row, ...], tuple[str, ...]]:
         f"rated torque for all cycles; teeth {100.0 * found.efficiency:.3g} % efficient by the "
         f"friction of {plastic.friction:g} that it states"
     )
-    return tuple(rows), (note, *_uncounted(given))
+    return tuple(rows), (note, *_uncounted(inputs))
 
 
-def _uncounted(given: Inputs) -> Iterator[str]:
+def _uncounted(inputs: Inputs) -> Iterator[str]:
     """Say what of a case makes no difference to a wheel of plastic."""
-    spectrum = given.operation.spectrum
+    spectrum = inputs.operation.spectrum
     for there, what in (
-        (spectrum is not None and given.how.kind != "S1", spectrum and spectrum.duty),
-        (given.operation.housing is not None, "[housing]"),
+        (spectrum is not None and inputs.how.kind != "S1", spectrum and spectrum.duty),
+        (inputs.operation.housing is not None, "[housing]"),
     ):
         if there:
             yield (

@@ -328,25 +328,25 @@ def rate(
 
 
 def rated_of(
-    given: Inputs,
+    inputs: Inputs,
     asked: Operation,
     wanted: Sequence[str],
     folder: Path | None,
     tolerances: Tolerances | None,
 ) -> Rated:
     """Return the rating that `rate` describes, of what is given; ``asked`` as it was operated."""
-    gearset = given.gearset
-    tables = tables_of(given.options, folder)
+    gearset = inputs.gearset
+    tables = tables_of(inputs.options, folder)
     found: dict[str, Rating] = {}
     unanswered: dict[str, str] = {}
     steel = gearset.worm_material.taken_for
     notes = []
     if steel is not None:
         notes.append(f"worm material: {steel.note}, by {steel.name} ({steel.confidence})")
-    rows, told = own_table.rows_of(given)
+    rows, told = own_table.rows_of(inputs)
     for name in wanted:
         try:
-            found[name] = rate_by(name, given, tables)
+            found[name] = rate_by(name, inputs, tables)
         except InputError as error:
             if len(wanted) == 1:
                 raise
@@ -358,17 +358,17 @@ def rated_of(
         unanswered=unanswered,
         contact=None,
         backlash=play_of(gearset, tolerances, found),
-        given=given,
+        given=inputs,
         tables_bs721=tables,
         gearset=gearset,
         geometry=gearset.geometry,
         iso14521=found.get("iso14521"),
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
-        self_locking=self_locking(given, found, tables),
-        notes=(*told_of(asked, given.operation), *told, *notes),
+        self_locking=self_locking(inputs, found, tables),
+        notes=(*told_of(asked, inputs.operation), *told, *notes),
         rows=rows,
-        assumed=assumptions(given),
+        assumed=assumptions(inputs),
     )
 
 

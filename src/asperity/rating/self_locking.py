@@ -142,12 +142,12 @@ def locking_friction(lead_angle: gamma_m1, pressure_angle: alpha_n | None = None
     return share * np.tan(lead_angle)
 
 
-def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -> SelfLocking:
+def self_locking(inputs: Inputs, ratings: Mapping[str, Rating], tables: Tables) -> SelfLocking:
     """Judge by the friction of each rating, at rest and at the sliding velocity.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         What was rated.
     ratings : mapping of str to Rating
         By standard; those that are not there are left out. Where the user gave a friction, it
@@ -156,20 +156,20 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -
         Of BS 721.
     """
     plain = {name: name for name in ("iso14521", "bs721") if name in ratings}
-    if given.friction is not None:
+    if inputs.friction is not None:
         plain = {"given": next(iter(plain))} if plain else {}
     verdicts = [
         Verdict(
             standard=name,
             state=state,
             friction=mu,
-            limit=friction_share(given, name) * locking_friction(given.lead_angle),
+            limit=friction_share(inputs, name) * locking_friction(inputs.lead_angle),
             efficiency=efficiency.wheel_driving_efficiency(
-                given.lead_angle, mu / friction_share(given, name)
+                inputs.lead_angle, mu / friction_share(inputs, name)
             ),
         )
         for name, rated_by in plain.items()
-        for state, mu in _friction(given, rated_by, ratings[rated_by], tables)
+        for state, mu in _friction(inputs, rated_by, ratings[rated_by], tables)
     ]
     if "agma6034" in ratings:
         verdicts += [
@@ -177,30 +177,30 @@ def self_locking(given: Inputs, ratings: Mapping[str, Rating], tables: Tables) -
                 standard="agma6034",
                 state=state,
                 friction=mu,
-                limit=locking_friction(given.lead_angle, given.pressure_angle),
+                limit=locking_friction(inputs.lead_angle, inputs.pressure_angle),
                 efficiency=mesh.wheel_driving_efficiency(
-                    mu, given.lead_angle, given.pressure_angle
+                    mu, inputs.lead_angle, inputs.pressure_angle
                 ),
             )
-            for state, mu in _friction(given, "agma6034", ratings["agma6034"], tables)
+            for state, mu in _friction(inputs, "agma6034", ratings["agma6034"], tables)
         ]
-    return SelfLocking(given.lead_angle, given.friction_factor, tuple(verdicts))
+    return SelfLocking(inputs.lead_angle, inputs.friction_factor, tuple(verdicts))
 
 
-def friction_share(given: Inputs, name: str) -> Real:
+def friction_share(inputs: Inputs, name: str) -> Real:
     """What BS 721 divides its friction by, where that is asked for; else 1."""
-    asked = name == "bs721" and given.options.bs721_friction_angle == "mu_over_cos"
-    return np.cos(given.pressure_angle) if asked else 1.0
+    asked = name == "bs721" and inputs.options.bs721_friction_angle == "mu_over_cos"
+    return np.cos(inputs.pressure_angle) if asked else 1.0
 
 
 def locking_margins(
-    given: Inputs, found: Numbers, tables: Tables | None = None
+    inputs: Inputs, found: Numbers, tables: Tables | None = None
 ) -> dict[tuple[str, State], Real]:
     """Return by how much friction is above that from which on a worm locks itself, over it.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         What was rated, arrays of variants among them.
     found : Numbers
         Of ratings, or of variants; a standard that has none is left out.
@@ -212,54 +212,54 @@ def locking_margins(
     dict of (standard, state) to float or ndarray
         At least 0 where the worm locks.
     """
-    tan = np.tan(given.lead_angle)
+    tan = np.tan(inputs.lead_angle)
     limits = {
         "iso14521": tan,
-        "bs721": friction_share(given, "bs721") * tan,
-        "agma6034": np.cos(given.pressure_angle) * tan,
+        "bs721": friction_share(inputs, "bs721") * tan,
+        "agma6034": np.cos(inputs.pressure_angle) * tan,
     }
     keys = {"iso14521": "mu_zm", "bs721": "mu", "agma6034": "mu"}
     margins: dict[tuple[str, State], Real] = {}
     for name, limit in limits.items():
         if f"{name}.{keys[name]}" in found:
-            at_rest = given.friction
+            at_rest = inputs.friction
             if at_rest is None:
-                at_rest = _at_rest(given, name, found, tables or read_tables())
-            margins[name, "static"] = given.friction_factor * at_rest / limit - 1.0
+                at_rest = _at_rest(inputs, name, found, tables or read_tables())
+            margins[name, "static"] = inputs.friction_factor * at_rest / limit - 1.0
             margins[name, "dynamic"] = found[f"{name}.{keys[name]}"] / limit - 1.0
     return margins
 
 
-def _at_rest(given: Inputs, name: str, found: Numbers, tables: Tables) -> Real:
+def _at_rest(inputs: Inputs, name: str, found: Numbers, tables: Tables) -> Real:
     if name == "agma6034":
         return mesh.friction(0.0)
     if name == "bs721":
         return torque.friction(0.0, tables=tables)
-    return _iso_at_rest(given, {key: found[f"iso14521.{key}"] for key in _FACTORS})
+    return _iso_at_rest(inputs, {key: found[f"iso14521.{key}"] for key in _FACTORS})
 
 
 def _friction(
-    given: Inputs, name: str, rating: Rating, tables: Tables
+    inputs: Inputs, name: str, rating: Rating, tables: Tables
 ) -> tuple[tuple[State, float], tuple[State, float]]:
     """Return the friction of a standard at rest and moving, with the factor on it."""
-    if given.friction is not None:
-        at_rest = given.friction
+    if inputs.friction is not None:
+        at_rest = inputs.friction
     elif name == "iso14521":
-        at_rest = float(_iso_at_rest(given, {key: rating[key] for key in _FACTORS}))
+        at_rest = float(_iso_at_rest(inputs, {key: rating[key] for key in _FACTORS}))
     else:
         at_rest = mesh.friction(0.0) if name == "agma6034" else torque.friction(0.0, tables=tables)
     moving = float(rating["mu_zm" if name == "iso14521" else "mu"])
-    return ("static", given.friction_factor * at_rest), ("dynamic", moving)
+    return ("static", inputs.friction_factor * at_rest), ("dynamic", moving)
 
 
-def _iso_at_rest(given: Inputs, factors: Mapping[str, Any]) -> Real:
+def _iso_at_rest(inputs: Inputs, factors: Mapping[str, Any]) -> Real:
     """Mean friction with the standard's law at no sliding velocity, which is its cap."""
-    base = given.base_friction
+    base = inputs.base_friction
     if base is None:
         base = iso_friction.base_friction(
             0.0,
-            family=given.gearset.wheel_material.family,
-            lubrication=given.operation.lubrication,
-            base_oil=given.operation.lubricant.base_oil,
+            family=inputs.gearset.wheel_material.family,
+            lubrication=inputs.operation.lubrication,
+            base_oil=inputs.operation.lubricant.base_oil,
         )
     return iso_friction.mean_friction(base, *(factors[key] for key in _FACTORS))

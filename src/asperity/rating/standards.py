@@ -74,19 +74,19 @@ def judge_of(demand: Demand, options: RatingOptions, tables: Tables) -> Judge:
     return judge
 
 
-def _numbers(name: str, given: Inputs, tables: Tables) -> Values:
+def _numbers(name: str, inputs: Inputs, tables: Tables) -> Values:
     """Return the numbers of a rating by key, without what is told of them."""
     if name == "iso14521":
-        return rated_iso14521(given)[0]
+        return rated_iso14521(inputs)[0]
     if name == "bs721":
-        return rated_bs721(given, tables)[0]
-    return rated_agma6034(given)
+        return rated_bs721(inputs, tables)[0]
+    return rated_agma6034(inputs)
 
 
-def rate_by(name: str, given: Inputs, tables: Tables) -> Rating:
+def rate_by(name: str, inputs: Inputs, tables: Tables) -> Rating:
     """Return the rating by a standard; raises InputError where it cannot be applied."""
     if name == "iso14521":
-        return rate_iso14521(given)
+        return rate_iso14521(inputs)
     if name == "bs721":
-        return rate_bs721(given, tables)
-    return rate_agma6034(given)
+        return rate_bs721(inputs, tables)
+    return rate_agma6034(inputs)

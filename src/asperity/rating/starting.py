@@ -70,28 +70,28 @@ class Starting(Quantities):
     )
 
 
-def has_starts(given: Inputs) -> bool:
+def has_starts(inputs: Inputs) -> bool:
     """Whether the loads of a gearset tell of starts."""
-    if given.operation.steps is None:
+    if inputs.operation.steps is None:
         return False
-    return given.operation.most_starts > 0.0 or given.how.kind != "S1"
+    return inputs.operation.most_starts > 0.0 or inputs.how.kind != "S1"
 
 
 def starting(
-    given: Inputs, iso: Rating | None, locking: SelfLocking, held: Sequence[Holding]
+    inputs: Inputs, iso: Rating | None, locking: SelfLocking, held: Sequence[Holding]
 ) -> tuple[Starting, ...]:
     """Return what starting takes by each friction, where the spectrum has starts."""
-    if iso is None or not has_starts(given):
+    if iso is None or not has_starts(inputs):
         return ()
-    return tuple(_found(given, iso, locking, held))
+    return tuple(_found(inputs, iso, locking, held))
 
 
 def _found(
-    given: Inputs, iso: Rating, locking: SelfLocking, held: Sequence[Holding]
+    inputs: Inputs, iso: Rating, locking: SelfLocking, held: Sequence[Holding]
 ) -> Iterator[Starting]:
-    speed = math.pi / 30.0 * float(given.worm_speed)
+    speed = math.pi / 30.0 * float(inputs.worm_speed)
     lost = float(iso["loss_idle_W"]) + float(iso["loss_seal_W"]) + float(iso["loss_bearing_W"])
-    on_worm = float(given.output_torque) / float(given.gear_ratio)
+    on_worm = float(inputs.output_torque) / float(inputs.gear_ratio)
     # With a factor on the friction each stands twice, first as it acts.
     brakes: dict[str, float] = {}
     for hold in held:
@@ -100,7 +100,7 @@ def _found(
         if one.state != "static":
             continue
         efficiency = float(
-            starting_efficiency(given.lead_angle, one.friction, given.pressure_angle)
+            starting_efficiency(inputs.lead_angle, one.friction, inputs.pressure_angle)
         )
         brake = brakes.get(one.standard, 0.0)
         motor = on_worm / efficiency + lost / speed

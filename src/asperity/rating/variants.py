@@ -171,16 +171,16 @@ def variants(
 
 
 def _calculate(
-    name: str, given: Inputs, mask: Mask, capacity: bool, tables: Tables | None
+    name: str, inputs: Inputs, mask: Mask, capacity: bool, tables: Tables | None
 ) -> Values:
     """Return the numbers of a standard, block by block."""
     found: Values = {}
     count = mask.reason.size
-    fields = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
+    fields = {field.name: getattr(inputs, field.name) for field in dataclasses.fields(inputs)}
     arrays = {key: value for key, value in fields.items() if np.ndim(value)}
     for start in range(0, max(count, 1), BLOCK) if count > BLOCK else (None,):
         part = ... if start is None else slice(start, start + BLOCK)
-        here = dataclasses.replace(given, **{key: array[part] for key, array in arrays.items()})
+        here = dataclasses.replace(inputs, **{key: array[part] for key, array in arrays.items()})
         with masking(mask.part(part)):
             if name == "iso14521":
                 numbers = rated_efficiency(here)

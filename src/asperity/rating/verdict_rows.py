@@ -25,7 +25,7 @@ class Shafts(Protocol):
         """Return both views of the gearset with its shafts, each as SVG with its caption."""
 
     def sheets(
-        self, cells: "Cells", given: "Inputs", iso: "Values"
+        self, cells: "Cells", inputs: "Inputs", iso: "Values"
     ) -> Mapping[str, list[tuple[Any, ...]]]:
         """Return the rows of a sheet for each shaft, its numbers found from traced inputs."""
 

@@ -29,17 +29,17 @@ class Warming(NamedTuple):
     temperature: FloatArray
 
 
-def warming(given: Inputs, iso: Rating) -> Warming | None:
+def warming(inputs: Inputs, iso: Rating) -> Warming | None:
     """Return how the housing warms from cold; None where its heat capacity is not known.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         What was rated.
     iso : Rating
         By ISO/TR 14521, with the heat balance of a housing.
     """
-    housing, spectrum = given.operation.housing, given.operation.spectrum
+    housing, spectrum = inputs.operation.housing, inputs.operation.spectrum
     if housing is None or "tau_s" not in iso:
         return None
     tau, steady = float(iso["tau_s"]), float(iso["rise_h_K"])
@@ -62,4 +62,4 @@ def warming(given: Inputs, iso: Rating) -> Warming | None:
         start = rises[-1][-1]
         rises.append(start + (target - start) * gone)
         times.append(times[-1][-1] + at)
-    return Warming(np.concatenate(times), given.ambient_temperature + np.concatenate(rises))
+    return Warming(np.concatenate(times), inputs.ambient_temperature + np.concatenate(rises))

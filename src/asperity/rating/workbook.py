@@ -44,7 +44,7 @@ _FREE = (
 
 
 def write_rating(
-    given: Inputs,
+    inputs: Inputs,
     tables: Tables,
     found: Mapping[str, Rating],
     path: Path,
@@ -54,7 +54,7 @@ def write_rating(
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         What was rated.
     tables : Tables
         Of BS 721.
@@ -66,7 +66,7 @@ def write_rating(
         What has sheets of its own.
     """
     cells = Cells(_fact)
-    traced, own = _traced(given, cells), _tables(tables, cells)
+    traced, own = _traced(inputs, cells), _tables(tables, cells)
     values = {standard: _rated(standard, traced, own) for standard in found}
     others = {} if shafts is None else shafts.sheets(cells, traced, values.get("iso14521", {}))
     cells.settle(number for rated in values.values() for number in rated.values())
@@ -99,19 +99,19 @@ def _greater(one: Any, other: Any) -> Any:
     return np.maximum(one, other)
 
 
-def _traced(given: Inputs, cells: Cells) -> Inputs:
+def _traced(inputs: Inputs, cells: Cells) -> Inputs:
     """Return the inputs with cells in place of numbers, the geometry found from five of them."""
-    gearset: Any = _Part(given.gearset, "gearset", cells)
+    gearset: Any = _Part(inputs.gearset, "gearset", cells)
     free: dict[str, Any] = {
-        name: None if getattr(given, name) is None else cells.input(name, getattr(given, name))
+        name: None if getattr(inputs, name) is None else cells.input(name, getattr(inputs, name))
         for name in _FREE
     }
-    operation = given.operation
-    if given.duty:
+    operation = inputs.operation
+    if inputs.duty:
         # What BS 721 refers equivalent times of wear to: the greatest of the parts, as they are.
         of_parts = (
             cells.input(f"duty_cycle_{number}_output_torque", part.torque, "N m")
-            for number, part in enumerate(given.duty, 1)
+            for number, part in enumerate(inputs.duty, 1)
         )
         free["through_travel_torque"] = functools.reduce(_greater, of_parts)
     elif operation.through_travel_torque is None:
@@ -122,11 +122,11 @@ def _traced(given: Inputs, cells: Cells) -> Inputs:
         "gear_ratio": relations.gear_ratio(z1, z2),
         "centre_distance": relations.centre_distance(m, q, z2, x),
     }
-    follows, _ = derived(gearset, given.options, numbers)
-    own = {field.name: getattr(given, field.name) for field in dataclasses.fields(given)}
-    run: Any = _Part(given.operation, "operation", cells)
+    follows, _ = derived(gearset, inputs.options, numbers)
+    own = {field.name: getattr(inputs, field.name) for field in dataclasses.fields(inputs)}
+    run: Any = _Part(inputs.operation, "operation", cells)
     own |= {"gearset": gearset, "operation": run, **numbers, **follows}
-    return _TracedInputs(**own, cells=cells, plain=given)
+    return _TracedInputs(**own, cells=cells, plain=inputs)
 
 
 def _about_geometry(name: str) -> tuple[str, str, str, str]:
@@ -149,13 +149,13 @@ def _about_part(standard: str, path: str) -> tuple[str, str, str, str]:
     return fact.symbol, fact.unit, f"{said}, {fact.meaning}", fact.equation
 
 
-def _rated(standard: str, given: Inputs, tables: Tables) -> Values:
+def _rated(standard: str, inputs: Inputs, tables: Tables) -> Values:
     if standard == "iso14521":
-        values = rated_efficiency(given)
+        values = rated_efficiency(inputs)
         # As the rating itself: a stress whose formula does not reach so far has no cell.
         with masking():
-            return rated_capacity(given, values)
-    return rated_bs721(given, tables)[0] if standard == "bs721" else rated_agma6034(given)
+            return rated_capacity(inputs, values)
+    return rated_bs721(inputs, tables)[0] if standard == "bs721" else rated_agma6034(inputs)
 
 
 def _tables(tables: Tables, cells: Cells) -> Tables:

@@ -133,7 +133,7 @@ def cases_of(loads: Sequence[Load], raises: Rotation | None) -> tuple[Condition,
     return tuple(found.values())[::-1]
 
 
-def loads_of(given: Inputs, iso: Rating) -> tuple[Load, ...]:
+def loads_of(inputs: Inputs, iso: Rating) -> tuple[Load, ...]:
     """Return the loads of a life, beside a rating by ISO/TR 14521.
 
     Each part of a duty cycle or spectrum is a load of its own; without one there is a single load.
@@ -145,19 +145,19 @@ def loads_of(given: Inputs, iso: Rating) -> tuple[Load, ...]:
     InputError
         The standard has no answer for a part.
     """
-    steps = given.operation.steps or ()
-    if not given.duty:
+    steps = inputs.operation.steps or ()
+    if not inputs.duty:
         return (
             _load(
-                given, float(given.life), float(given.output_torque), float(given.worm_speed),
+                inputs, float(inputs.life), float(inputs.output_torque), float(inputs.worm_speed),
                 float(iso["mu_zm"]), float(iso["theta_S_degC"]),
             ),
         )  # fmt: skip
     with masking():
-        found = parts_of(given, {key: iso[key] for key in ("p_m_star", "E_red_MPa")})
-    friction, sump = (_each(given, found, key) for key in ("mu_zm", "theta_S_degC"))
+        found = parts_of(inputs, {key: iso[key] for key in ("p_m_star", "E_red_MPa")})
+    friction, sump = (_each(inputs, found, key) for key in ("mu_zm", "theta_S_degC"))
     made = []
-    for place, (part, step) in enumerate(zip(given.duty, steps, strict=True)):
+    for place, (part, step) in enumerate(zip(inputs.duty, steps, strict=True)):
         of = float(part.hours), float(part.torque), float(part.speed)
         mu, celsius = friction[place], sump[place]
         if not (math.isfinite(mu) and math.isfinite(celsius)):
@@ -165,19 +165,19 @@ def loads_of(given: Inputs, iso: Rating) -> tuple[Load, ...]:
                 f"part {place + 1} of the load has no friction or temperature by ISO/TR 14521, so "
                 "that its forces are not known: asperity rate tells why"
             )
-        load = _load(given, *of, mu, celsius)
+        load = _load(inputs, *of, mu, celsius)
         made.append(load._replace(rotation=step.rotation, lets_down=step.drives == "load"))
-    return (*made, *_rated(given, made))
+    return (*made, *_rated(inputs, made))
 
 
-def _rated(given: Inputs, parts: Sequence[Load]) -> list[Load]:
+def _rated(inputs: Inputs, parts: Sequence[Load]) -> list[Load]:
     """Return the rated torque as loads of no time; none where a part reaches it."""
-    torque = float(given.output_torque)
+    torque = float(inputs.output_torque)
     place = max(range(len(parts)), key=lambda number: (parts[number].torque, parts[number].speed))
     hardest = parts[place]
     if torque <= hardest.torque * (1.0 + _ROUNDING):
         return []
-    tangential, axial, radial, driven = _forces(given, torque, hardest.friction)
+    tangential, axial, radial, driven = _forces(inputs, torque, hardest.friction)
     return [
         hardest._replace(
             hours=0.0, torque=torque, tangential=tangential, axial=axial, radial=radial,
@@ -187,32 +187,32 @@ def _rated(given: Inputs, parts: Sequence[Load]) -> list[Load]:
     ]  # fmt: skip
 
 
-def _each(given: Inputs, found: Sequence[Values], key: str) -> list[float]:
+def _each(inputs: Inputs, found: Sequence[Values], key: str) -> list[float]:
     """Return a value of each part, whether they went through the formulas together or not."""
-    if given.together:
-        return [float(v) for v in np.broadcast_to(found[0][key], (len(given.duty),))]
+    if inputs.together:
+        return [float(v) for v in np.broadcast_to(found[0][key], (len(inputs.duty),))]
     return [float(own[key]) for own in found]
 
 
 def _load(
-    given: Inputs, hours: float, torque: float, speed: float, friction: float, celsius: float
+    inputs: Inputs, hours: float, torque: float, speed: float, friction: float, celsius: float
 ) -> Load:
-    oil = given.operation.lubricant.kinematic_viscosity(celsius + 273.15)
+    oil = inputs.operation.lubricant.kinematic_viscosity(celsius + 273.15)
     return Load(
         hours,
         torque,
         speed,
-        speed / float(given.gear_ratio),
-        *_forces(given, torque, friction),
+        speed / float(inputs.gear_ratio),
+        *_forces(inputs, torque, friction),
         1e6 * float(oil),
         friction=friction,
     )
 
 
-def _forces(given: Inputs, torque: float, friction: float) -> tuple[Any, Any, Any, Any]:
+def _forces(inputs: Inputs, torque: float, friction: float) -> tuple[Any, Any, Any, Any]:
     """Return `forces` under K_A times a torque, as ISO/TR 14521 has them."""
-    mesh = float(given.wheel_mean_diameter), float(given.lead_angle), float(given.pressure_angle)
-    return forces(given.operation.application_factor * torque, friction, *mesh)
+    mesh = float(inputs.wheel_mean_diameter), float(inputs.lead_angle), float(inputs.pressure_angle)
+    return forces(inputs.operation.application_factor * torque, friction, *mesh)
 
 
 def forces(

@@ -85,7 +85,7 @@ class ShaftStudy(Drawn):
     @classmethod
     def of(
         cls,
-        given: "Inputs",
+        inputs: "Inputs",
         found: Mapping[str, ShaftFound],
         loads: tuple[Load, ...],
         life: float,
@@ -96,7 +96,7 @@ class ShaftStudy(Drawn):
 
         Parameters
         ----------
-        given : Inputs
+        inputs : Inputs
             The gearset and its operation.
         found : mapping of str to ShaftFound
             By ``worm_shaft`` and ``wheel_shaft``.
@@ -126,7 +126,7 @@ class ShaftStudy(Drawn):
                 f"the worm overhangs, its mesh {worm.model.overhang}: ISO/TR 14521 has no "
                 "deflection of such a worm, its limit is taken"
             )
-        if (factor := given.operation.application_factor) != 1.0:
+        if (factor := inputs.operation.application_factor) != 1.0:
             notes.append(
                 f"forces of the teeth are those under K_A = {factor:g} times the torque, as in "
                 "ISO/TR 14521: lives, strength, static safety and deflection have it"
@@ -153,8 +153,8 @@ class ShaftStudy(Drawn):
                         f"{key}.thread_notch_bending and thread_notch_torsion"
                     )
         return cls(
-            name=given.gearset.name,
-            given=given,
+            name=inputs.gearset.name,
+            given=inputs,
             blanks=blanks,
             found=found,
             loads=loads,
@@ -233,7 +233,7 @@ class ShaftStudy(Drawn):
         return views_of(self.geometry, self.hand, worm, wheel, self.blanks)
 
     def sheets(
-        self, cells: "Cells", given: "Inputs", iso: "Values"
+        self, cells: "Cells", inputs: "Inputs", iso: "Values"
     ) -> Mapping[str, list[tuple[Any, ...]]]:
         """Return the rows of a sheet for each shaft, its numbers found from traced inputs.
 
@@ -241,7 +241,7 @@ class ShaftStudy(Drawn):
         ----------
         cells : Cells
             Of the workbook.
-        given : Inputs
+        inputs : Inputs
             The gearset and its operation, whose numbers may be cells.
         iso : mapping of str to object
             What ISO/TR 14521 finds from them.
@@ -254,7 +254,7 @@ class ShaftStudy(Drawn):
         from asperity.shafts.workbook import sheets_of
 
         options = next(iter(self.found.values())).options
-        return sheets_of(self.found, self.loads, given, options, cells, iso)
+        return sheets_of(self.found, self.loads, inputs, options, cells, iso)
 
     def heading(self) -> str:
         """Return the gearset's name."""

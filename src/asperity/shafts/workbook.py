@@ -43,7 +43,7 @@ _CARRIED = (
 def write_shafts(
     found: Mapping[str, ShaftFound],
     loads: tuple[Load, ...],
-    given: Inputs,
+    inputs: Inputs,
     options: BearingOptions,
     path: Path,
 ) -> Path | None:
@@ -55,7 +55,7 @@ def write_shafts(
         By ``worm_shaft`` and ``wheel_shaft``.
     loads : tuple of Load
         Of the life.
-    given : Inputs
+    inputs : Inputs
         The gearset that they belong to.
     options : BearingOptions
         What is asked of the bearings.
@@ -65,7 +65,7 @@ def write_shafts(
     if len(loads) > MOST:
         return None
     cells = Cells()
-    sheets = sheets_of(found, loads, given, options, cells)
+    sheets = sheets_of(found, loads, inputs, options, cells)
     cells.settle(value for own in sheets.values() for value, *_ in own)
     pages = [Page.of(name, cells, own) for name, own in sheets.items()]
     return write_live(cells, pages, _REMARKS, path)
@@ -74,7 +74,7 @@ def write_shafts(
 def sheets_of(
     found: Mapping[str, ShaftFound],
     loads: tuple[Load, ...],
-    given: Inputs,
+    inputs: Inputs,
     options: BearingOptions,
     cells: Cells,
     iso: Values | None = None,
@@ -83,8 +83,8 @@ def sheets_of(
 
     Parameters
     ----------
-    found, loads, given, options
-        As of `write_shafts`; the numbers of ``given`` may be cells already.
+    found, loads, inputs, options
+        As of `write_shafts`; the numbers of ``inputs`` may be cells already.
     cells : Cells
         Of the workbook.
     iso : mapping, optional
@@ -94,7 +94,7 @@ def sheets_of(
         return {}
     with masking():
         own = [
-            _Shaft(name, each, loads, given, options, cells, iso) for name, each in found.items()
+            _Shaft(name, each, loads, inputs, options, cells, iso) for name, each in found.items()
         ]
         return {sheet.name.replace("_", " "): list(sheet.rows()) for sheet in own}
 
@@ -134,23 +134,23 @@ class _Shaft:
         name: str,
         found: ShaftFound,
         loads: tuple[Load, ...],
-        given: Inputs,
+        inputs: Inputs,
         options: BearingOptions,
         cells: Cells,
         iso: Values | None = None,
     ) -> None:
-        self._given, self._iso = given, iso or {}
+        self._given, self._iso = inputs, iso or {}
         self.name, self.found, self._cells = name, found, cells
         self._of_wheel = name == "wheel_shaft"
-        self._right = given.gearset.hand == "right"
+        self._right = inputs.gearset.hand == "right"
         self._shared = {
-            key: _number(getattr(given, key), key, unit, cells)
+            key: _number(getattr(inputs, key), key, unit, cells)
             for key, unit in (
                 ("worm_pitch_diameter", "mm"), ("wheel_mean_diameter", "mm"),
                 ("lead_angle", "rad"), ("pressure_angle", "rad"), ("gear_ratio", ""),
             )
         }  # fmt: skip
-        factor = given.operation.application_factor
+        factor = inputs.operation.application_factor
         self._factor = _number(factor, "operation.application_factor", "", cells)
         self.loads = tuple(self._load(number, load) for number, load in enumerate(loads, 1))
         model = found.model

@@ -238,19 +238,19 @@ class _Contact:
 
     def imposed(
         self,
-        given: Vibration,
+        vibration: Vibration,
         friction: Friction | None,
         normal_force: float | None,
         folder: Path | None,
     ) -> list[_Entry]:
         directions = {"transverse": math.pi / 2.0, "longitudinal": 0.0}
-        if abs(math.sin(2.0 * given.direction)) > _QUARTER:
-            directions["given"] = given.direction
+        if abs(math.sin(2.0 * vibration.direction)) > _QUARTER:
+            directions["given"] = vibration.direction
         force = normal_force or self.normal_force(self.friction)
         entries = []
         for key, direction in directions.items():
             moved = vibrated_friction.shake(
-                given, direction, self.velocity, friction=friction, normal_force=force,
+                vibration, direction, self.velocity, friction=friction, normal_force=force,
                 folder=folder,
             )  # fmt: skip
             turned = f"vibration at {math.degrees(direction):.4g} deg"

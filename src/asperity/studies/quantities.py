@@ -44,9 +44,9 @@ class Quantity(NamedTuple):
         """Return a number in SI in the unit of results, to 14 digits: 30 deg come back as 30."""
         return float(f"{self.from_si(value):.14g}")
 
-    def of(self, given: Inputs) -> float:
+    def of(self, inputs: Inputs) -> float:
         """Return what a gearset has, in the unit of results."""
-        value: Any = getattr(given, self.name)
+        value: Any = getattr(inputs, self.name)
         return self.shown(value) if self.unit == "deg" else float(value)
 
     def text(self, value: float) -> str:

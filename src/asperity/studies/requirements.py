@@ -80,12 +80,12 @@ class Requirements(Table):
     bearings: Literal["given", "own"] = "given"
     safety: Annotated[float, Quantity("", what="a factor", example="1.2", ge=1, le=100)] = 1.0
 
-    def room(self, given: "Inputs", at_rest: Mapping[str, Real]) -> dict[str, Any]:
+    def room(self, inputs: "Inputs", at_rest: Mapping[str, Real]) -> dict[str, Any]:
         """Return by name how much room is left of what is asked beside the safeties.
 
         Parameters
         ----------
-        given : Inputs
+        inputs : Inputs
             The designs.
         at_rest : mapping of str to ndarray
             By standard, by how much the friction at rest is above that which locks; infinite where
@@ -98,16 +98,16 @@ class Requirements(Table):
         """
         room: dict[str, Any] = {}
         if self.ratio is not None:
-            off = np.abs(given.wheel_teeth / given.starts / self.ratio - 1.0)
+            off = np.abs(inputs.wheel_teeth / inputs.starts / self.ratio - 1.0)
             room["ratio"] = self.ratio_tolerance * (1.0 + _SAME) + _SAME - off
         if self.centre_distance is not None:
-            room["centre_distance"] = _below(given.centre_distance, self.centre_distance)
-        throat = given.axial_module * (given.wheel_teeth + 2.0 * given.profile_shift + 2.0)
+            room["centre_distance"] = _below(inputs.centre_distance, self.centre_distance)
+        throat = inputs.axial_module * (inputs.wheel_teeth + 2.0 * inputs.profile_shift + 2.0)
         if self.wheel_diameter is not None:
             room["wheel_diameter"] = _below(throat, self.wheel_diameter)
         if self.worm_length is not None:
-            outside = throat + given.axial_module
-            reach = worm_reach(outside, given.centre_distance, given.worm_tip_diameter)
+            outside = throat + inputs.axial_module
+            reach = worm_reach(outside, inputs.centre_distance, inputs.worm_tip_diameter)
             room["worm_length"] = _below(reach, self.worm_length)
         for name, margin in at_rest.items() if self.self_locking != "any" else ():
             says = np.isfinite(margin)

@@ -148,11 +148,11 @@ class Mounted:
     known: dict[Place, float] = dataclasses.field(default_factory=dict, repr=False)
 
     @classmethod
-    def of(cls, pair: Pair, wheel: Wheel, given: Tolerances) -> "Mounted":
+    def of(cls, pair: Pair, wheel: Wheel, tolerances: Tolerances) -> "Mounted":
         """Return it of the tolerances of a case."""
-        allowed = Allowances.of(pair.geometry, given)
-        offset = given.axial_offset * _MILLIMETRES
-        return cls(pair, wheel, Place(allowed.centre_distance, offset, given.shaft_angle))
+        allowed = Allowances.of(pair.geometry, tolerances)
+        offset = tolerances.axial_offset * _MILLIMETRES
+        return cls(pair, wheel, Place(allowed.centre_distance, offset, tolerances.shaft_angle))
 
     def meshes(self, place: Place) -> dict[int, Transmission]:
         """Return the transmission on both flanks with the worm at a place.
@@ -275,7 +275,7 @@ class Mounted:
         return Corner(place, sides, patterns[1].gap)
 
     def backlash(
-        self, gearset: Gearset, given: Tolerances, nominal: float, wear: float | None = None
+        self, gearset: Gearset, tolerances: Tolerances, nominal: float, wear: float | None = None
     ) -> Backlash:
         """Return the backlash by the exact flanks.
 
@@ -283,7 +283,7 @@ class Mounted:
         ----------
         gearset : Gearset
             Whose it is.
-        given : Tolerances
+        tolerances : Tolerances
             What is allowed.
         nominal : float
             Angle that the worm can be turned by, the wheel held, with nothing off, rad.
@@ -301,7 +301,7 @@ class Mounted:
         # What a thread is thinner by turns the worm by itself over the lead, and the wheel with it.
         factor = g.wheel_mean_diameter / g.wheel_reference_diameter
         taken = Taken(-min(found.values()) / _MICROMETRES, factor)
-        allowed = Allowances.of(g, given, taken)
+        allowed = Allowances.of(g, tolerances, taken)
         thread, tooth = thickness_parts(g, allowed)
         thread = Part(thread.name, *(factor * value for value in thread[1:]))
         parts = (Part("hob and worm", middle, middle, middle), thread, tooth, *alone)
@@ -318,13 +318,13 @@ class Mounted:
             )
 
         warm = None
-        if given.temperatures is not None:
-            apart = Warmth.of(gearset, given.temperatures, given.housing).apart
+        if tolerances.temperatures is not None:
+            apart = Warmth.of(gearset, tolerances.temperatures, tolerances.housing).apart
             shifted = self.plays(apart)
             warmth = shifted[Place()] - middle
             warm = between(shifted.values(), warmth), warmth
         return assembled(
-            gearset, given, allowed, parts, between(found.values(), 0.0), wear,
+            gearset, tolerances, allowed, parts, between(found.values(), 0.0), wear,
             by=EXACT, exact=True, warm=warm,
         )  # fmt: skip
 

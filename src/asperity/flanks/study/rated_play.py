@@ -85,7 +85,7 @@ def _mounted(asked: _Asked) -> tuple[Mounted, float]:
 
 
 def exact_backlash(
-    gearset: Gearset, made: Made, given: Tolerances, wear: float | None = None
+    gearset: Gearset, made: Made, tolerances: Tolerances, wear: float | None = None
 ) -> Backlash:
     """Return the backlash by the exact flanks that tolerances leave of a gearset.
 
@@ -95,7 +95,7 @@ def exact_backlash(
         Whose it is.
     made : Made
         How its flanks are made and mounted.
-    given : Tolerances
+    tolerances : Tolerances
         What is allowed.
     wear : float, optional
         Depth that is worn off the wheel's flanks, um.
@@ -112,11 +112,11 @@ def exact_backlash(
     ConvergenceError
         Somewhere within the tolerances the worm does not reach the wheel.
     """
-    tables: tuple[Table | None, ...] = (*vars(made).values(), given)
+    tables: tuple[Table | None, ...] = (*vars(made).values(), tolerances)
     texts = tuple(None if table is None else table.model_dump_json() for table in tables)
     key = gearset.geometry, gearset.flank, gearset.hand, texts
-    mounted, turn = _mounted(_Asked(key, made.pair(gearset), given, made.fits))
-    return mounted.backlash(gearset, given, turn, wear)
+    mounted, turn = _mounted(_Asked(key, made.pair(gearset), tolerances, made.fits))
+    return mounted.backlash(gearset, tolerances, turn, wear)
 
 
 def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:

@@ -48,7 +48,7 @@ class Toleranced:
         gearset: Gearset,
         wheel: Wheel,
         found: Analysis,
-        given: Tolerances,
+        tolerances: Tolerances,
         wear: float | None = None,
     ) -> "Toleranced":
         """Return it of a gearset that has been analysed; the wear in um.
@@ -58,8 +58,8 @@ class Toleranced:
         ConvergenceError
             At a corner the worm does not reach the wheel.
         """
-        mounted = Mounted.of(found.pair, wheel, given)
-        backlash = mounted.backlash(gearset, given, found.play.worm_angle, wear)
+        mounted = Mounted.of(found.pair, wheel, tolerances)
+        backlash = mounted.backlash(gearset, tolerances, found.play.worm_angle, wear)
         sides = {
             side: Side(
                 flank.pattern.area_fraction, *flank.pattern_centre, flank.transmission.peak_to_peak
@@ -70,7 +70,7 @@ class Toleranced:
             backlash,
             Corner(Place(), sides, found.flanks[1].pattern.gap),
             mounted.corners(),
-            () if given.grade is None else graded(found.pair.geometry, given.grade),
+            () if tolerances.grade is None else graded(found.pair.geometry, tolerances.grade),
             found.flanks[1].transmission.resolution("peak_to_peak"),
         )
 
@@ -123,13 +123,13 @@ class Toleranced:
 
 
 def require_once(
-    given: Tolerances | None, mount: Mount | None, measuring: MeasuringOptions | None
+    tolerances: Tolerances | None, mount: Mount | None, measuring: MeasuringOptions | None
 ) -> None:
     """Refuse a thickness that is given twice; raises InputError."""
-    if given is None:
+    if tolerances is None:
         return
-    key = "fit" if given.fit is not None else "thread"
-    set_ = getattr(given, key) is not None
+    key = "fit" if tolerances.fit is not None else "thread"
+    set_ = getattr(tolerances, key) is not None
     if set_ and mount is not None and mount.backlash is not None:
         raise InputError(
             f"mount.backlash and tolerances.{key} are given, and both say how thick the threads "

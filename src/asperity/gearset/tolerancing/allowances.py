@@ -67,7 +67,7 @@ class Allowances(NamedTuple):
 
     @classmethod
     def of(
-        cls, geometry: Geometry, given: Tolerances, taken: "Taken | None" = None
+        cls, geometry: Geometry, tolerances: Tolerances, taken: "Taken | None" = None
     ) -> "Allowances":
         """Return what the table allows of a gearset.
 
@@ -75,7 +75,7 @@ class Allowances(NamedTuple):
         ----------
         geometry : Geometry
             Of the gearset.
-        given : Tolerances
+        tolerances : Tolerances
             The table.
         taken : Taken, optional
             What a fit has to make up for by the exact flanks; left out: by geometry, of the centre
@@ -88,24 +88,24 @@ class Allowances(NamedTuple):
             thread has.
         """
         words: dict[str, str] = {}
-        off, words["centre_distance"] = _centre(geometry, given.centre_distance)
+        off, words["centre_distance"] = _centre(geometry, tolerances.centre_distance)
         slant = math.cos(geometry.lead_angle)
-        if given.tooth is not None:
-            upper, lower = (value * _MILLIMETRES for value in given.tooth)
+        if tolerances.tooth is not None:
+            upper, lower = (value * _MILLIMETRES for value in tolerances.tooth)
             tooth, words["tooth"] = (upper, lower), "given"
         else:
             normal = thickness_tolerance(geometry.wheel_mean_diameter)
             tooth, words["tooth"] = (0.0, -normal / slant), "DIN 3967, series 25"
         least = None
-        if given.thread is not None:
-            upper, lower = (value * _MILLIMETRES for value in given.thread)
+        if tolerances.thread is not None:
+            upper, lower = (value * _MILLIMETRES for value in tolerances.thread)
             words["thread"] = "given"
         else:
             upper, words["thread"] = 0.0, "DIN 3967, series 25"
-            if given.fit is not None:
-                least = fit_backlash(geometry.centre_distance, given.fit)
+            if tolerances.fit is not None:
+                least = fit_backlash(geometry.centre_distance, tolerances.fit)
                 upper = _upper(geometry, least, taken or Taken.of(geometry, off), tooth[0])
-                words["thread"] = f"GOST 3675, fit {given.fit}; DIN 3967, series 25"
+                words["thread"] = f"GOST 3675, fit {tolerances.fit}; DIN 3967, series 25"
             lower = upper - thickness_tolerance(geometry.worm_pitch_diameter)
         if -lower >= 0.5 * geometry.normal_pitch:
             raise InputError(

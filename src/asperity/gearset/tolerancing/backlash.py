@@ -291,14 +291,14 @@ def thickness_parts(geometry: Geometry, allowed: Allowances) -> tuple[Part, Part
     return _between("thread", allowed.thread, slant), _between("tooth", allowed.tooth, 1.0)
 
 
-def backlash(gearset: Gearset, given: Tolerances, wear: float | None = None) -> Backlash:
+def backlash(gearset: Gearset, tolerances: Tolerances, wear: float | None = None) -> Backlash:
     """Return the backlash that tolerances leave of a gearset, by geometry.
 
     Parameters
     ----------
     gearset : Gearset
         Of which material and geometry are taken.
-    given : Tolerances
+    tolerances : Tolerances
         What is allowed.
     wear : float, optional
         Depth that is worn off the wheel's flanks, normal to them, um.
@@ -314,15 +314,15 @@ def backlash(gearset: Gearset, given: Tolerances, wear: float | None = None) -> 
         As of `Allowances.of`.
     """
     g = gearset.geometry
-    allowed = Allowances.of(g, given)
+    allowed = Allowances.of(g, tolerances)
     off = 2.0 * _MICROMETRES * allowed.centre_distance * math.tan(g.axial_pressure_angle)
     parts = (*thickness_parts(g, allowed), Part("centre distance", -off, 0.0, off))
-    return assembled(gearset, given, allowed, parts, Interval.of(parts), wear, by=GEOMETRY)
+    return assembled(gearset, tolerances, allowed, parts, Interval.of(parts), wear, by=GEOMETRY)
 
 
 def assembled(
     gearset: Gearset,
-    given: Tolerances,
+    tolerances: Tolerances,
     allowed: Allowances,
     parts: tuple[Part, ...],
     new: Interval,
@@ -342,8 +342,8 @@ def assembled(
     warmth = None
     if warm is not None:
         states["warm"], warmth = warm
-    elif given.temperatures is not None:
-        warmth = warm_backlash(gearset, given.temperatures, given.housing)
+    elif tolerances.temperatures is not None:
+        warmth = warm_backlash(gearset, tolerances.temperatures, tolerances.housing)
         states["warm"] = Interval(*(value + warmth for value in states["new"]))
     more = None if wear is None else wear / said[1].factor
     if more is not None:

@@ -36,7 +36,7 @@ _OF_DUTY = (
 )
 
 
-def rate(given: Inputs, tables: Tables) -> Rating:
+def rate(inputs: Inputs, tables: Tables) -> Rating:
     """Rate one gearset by BS 721.
 
     Raises
@@ -44,45 +44,45 @@ def rate(given: Inputs, tables: Tables) -> Rating:
     InputError
         The standard cannot be applied.
     """
-    values, notes = rated(given, tables)
+    values, notes = rated(inputs, tables)
     return Rating(
         "BS 721-2:1983",
-        entries(given, "bs721", values, _sources(given, tables), _equations(given, values)),
-        _violations(given, values),
-        (*notes, *_notes(given, values, tables)),
-        (*notes, *_parts_unrated(given, tables)),
+        entries(inputs, "bs721", values, _sources(inputs, tables), _equations(inputs, values)),
+        _violations(inputs, values),
+        (*notes, *_notes(inputs, values, tables)),
+        (*notes, *_parts_unrated(inputs, tables)),
     )
 
 
-def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
+def rated(inputs: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     """Return friction and permissible torques by the keys of a rating, and notes."""
-    given.gearset.wheel_material.require_covered("BS 721")
-    wheel, worm = _rows(given)
+    inputs.gearset.wheel_material.require_covered("BS 721")
+    wheel, worm = _rows(inputs)
     v: Values = {}
     v["sliding_velocity_m_s"] = sliding_velocity(
-        given.worm_pitch_diameter, given.worm_speed, given.lead_angle
+        inputs.worm_pitch_diameter, inputs.worm_speed, inputs.lead_angle
     )
-    mean = given.friction
+    mean = inputs.friction
     if mean is None:
         mean = torque.friction(v["sliding_velocity_m_s"], tables=tables)
-    v["mu"] = mean * given.friction_factor
+    v["mu"] = mean * inputs.friction_factor
     angle = v["mu"]
-    if by_normal_section(given):
-        angle = angle / np.cos(given.pressure_angle)
-    v["eta"] = efficiency.worm_driving_efficiency(given.lead_angle, angle)
-    v["eta_back"] = efficiency.wheel_driving_efficiency(given.lead_angle, angle)
-    geometry = given.axial_module, given.diameter_factor, given.lead_angle
+    if by_normal_section(inputs):
+        angle = angle / np.cos(inputs.pressure_angle)
+    v["eta"] = efficiency.worm_driving_efficiency(inputs.lead_angle, angle)
+    v["eta_back"] = efficiency.wheel_driving_efficiency(inputs.lead_angle, angle)
+    geometry = inputs.axial_module, inputs.diameter_factor, inputs.lead_angle
     m, q, lead = geometry
-    d_2, n_1 = given.wheel_reference_diameter, given.hardest_speed
-    n_2 = n_1 / given.gear_ratio
-    at = sliding_velocity(given.worm_pitch_diameter, n_1, given.lead_angle)
+    d_2, n_1 = inputs.wheel_reference_diameter, inputs.hardest_speed
+    n_2 = n_1 / inputs.gear_ratio
+    at = sliding_velocity(inputs.worm_pitch_diameter, n_1, inputs.lead_angle)
     v["X_c"] = torque.wear_speed_factor(at, n_2, tables=tables)
-    v["Z"] = torque.zone_factor(given.starts, q, given.wheel_face_width, m, tables=tables)
+    v["Z"] = torque.zone_factor(inputs.starts, q, inputs.wheel_face_width, m, tables=tables)
     v["S_c_MPa"] = tables.surface_stress_factor(wheel, worm)
     v["X_b"] = torque.strength_speed_factor(n_2, tables=tables)
-    _as_far_as_parts_reach(given, tables, v)
+    _as_far_as_parts_reach(inputs, tables, v)
     v["S_b_MPa"] = tables.bending_stress_factor("wheel", wheel)
-    v["l_r_mm"] = torque.root_arc(given.wheel_face_width, given.worm_tip_diameter, *geometry)
+    v["l_r_mm"] = torque.root_arc(inputs.wheel_face_width, inputs.worm_tip_diameter, *geometry)
 
     def wear(speed_factor: Real, stress_factor: float) -> Real:
         return torque.wear_torque(speed_factor, stress_factor, v["Z"], d_2, m)
@@ -102,20 +102,20 @@ def rated(given: Inputs, tables: Tables) -> tuple[Values, tuple[str, ...]]:
     lower_wear, wear_note = _with_worm(v, "M_c", worm_wear)
     v["M_b_wheel_Nm"] = strength(v["X_b"], v["S_b_MPa"])
     lower_strength, strength_note = _with_worm(v, "M_b", worm_strength)
-    _torques(given, v, lower_wear, lower_strength)
+    _torques(inputs, v, lower_wear, lower_strength)
     return v, tuple(note for note in (wear_note, strength_note) if note)
 
 
-def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
+def _as_far_as_parts_reach(inputs: Inputs, tables: Tables, v: Values) -> None:
     """Leave the speed factors of the wheel without a value where a part is beyond its tables.
 
     Of one gearset that raises TableRangeError, as it does of a load that is all the same.
     """
-    own_speeds = [part.speed for part in given.duty]
-    speeds = given.speeds if given.together else own_speeds
-    for speed in _unreached(given, tables, speeds, "wheel"):
-        at = sliding_velocity(given.worm_pitch_diameter, speed, given.lead_angle)
-        wheel = speed / given.gear_ratio
+    own_speeds = [part.speed for part in inputs.duty]
+    speeds = inputs.speeds if inputs.together else own_speeds
+    for speed in _unreached(inputs, tables, speeds, "wheel"):
+        at = sliding_velocity(inputs.worm_pitch_diameter, speed, inputs.lead_angle)
+        wheel = speed / inputs.gear_ratio
         own = {
             "X_c": torque.wear_speed_factor(at, wheel, tables=tables),
             "X_b": torque.strength_speed_factor(wheel, tables=tables),
@@ -125,7 +125,7 @@ def _as_far_as_parts_reach(given: Inputs, tables: Tables, v: Values) -> None:
 
 
 def _unreached(
-    given: Inputs, tables: Tables, speeds: Sequence[Real], member: torque.Member
+    inputs: Inputs, tables: Tables, speeds: Sequence[Real], member: torque.Member
 ) -> Sequence[Real]:
     """Return the speeds of the worm at which a table of the wheel, or the worm, may not reach.
 
@@ -134,21 +134,23 @@ def _unreached(
     if len(speeds) <= _FEW or any(np.ndim(speed) for speed in speeds):
         return speeds
     worm = np.asarray(speeds, dtype=np.float64)
-    turning = worm / given.gear_ratio if member == "wheel" else worm
+    turning = worm / inputs.gear_ratio if member == "wheel" else worm
     with masking(worm.shape) as mask:
-        at = sliding_velocity(given.worm_pitch_diameter, worm, given.lead_angle)
+        at = sliding_velocity(inputs.worm_pitch_diameter, worm, inputs.lead_angle)
         torque.wear_speed_factor(at, turning, member=member, tables=tables)
         torque.strength_speed_factor(turning, member=member, tables=tables)
     return [speed for speed, reason in zip(speeds, mask.reason, strict=True) if reason]
 
 
-def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
+def _parts_unrated(inputs: Inputs, tables: Tables) -> Iterator[str]:
     """Say which parts of a duty cycle run at speeds that no table reaches: some, and how many."""
-    first = {part.speed: place for place, part in reversed([*enumerate(given.duty, 1)])}
-    parts = first.items() if given.together else [(p.speed, n) for n, p in enumerate(given.duty, 1)]
+    first = {part.speed: place for place, part in reversed([*enumerate(inputs.duty, 1)])}
+    parts = (
+        first.items() if inputs.together else [(p.speed, n) for n, p in enumerate(inputs.duty, 1)]
+    )
     members: tuple[torque.Member, ...] = ("wheel", "worm")
     for member in members:
-        unreached = set(_unreached(given, tables, [speed for speed, _ in parts], member))
+        unreached = set(_unreached(inputs, tables, [speed for speed, _ in parts], member))
         told = more = 0
         for worm_speed, place in parts:
             if worm_speed not in unreached:
@@ -156,11 +158,11 @@ def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
             if told == _TOLD and len(unreached) < len(parts):
                 more += 1
                 continue
-            speed = worm_speed / given.gear_ratio if member == "wheel" else worm_speed
+            speed = worm_speed / inputs.gear_ratio if member == "wheel" else worm_speed
             try:
                 torque.strength_speed_factor(speed, member=member, tables=tables)
                 torque.wear_speed_factor(
-                    sliding_velocity(given.worm_pitch_diameter, worm_speed, given.lead_angle),
+                    sliding_velocity(inputs.worm_pitch_diameter, worm_speed, inputs.lead_angle),
                     speed, member=member, tables=tables,
                 )  # fmt: skip
             except TableRangeError as error:
@@ -176,9 +178,9 @@ def _parts_unrated(given: Inputs, tables: Tables) -> Iterator[str]:
             )
 
 
-def by_normal_section(given: Inputs) -> bool:
+def by_normal_section(inputs: Inputs) -> bool:
     """Whether the efficiencies take mu/cos(alpha_n) for the tangent of the friction angle."""
-    return given.options.bs721_friction_angle == "mu_over_cos"
+    return inputs.options.bs721_friction_angle == "mu_over_cos"
 
 
 def _with_worm(v: Values, symbol: str, worm: Callable[[], Real]) -> tuple[Real, str]:
@@ -196,7 +198,7 @@ def _with_worm(v: Values, symbol: str, worm: Callable[[], Real]) -> tuple[Real, 
     return smaller(wheel, v[f"{symbol}_worm_Nm"]), ""
 
 
-def _equations(given: Inputs, values: Values) -> dict[str, str]:
+def _equations(inputs: Inputs, values: Values) -> dict[str, str]:
     wear = "min(M_c1, M_c2)" if "M_c_worm_Nm" in values else "M_c2"
     bending = "min(M_b1, M_b2)" if "M_b_worm_Nm" in values else "M_b2"
     by_case = {
@@ -204,21 +206,21 @@ def _equations(given: Inputs, values: Values) -> dict[str, str]:
         "M_w_Nm": f"{wear} k_w",
         "M_s_Nm": f"{bending} k_s",
         "U_w_h": "L_h",
-        "U_s_h": "L_h/10" if given.operation.service == "valve" else "L_h",
+        "U_s_h": "L_h/10" if inputs.operation.service == "valve" else "L_h",
     }
-    if given.duty:
+    if inputs.duty:
         for key, exponent, torque in (("U_w_h", 3, "T_2"), ("U_s_h", 7, "T_R")):
             by_case[key] = f"sum of U_i n_i/n_m (T_i/{torque})^{exponent} over the duty cycle"
-    if by_normal_section(given):
+    if by_normal_section(inputs):
         by_case["eta"] = "tan(gamma_m1)/tan(gamma_m1 + atan(mu/cos(alpha_n)))"
         by_case["eta_back"] = "tan(gamma_m1 - atan(mu/cos(alpha_n)))/tan(gamma_m1)"
-    if given.friction is not None:
-        by_case["mu"] = f"k_mu {given.friction:g}"
+    if inputs.friction is not None:
+        by_case["mu"] = f"k_mu {inputs.friction:g}"
     return by_case
 
 
-def _sources(given: Inputs, tables: Tables) -> dict[str, Source]:
-    row = given.gearset.wheel_material.source("bs721")
+def _sources(inputs: Inputs, tables: Tables) -> dict[str, Source]:
+    row = inputs.gearset.wheel_material.source("bs721")
     sources = {
         "X_c": weakest(tables.sliding_speed_factor.source, tables.rotation_speed_factor.source),
         "Z": tables.zone_factor.source,
@@ -227,46 +229,46 @@ def _sources(given: Inputs, tables: Tables) -> dict[str, Source]:
         "S_b_MPa": weakest(tables.bending_stress_factor.source, row),
         "M_c_worm_Nm": tables.worm_surface_stress_factor.source,
     }
-    sources["mu"] = tables.friction.source if given.friction is None else GIVEN
-    if given.duty:
+    sources["mu"] = tables.friction.source if inputs.friction is None else GIVEN
+    if inputs.duty:
         sources |= {"U_w_h": FROM_MEMORY, "U_s_h": FROM_MEMORY}
     return sources
 
 
-def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
-    fastest = max(given.speeds)
+def _violations(inputs: Inputs, values: Values) -> tuple[str, ...]:
+    fastest = max(inputs.speeds)
     at = {
-        "axial_module": given.axial_module,
-        "wheel_diameter": given.wheel_reference_diameter,
-        "sliding_velocity": values["sliding_velocity_m_s"] * (fastest / given.worm_speed),
-        "wheel_speed": fastest / given.gear_ratio,
+        "axial_module": inputs.axial_module,
+        "wheel_diameter": inputs.wheel_reference_diameter,
+        "sliding_velocity": values["sliding_velocity_m_s"] * (fastest / inputs.worm_speed),
+        "wheel_speed": fastest / inputs.gear_ratio,
     }
     found = (span.violation(at[name]) for name, span in VALIDITY.items())
     return tuple(sentence for sentence in found if sentence)
 
 
-def _notes(given: Inputs, values: Values, tables: Tables) -> list[str]:
-    notes = [_OF_DUTY] if given.duty else []
+def _notes(inputs: Inputs, values: Values, tables: Tables) -> list[str]:
+    notes = [_OF_DUTY] if inputs.duty else []
     notes += [
         f"{part}: {note}"
         for part in ("wheel", "worm")
-        if (note := getattr(given.gearset, f"{part}_material").source("bs721").note)
+        if (note := getattr(inputs.gearset, f"{part}_material").source("bs721").note)
     ]
-    bronze = given.gearset.wheel_material.family == "tin bronze"
-    if given.friction is None and not (bronze and given.gearset.worm_material.hardened):
+    bronze = inputs.gearset.wheel_material.family == "tin bronze"
+    if inputs.friction is None and not (bronze and inputs.gearset.worm_material.hardened):
         notes.append("the friction is that of phosphor bronze on a case-hardened worm")
-    if doubt := tables.surface_stress_factor.doubts.get(", ".join(_rows(given))):
+    if doubt := tables.surface_stress_factor.doubts.get(", ".join(_rows(inputs))):
         notes.append(f"S_c of the wheel is {values['S_c_MPa']:g} MPa; it is {doubt}")
-    if given.gearset.flank != "ZI":
-        notes.append(f"the flank is {given.gearset.flank}; the standard is for ZI")
+    if inputs.gearset.flank != "ZI":
+        notes.append(f"the flank is {inputs.gearset.flank}; the standard is for ZI")
     return [*failures("bs721", values), *notes]
 
 
-def _rows(given: Inputs) -> tuple[str, str]:
+def _rows(inputs: Inputs) -> tuple[str, str]:
     """Return what the tables of stress factors call the materials."""
     rows = []
     for part in ("wheel", "worm"):
-        material: Any = getattr(given.gearset, f"{part}_material")
+        material: Any = getattr(inputs.gearset, f"{part}_material")
         if material.bs721 is None:
             raise InputError(
                 f"gearset.{part}_material is {material.name!r}, for which BS 721 has no stress "
@@ -276,14 +278,14 @@ def _rows(given: Inputs) -> tuple[str, str]:
     return rows[0], rows[1]
 
 
-def _torques(given: Inputs, v: Values, wear: Real, strength: Real) -> None:
+def _torques(inputs: Inputs, v: Values, wear: Real, strength: Real) -> None:
     v["M_26k_Nm"] = smaller(wear, strength)
-    v["U_w_h"], v["U_s_h"] = given.wear_hours, given.strength_hours
+    v["U_w_h"], v["U_s_h"] = inputs.wear_hours, inputs.strength_hours
     v["wear_life_factor"] = life.wear_life_factor(v["U_w_h"])
     v["strength_life_factor"] = life.strength_life_factor(v["U_s_h"])
     v["M_w_Nm"] = wear * v["wear_life_factor"]
     v["M_s_Nm"] = strength * v["strength_life_factor"]
     v["M_permissible_Nm"] = smaller(v["M_w_Nm"], v["M_s_Nm"])
-    factor = given.operation.application_factor
-    v["safety_wear"] = safety(v["M_w_Nm"], factor * given.through_travel_torque)
-    v["safety_strength"] = safety(v["M_s_Nm"], factor * given.output_torque)
+    factor = inputs.operation.application_factor
+    v["safety_wear"] = safety(v["M_w_Nm"], factor * inputs.through_travel_torque)
+    v["safety_strength"] = safety(v["M_s_Nm"], factor * inputs.output_torque)

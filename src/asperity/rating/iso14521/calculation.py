@@ -55,116 +55,116 @@ _OF_TEETH = (
 """What of a load goes by geometry and speed alone."""
 
 
-def rated_efficiency(given: Inputs, teeth: Values | None = None) -> Values:
+def rated_efficiency(inputs: Inputs, teeth: Values | None = None) -> Values:
     """Return friction, efficiency and losses, by the keys of a rating.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         The gearset and its load.
     teeth : Values, optional
         What was found of it at the same speed; then only powers and losses are.
     """
-    v = _teeth(given) if teeth is None else {key: teeth[key] for key in _OF_TEETH}
-    _powers(given, v)
+    v = _teeth(inputs) if teeth is None else {key: teeth[key] for key in _OF_TEETH}
+    _powers(inputs, v)
     return v
 
 
-def _teeth(given: Inputs) -> Values:
-    wheel, operation = given.gearset.wheel_material, given.operation
+def _teeth(inputs: Inputs) -> Values:
+    wheel, operation = inputs.gearset.wheel_material, inputs.operation
     wheel.require_covered("ISO/TR 14521")
     v: Values = {}
     v["sliding_velocity_m_s"] = friction.sliding_velocity(
-        given.worm_pitch_diameter, given.worm_speed, given.lead_angle
+        inputs.worm_pitch_diameter, inputs.worm_speed, inputs.lead_angle
     )
-    v["mu_0T"] = given.base_friction
-    if given.base_friction is None:
+    v["mu_0T"] = inputs.base_friction
+    if inputs.base_friction is None:
         v["mu_0T"] = friction.base_friction(
             v["sliding_velocity_m_s"],
             family=wheel.family,
             lubrication=operation.lubrication,
             base_oil=operation.lubricant.base_oil,
         )
-    v["Y_S"] = friction.size_factor(given.centre_distance)
-    v["h_star"] = film_parameter_of(given)
+    v["Y_S"] = friction.size_factor(inputs.centre_distance)
+    v["h_star"] = film_parameter_of(inputs)
     v["Y_G"] = friction.geometry_factor(v["h_star"])
     v["Y_W"] = wheel.material_factor
-    v["Y_R"] = friction.roughness_factor(given.worm_roughness)
-    mean = given.friction
+    v["Y_R"] = friction.roughness_factor(inputs.worm_roughness)
+    mean = inputs.friction
     if mean is None:
         mean = friction.mean_friction(v["mu_0T"], v["Y_S"], v["Y_G"], v["Y_W"], v["Y_R"])
-    v["mu_zm"] = mean * given.friction_factor
-    v["eta_z1_2"] = efficiency.worm_driving_efficiency(given.lead_angle, v["mu_zm"])
-    v["eta_z2_1"] = efficiency.wheel_driving_efficiency(given.lead_angle, v["mu_zm"])
+    v["mu_zm"] = mean * inputs.friction_factor
+    v["eta_z1_2"] = efficiency.worm_driving_efficiency(inputs.lead_angle, v["mu_zm"])
+    v["eta_z2_1"] = efficiency.wheel_driving_efficiency(inputs.lead_angle, v["mu_zm"])
     return v
 
 
-def film_parameter_of(given: Inputs) -> Real:
+def film_parameter_of(inputs: Inputs) -> Real:
     """Return h*."""
     return film.film_parameter(
-        given.starts,
-        given.wheel_teeth,
-        given.diameter_factor,
-        given.axial_module,
-        given.pressure_angle,
-        given.profile_shift,
-        wheel_face_width=given.effective_face_width,
-        edition=given.options.iso14521_edition,
-        flank=given.gearset.flank,
+        inputs.starts,
+        inputs.wheel_teeth,
+        inputs.diameter_factor,
+        inputs.axial_module,
+        inputs.pressure_angle,
+        inputs.profile_shift,
+        wheel_face_width=inputs.effective_face_width,
+        edition=inputs.options.iso14521_edition,
+        flank=inputs.gearset.flank,
     )
 
 
-def _powers(given: Inputs, v: Values) -> None:
-    mesh = given.output_torque, given.worm_speed, given.gear_ratio
+def _powers(inputs: Inputs, v: Values) -> None:
+    mesh = inputs.output_torque, inputs.worm_speed, inputs.gear_ratio
     v["output_power_W"] = losses.output_power(*mesh)
     v["loss_meshing_W"] = losses.meshing_loss(*mesh, v["eta_z1_2"])
-    housing = given.operation.housing
-    v["loss_idle_W"] = losses.idle_loss(given.centre_distance, given.worm_speed)
+    housing = inputs.operation.housing
+    v["loss_idle_W"] = losses.idle_loss(inputs.centre_distance, inputs.worm_speed)
     if housing is not None and housing.idle_loss is not None:
         v["loss_idle_W"] = balance.measured_idle_loss(
-            housing.idle_loss, given.measured_at, given.worm_speed
+            housing.idle_loss, inputs.measured_at, inputs.worm_speed
         )
     v["loss_bearing_W"] = losses.bearing_loss(
         v["output_power_W"],
-        given.centre_distance,
-        given.gear_ratio,
-        given.wheel_mean_diameter,
-        given.operation.bearings.loss_coefficient,
+        inputs.centre_distance,
+        inputs.gear_ratio,
+        inputs.wheel_mean_diameter,
+        inputs.operation.bearings.loss_coefficient,
     )
     v["loss_seal_W"] = losses.seal_loss(
-        given.worm_pitch_diameter, given.worm_speed, given.operation.seals
+        inputs.worm_pitch_diameter, inputs.worm_speed, inputs.operation.seals
     )
     if housing is not None and housing.seal_loss is not None:
         v["loss_seal_W"] = balance.measured_seal_loss(
-            housing.seal_loss, given.measured_at, given.worm_speed
+            housing.seal_loss, inputs.measured_at, inputs.worm_speed
         )
     others = v["loss_idle_W"] + v["loss_bearing_W"] + v["loss_seal_W"]
     v["loss_total_W"] = v["loss_meshing_W"] + others
     v["input_power_W"] = v["output_power_W"] + v["loss_total_W"]
-    v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * given.worm_speed)
+    v["input_torque_Nm"] = v["input_power_W"] / (math.pi / 30.0 * inputs.worm_speed)
     v["eta_ges"] = efficiency.total_efficiency(v["output_power_W"], v["loss_total_W"])
     back = losses.back_driving_meshing_loss(*mesh, v["eta_z2_1"])
     v["loss_meshing_back_W"] = back
     v["eta_ges2_1"] = efficiency.back_driving_total_efficiency(v["output_power_W"], back + others)
 
 
-def rated_capacity(given: Inputs, v: Values) -> Values:
+def rated_capacity(inputs: Inputs, v: Values) -> Values:
     """Return stresses, temperatures and safeties; ``v`` is what `rated_efficiency` returned."""
     v = dict(v)
-    rated = given.operation.application_factor * given.output_torque
+    rated = inputs.operation.application_factor * inputs.output_torque
     v["p_m_star"] = contact.contact_parameter(
-        given.starts,
-        given.wheel_teeth,
-        given.diameter_factor,
-        given.axial_module,
-        given.centre_distance,
-        given.pressure_angle,
-        given.profile_shift,
-        wheel_face_width=given.effective_face_width,
-        edition=given.options.iso14521_edition,
-        flank=given.gearset.flank,
+        inputs.starts,
+        inputs.wheel_teeth,
+        inputs.diameter_factor,
+        inputs.axial_module,
+        inputs.centre_distance,
+        inputs.pressure_angle,
+        inputs.profile_shift,
+        wheel_face_width=inputs.effective_face_width,
+        edition=inputs.options.iso14521_edition,
+        flank=inputs.gearset.flank,
     )
-    worm, wheel = given.gearset.worm_material, given.gearset.wheel_material
+    worm, wheel = inputs.gearset.worm_material, inputs.gearset.wheel_material
     elastic = (
         worm.youngs_modulus * FROM_SI["MPa"],
         worm.poisson_ratio,
@@ -173,68 +173,68 @@ def rated_capacity(given: Inputs, v: Values) -> Values:
     )
     v["E_red_MPa"] = contact.reduced_modulus(*elastic)
     v["sigma_Hm_MPa"] = contact.contact_stress(
-        v["p_m_star"], rated, v["E_red_MPa"], given.centre_distance
+        v["p_m_star"], rated, v["E_red_MPa"], inputs.centre_distance
     )
     v["sigma_line_MPa"] = hertz.worm_contact_stress(
         rated,
-        given.wheel_reference_diameter,
-        given.axial_module,
-        given.diameter_factor,
-        given.lead_angle,
-        given.pressure_angle,
+        inputs.wheel_reference_diameter,
+        inputs.axial_module,
+        inputs.diameter_factor,
+        inputs.lead_angle,
+        inputs.pressure_angle,
         hertz.contact_modulus(*elastic),
     )
-    _forces(given, v, rated)
-    parts, friction_of_bending = parts_of(given, v), v["mu_zm"]
+    _forces(inputs, v, rated)
+    parts, friction_of_bending = parts_of(inputs, v), v["mu_zm"]
     if parts:
-        _over_the_parts(given, parts, v)
-        friction_of_bending = given.most_of_hardest([own["mu_zm"] for own in parts])
+        _over_the_parts(inputs, parts, v)
+        friction_of_bending = inputs.most_of_hardest([own["mu_zm"] for own in parts])
     else:
-        temperatures(given, v)
-        wear_of(given, v)
-    _pitting(given, v)
-    _deflection(given, v, friction_of_bending)
-    _root(given, v)
+        temperatures(inputs, v)
+        wear_of(inputs, v)
+    _pitting(inputs, v)
+    _deflection(inputs, v, friction_of_bending)
+    _root(inputs, v)
     hottest = v.get("theta_S_max_degC", v["theta_S_degC"])
-    if given.operation.housing is not None:
-        hottest = housing_of(given, v)
+    if inputs.operation.housing is not None:
+        hottest = housing_of(inputs, v)
     v["safety_temperature"] = strength.safety(v["theta_S_lim_degC"], hottest)
     return v
 
 
-def parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
+def parts_of(inputs: Inputs, v: Values) -> tuple[Values, ...]:
     """Return losses, temperatures and wear of each part of a duty cycle; none without one.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         The gearset and its duty cycle.
     v : Values
         ``p_m_star`` and ``E_red_MPa``, which are those of all parts.
     """
-    if not given.together:
-        return _parts_of(given, v)
+    if not inputs.together:
+        return _parts_of(inputs, v)
     outer = current_mask()
     if outer is None:
-        return _parts_of(given, v)
-    with masking((len(given.duty),)) as own:
-        found = _parts_of(given, v)
+        return _parts_of(inputs, v)
+    with masking((len(inputs.duty),)) as own:
+        found = _parts_of(inputs, v)
     for sentence in own.legend.values():
         outer.refuse(True, sentence)
     return found
 
 
-def _parts_of(given: Inputs, v: Values) -> tuple[Values, ...]:
-    parted = given.parted()
-    spectrum = given.operation.spectrum
-    if spectrum is not None and spectrum.oil == "mean" and len(given.duty) > 1:
-        hours = given.total(part.life for part in parted)
+def _parts_of(inputs: Inputs, v: Values) -> tuple[Values, ...]:
+    parted = inputs.parted()
+    spectrum = inputs.operation.spectrum
+    if spectrum is not None and spectrum.oil == "mean" and len(inputs.duty) > 1:
+        hours = inputs.total(part.life for part in parted)
         sumps = (part.life * sump_of(part) for part in parted)
-        mean = given.total(sumps) / hours
+        mean = inputs.total(sumps) / hours
         parted = tuple(dataclasses.replace(part, sump=mean) for part in parted)
     found: list[Values] = []
     # A film and a friction that were found at the same speed are those of the part too.
-    known = [(given.worm_speed, v)] if "mu_zm" in v else []
+    known = [(inputs.worm_speed, v)] if "mu_zm" in v else []
     for part in parted:
         same = (teeth for speed, teeth in known if _equal(speed, part.worm_speed))
         own = rated_efficiency(part, next(same, None))
@@ -264,50 +264,50 @@ def _let_down(part: Inputs, own: Values) -> None:
     own["loss_total_W"] = own["loss_total_W"] - forward + back
 
 
-def _over_the_parts(given: Inputs, parts: tuple[Values, ...], v: Values) -> None:
+def _over_the_parts(inputs: Inputs, parts: tuple[Values, ...], v: Values) -> None:
     """Add up the wear of a duty cycle and find its hottest part.
 
     Depths worn off add up, and paths and turns, each by torque, speed and temperature of its part;
     what leads to them is told of the load that wears most, in however many parts it is given. Each
     part lasts long enough for the sump to settle.
     """
-    if given.together:
-        depths = np.broadcast_to(parts[0]["delta_Wn_mm"], (len(given.duty),))
-        place = int(np.argmax(of_alike(given, [np.nan_to_num(depths)])[0]))
+    if inputs.together:
+        depths = np.broadcast_to(parts[0]["delta_Wn_mm"], (len(inputs.duty),))
+        place = int(np.argmax(of_alike(inputs, [np.nan_to_num(depths)])[0]))
         for key in _OF_WEAR:
-            v[key] = float(np.broadcast_to(parts[0][key], (len(given.duty),))[place])
+            v[key] = float(np.broadcast_to(parts[0][key], (len(inputs.duty),))[place])
     else:
         for place, own in enumerate(parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
-        most = place_of_most(of_alike(given, [own["delta_Wn_mm"] for own in parts]))
+        most = place_of_most(of_alike(inputs, [own["delta_Wn_mm"] for own in parts]))
         there = [most == place for place in range(len(parts))] if np.ndim(most) else []
         for key in _OF_WEAR:
             v[key] = chosen(most, there, [own[key] for own in parts])
     for key in _ADDED:
-        v[key] = given.total(own[key] for own in parts)
+        v[key] = inputs.total(own[key] for own in parts)
     v["safety_wear"] = strength.safety(v["delta_Wlim_mm"], v["delta_Wn_mm"])
-    v["theta_S_max_degC"] = given.greatest(own["theta_S_degC"] for own in parts)
-    hours = given.total(own["part_hours"] for own in parts)
+    v["theta_S_max_degC"] = inputs.greatest(own["theta_S_degC"] for own in parts)
+    hours = inputs.total(own["part_hours"] for own in parts)
     heat = (own["part_hours"] * own["loss_total_W"] for own in parts)
-    v["loss_mean_W"] = given.total(heat) / hours
-    v["loss_max_W"] = given.greatest(own["loss_total_W"] for own in parts)
+    v["loss_mean_W"] = inputs.total(heat) / hours
+    v["loss_max_W"] = inputs.greatest(own["loss_total_W"] for own in parts)
 
 
-def _forces(given: Inputs, v: Values, torque: Real) -> None:
-    v["F_tm2_N"] = forces.wheel_tangential_force(torque, given.wheel_mean_diameter)
-    mesh = given.lead_angle, v["mu_zm"]
+def _forces(inputs: Inputs, v: Values, torque: Real) -> None:
+    v["F_tm2_N"] = forces.wheel_tangential_force(torque, inputs.wheel_mean_diameter)
+    mesh = inputs.lead_angle, v["mu_zm"]
     v["F_tm1_N"] = forces.worm_tangential_force(v["F_tm2_N"], *mesh)
-    v["F_rm_N"] = forces.separating_force(v["F_tm1_N"], given.pressure_angle, *mesh)
+    v["F_rm_N"] = forces.separating_force(v["F_tm1_N"], inputs.pressure_angle, *mesh)
 
 
-def _pitting(given: Inputs, v: Values) -> None:
-    edition = given.options.iso14521_edition
+def _pitting(inputs: Inputs, v: Values) -> None:
+    edition = inputs.options.iso14521_edition
     v["Z_v"] = pitting.pitting_velocity_factor(v["sliding_velocity_m_s"])
-    _pitting_life(given, v)
-    v["Z_S"] = pitting.pitting_size_factor(given.centre_distance)
-    v["Z_u"] = pitting.pitting_ratio_factor(given.gear_ratio, edition=edition)
-    v["Z_oil"] = given.operation.lubricant.base.pitting_factor
-    strong = given.gearset.wheel_material.pitting_strength * given.options.pitting_factor
+    _pitting_life(inputs, v)
+    v["Z_S"] = pitting.pitting_size_factor(inputs.centre_distance)
+    v["Z_u"] = pitting.pitting_ratio_factor(inputs.gear_ratio, edition=edition)
+    v["Z_oil"] = inputs.operation.lubricant.base.pitting_factor
+    strong = inputs.gearset.wheel_material.pitting_strength * inputs.options.pitting_factor
     v["sigma_HlimT_MPa"] = strong * FROM_SI["MPa"]
     v["sigma_HG_MPa"] = pitting.pitting_limit(
         v["sigma_HlimT_MPa"],
@@ -320,64 +320,64 @@ def _pitting(given: Inputs, v: Values) -> None:
     v["safety_pitting"] = strength.safety(v["sigma_HG_MPa"], v["sigma_Hm_MPa"])
 
 
-def _pitting_life(given: Inputs, v: Values) -> None:
+def _pitting_life(inputs: Inputs, v: Values) -> None:
     """Find the life factor; of a duty cycle by the damage of its parts, which is our own rule."""
-    duty = given.loads
+    duty = inputs.loads
     if not duty:
-        v["Z_h"] = pitting.pitting_life_factor(given.life)
+        v["Z_h"] = pitting.pitting_life_factor(inputs.life)
         return
     # Stress goes with the root of the torque, what is borne with the velocity factor alone.
     reliefs = [
-        np.sqrt(given.output_torque / part.torque)
+        np.sqrt(inputs.output_torque / part.torque)
         * (
             pitting.pitting_velocity_factor(
-                friction.sliding_velocity(given.worm_pitch_diameter, part.speed, given.lead_angle)
+                friction.sliding_velocity(inputs.worm_pitch_diameter, part.speed, inputs.lead_angle)
             )
             / v["Z_v"]
         )
         for part in duty
     ]
     damage = (part.hours / relief**6 for part, relief in zip(duty, reliefs, strict=True))
-    v["L_He_h"] = given.total(damage)
-    v["relief"] = given.least(reliefs)
+    v["L_He_h"] = inputs.total(damage)
+    v["relief"] = inputs.least(reliefs)
     v["Z_h"] = pitting.pitting_life_factor_of_parts(v["L_He_h"], v["relief"])
 
 
-def _deflection(given: Inputs, v: Values, mean_friction: Real) -> None:
+def _deflection(inputs: Inputs, v: Values, mean_friction: Real) -> None:
     v["delta_m_mm"] = strength.worm_deflection(
         v["F_tm2_N"],
-        given.lead_angle,
+        inputs.lead_angle,
         mean_friction,
-        given.pressure_angle,
-        given.worm_root_diameter,
-        0.5 * given.bearing_span,
-        0.5 * given.bearing_span,
-        given.gearset.worm_material.youngs_modulus * FROM_SI["MPa"],
+        inputs.pressure_angle,
+        inputs.worm_root_diameter,
+        0.5 * inputs.bearing_span,
+        0.5 * inputs.bearing_span,
+        inputs.gearset.worm_material.youngs_modulus * FROM_SI["MPa"],
     )
-    v["delta_lim_mm"] = strength.deflection_limit(given.axial_module)
+    v["delta_lim_mm"] = strength.deflection_limit(inputs.axial_module)
     v["safety_deflection"] = strength.safety(v["delta_lim_mm"], v["delta_m_mm"])
 
 
-def _root(given: Inputs, v: Values) -> None:
+def _root(inputs: Inputs, v: Values) -> None:
     v["s_ft2_mm"] = strength.root_thickness(
-        given.axial_module,
-        given.wheel_mean_diameter,
-        given.wheel_root_diameter,
-        given.pressure_angle,
-        given.lead_angle,
+        inputs.axial_module,
+        inputs.wheel_mean_diameter,
+        inputs.wheel_root_diameter,
+        inputs.pressure_angle,
+        inputs.lead_angle,
         smaller(v["delta_Wn_mm"], v["delta_Wlim_mm"]),
     )
-    v["Y_F"] = strength.form_factor(given.axial_module, v["s_ft2_mm"])
-    v["Y_K"] = strength.rim_factor(given.axial_module, given.rim_thickness)
+    v["Y_F"] = strength.form_factor(inputs.axial_module, v["s_ft2_mm"])
+    v["Y_K"] = strength.rim_factor(inputs.axial_module, inputs.rim_thickness)
     v["tau_F_MPa"] = strength.root_shear_stress(
         v["F_tm2_N"],
-        given.effective_face_width,
-        given.axial_module,
+        inputs.effective_face_width,
+        inputs.axial_module,
         v["Y_F"],
-        given.lead_angle,
+        inputs.lead_angle,
         v["Y_K"],
     )
-    v["tau_FlimT_MPa"] = given.gearset.wheel_material.shear_strength * FROM_SI["MPa"]
+    v["tau_FlimT_MPa"] = inputs.gearset.wheel_material.shear_strength * FROM_SI["MPa"]
     v["Y_NL"] = ROOT_LIFE_FACTOR
     v["tau_FG_MPa"] = strength.root_shear_limit(v["tau_FlimT_MPa"], v["Y_NL"])
     v["safety_root"] = strength.safety(v["tau_FG_MPa"], v["tau_F_MPa"])

@@ -8,15 +8,15 @@ from asperity.arrays import Real
 from asperity.rating.inputs import Inputs
 
 
-def of_alike(given: Inputs, depths: list[Any]) -> list[Any]:
+def of_alike(inputs: Inputs, depths: list[Any]) -> list[Any]:
     """Return for each part the depth of all parts of the same load: split, it stays that."""
     plain = [getattr(depth, "value", depth) for depth in depths]
-    if given.together:
+    if inputs.together:
         rows = [np.broadcast_to(np.asarray(of, dtype=float), plain[0].shape)
-                for of in given.loads[0][1:]]  # fmt: skip
+                for of in inputs.loads[0][1:]]  # fmt: skip
         _, place = np.unique(np.stack(rows, axis=-1), axis=0, return_inverse=True)
         return [np.bincount(place.reshape(-1), plain[0])[place.reshape(-1)]]
-    keys = [tuple(map(_known, part[1:])) for part in given.duty]
+    keys = [tuple(map(_known, part[1:])) for part in inputs.duty]
     whole: dict[Any, Any] = {}
     for key, depth in zip(keys, plain, strict=True):
         whole[key] = whole.get(key, 0.0) + depth

@@ -19,7 +19,7 @@ from asperity.rating.result import Rating
 from asperity.sources import Source
 
 
-def rate(given: Inputs) -> Rating:
+def rate(inputs: Inputs) -> Rating:
     """Rate one gearset by ISO/TR 14521.
 
     A stress or safety whose formula does not reach so far is left out, and a note says why.
@@ -31,39 +31,39 @@ def rate(given: Inputs) -> Rating:
     InputError
         The standard cannot be applied.
     """
-    values, unanswered = rated(given)
+    values, unanswered = rated(inputs)
     return Rating(
-        EDITIONS[given.options.iso14521_edition],
-        entries(given, "iso14521", values, _sources(given), _equations(given)),
-        _violations(given, values),
-        (*unanswered, *_notes(given, values)),
+        EDITIONS[inputs.options.iso14521_edition],
+        entries(inputs, "iso14521", values, _sources(inputs), _equations(inputs)),
+        _violations(inputs, values),
+        (*unanswered, *_notes(inputs, values)),
         unanswered,
     )
 
 
-def rated(given: Inputs) -> tuple[Values, tuple[str, ...]]:
+def rated(inputs: Inputs) -> tuple[Values, tuple[str, ...]]:
     """Return all numbers by the keys of a rating, and why some have no answer."""
-    values = rated_efficiency(given)
+    values = rated_efficiency(inputs)
     with masking() as unanswered:
-        values = rated_capacity(given, values)
+        values = rated_capacity(inputs, values)
     return values, tuple(unanswered.legend.values())
 
 
 _HOTTEST_GIVEN = 100.0
 
 
-def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
+def _violations(inputs: Inputs, values: Values) -> tuple[str, ...]:
     found: dict[str, None] = {}
     # It goes with the speed.
-    slides = float(values["sliding_velocity_m_s"]) / float(given.worm_speed)
-    for speed in given.speeds:
+    slides = float(values["sliding_velocity_m_s"]) / float(inputs.worm_speed)
+    for speed in inputs.speeds:
         sentences = violations(
-            centre_distance=given.centre_distance,
-            profile_shift=given.profile_shift,
+            centre_distance=inputs.centre_distance,
+            profile_shift=inputs.profile_shift,
             worm_speed=speed,
-            ratio=given.gear_ratio,
-            geometry_factor=values["Y_G"] if given.friction is None else None,
-            sump_by_formula=given.oil_temperature is None,
+            ratio=inputs.gear_ratio,
+            geometry_factor=values["Y_G"] if inputs.friction is None else None,
+            sump_by_formula=inputs.oil_temperature is None,
             sliding_velocity=slides * float(speed),
         )
         found |= dict.fromkeys(sentences)
@@ -73,25 +73,25 @@ def _violations(given: Inputs, values: Values) -> tuple[str, ...]:
     if math.isnan(values["nu_M_mm2_s"]):
         beyond = None if math.isnan(hot) else oil.TEMPERATURE.violation(hot)
         return own if beyond is None else (*own, beyond)
-    return (*own, *given.operation.lubricant.violations(hot + 273.15))
+    return (*own, *inputs.operation.lubricant.violations(hot + 273.15))
 
 
-def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
+def _notes(inputs: Inputs, values: Values) -> tuple[str, ...]:
     notes = [*failures("iso14521", values)]
-    if given.operation.lubrication == "spray" and given.oil_temperature is None:
+    if inputs.operation.lubrication == "spray" and inputs.oil_temperature is None:
         notes.append(
             "the oil temperature is that of a splash-lubricated gearbox, though the lubrication is "
             "by spray: give operation.oil_temperature"
         )
-    if given.gearset.wheel_material.avoids(given.operation.lubricant.base_oil):
+    if inputs.gearset.wheel_material.avoids(inputs.operation.lubricant.base_oil):
         notes.append(
             "polyglycol with aluminium bronze is a pair that practice avoids, for its wear: the "
             "standard's curves are not of such pairs, and safety_wear says nothing of it"
         )
     worn = wear_constants(
-        given.gearset.wheel_material.family,
-        given.operation.lubrication,
-        given.operation.lubricant.base_oil,
+        inputs.gearset.wheel_material.family,
+        inputs.operation.lubrication,
+        inputs.operation.lubricant.base_oil,
     )
     if values["J_0T"] >= worn.cap:
         notes.append(
@@ -102,32 +102,32 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
             f"the wheel's bulk temperature is {values['theta_M_degC']:.0f} degC: the oil's "
             "viscosity is extrapolated beyond the 100 degC it is given at"
         )
-    notes += _of_heat(given, values)
-    spectrum = given.operation.spectrum
+    notes += _of_heat(inputs, values)
+    spectrum = inputs.operation.spectrum
     if spectrum is not None and spectrum.oil != "each" and spectrum.oil_temperature is None:
         notes.append(
             "the oil has the mean temperature of all loads, as the cycles of S3 are alike: give "
             "spectrum.oil_temperature = 'each' where a load comes in long blocks"
         )
-    if given.duty:
+    if inputs.duty:
         notes.append(
-            f"the duty cycle: wear adds up over its parts, {_SUMPS[_oil(given)]}, "
+            f"the duty cycle: wear adds up over its parts, {_SUMPS[_oil(inputs)]}, "
             "and film and wear factors are those of the part that wears most; pitting "
             "goes by its parts' damage, with the exponent of Z_h (our own rule); deflection and "
             "root go by the rated torque, the friction there by the speed of the part with the "
             "greatest torque"
         )
-        if given.operation.through_travel_torque is not None:
+        if inputs.operation.through_travel_torque is not None:
             notes.append(
                 "operation.through_travel_torque does not count beside operation.duty_cycle, whose "
                 "parts tell what is carried"
             )
-        if given.operation.spectrum is not None and given.operation.model_fields_set & _LIVES:
+        if inputs.operation.spectrum is not None and inputs.operation.model_fields_set & _LIVES:
             notes.append(
                 "operation.life and operation.wheel_revolutions do not count beside [spectrum], "
                 "whose steps are the whole life"
             )
-    elif given.oil_temperature is None and given.through_travel_torque < given.output_torque:
+    elif inputs.oil_temperature is None and inputs.through_travel_torque < inputs.output_torque:
         notes.append(
             "the oil is as hot as under the rated torque all the time; wear goes by the "
             "through-travel torque at that temperature: give operation.oil_temperature if it is "
@@ -139,11 +139,11 @@ def _notes(given: Inputs, values: Values) -> tuple[str, ...]:
 _MOST_BEYOND = 30.0  # W/(m2 K)
 
 
-def _of_heat(given: Inputs, values: Values) -> Iterator[str]:
+def _of_heat(inputs: Inputs, values: Values) -> Iterator[str]:
     """Say where the sump's temperature by the standard and the heat balance contradict."""
-    if told := uncounted(given):
+    if told := uncounted(inputs):
         yield f"heat: {told}"
-    housing = given.operation.housing
+    housing = inputs.operation.housing
     if housing is None:
         return
     if values.get("k_S_W_m2K", 0.0) > _MOST_BEYOND:
@@ -161,16 +161,16 @@ _SUMPS = {
 _LIVES = {"life", "wheel_revolutions"}
 
 
-def _oil(given: Inputs) -> str:
-    spectrum = given.operation.spectrum
+def _oil(inputs: Inputs) -> str:
+    spectrum = inputs.operation.spectrum
     return "each" if spectrum is None else spectrum.oil
 
 
-def _equations(given: Inputs) -> dict[str, str]:
+def _equations(inputs: Inputs) -> dict[str, str]:
     """Return the equations that depend on the case, by key."""
-    options, operation = given.options, given.operation
-    wheel, base_oil = given.gearset.wheel_material, operation.lubricant.base_oil
-    concave, old = given.gearset.flank == "ZC", options.iso14521_edition == "1998"
+    options, operation = inputs.options, inputs.operation
+    wheel, base_oil = inputs.gearset.wheel_material, operation.lubricant.base_oil
+    concave, old = inputs.gearset.flank == "ZC", options.iso14521_edition == "1998"
     law = friction_constants(wheel.family, operation.lubrication, base_oil)
     worn = wear_constants(wheel.family, operation.lubrication, base_oil)
     iron = wheel.family in ("grey iron", "nodular iron")
@@ -212,7 +212,7 @@ def _equations(given: Inputs) -> dict[str, str]:
     }
     if old:
         by_case["Z_u"] = "1"
-    if given.duty:
+    if inputs.duty:
         by_case |= {
             "N_L": "sum of 60 L_h n_1/u over the duty cycle",
             "s_Wm_mm": "sum of s* sigma_Hm a/E_red N_L over the duty cycle",
@@ -221,15 +221,15 @@ def _equations(given: Inputs) -> dict[str, str]:
             "safety_temperature": "theta_Slim/theta_Smax",
         }
     if operation.housing is not None:
-        by_case |= _of_housing(operation.housing, given)
+        by_case |= _of_housing(operation.housing, inputs)
     if options.friction is not None:
         by_case["mu_zm"] = f"k_mu {options.friction:g}"
     return by_case
 
 
-def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
+def _of_housing(housing: Housing, inputs: Inputs) -> dict[str, str]:
     """Return the equations of a housing's heat, by key."""
-    how = given.how.kind
+    how = inputs.how.kind
     timed = housing.capacity is not None and how != "S1"
     equations = {"safety_temperature": "theta_Slim/theta_h"}
     if timed:
@@ -239,9 +239,9 @@ def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
     equations["A_h_m2"] = balance.AREAS[housing.area_rule].equation
     if housing.area is not None:
         equations["A_h_m2"] = "input"
-    if not given.duty:
+    if not inputs.duty:
         equations["loss_heating_W"] = "P_V"
-    elif _oil(given) == "mean":
+    elif _oil(inputs) == "mean":
         equations["loss_heating_W"] = "P_Vm"
     if housing.idle_loss is not None:
         equations["loss_idle_W"] = balance.measured_idle_loss.equation
@@ -250,18 +250,18 @@ def _of_housing(housing: Housing, given: Inputs) -> dict[str, str]:
     return equations
 
 
-def _sources(given: Inputs) -> dict[str, Source]:
+def _sources(inputs: Inputs) -> dict[str, Source]:
     """Return where the values of tables come from, by key."""
-    wheel, operation = given.gearset.wheel_material, given.operation
+    wheel, operation = inputs.gearset.wheel_material, inputs.operation
     law = wheel.family, operation.lubrication, operation.lubricant.base_oil
     base = operation.lubricant.base
     in_place = {
-        "mu_0T": given.base_friction,
-        "mu_zm": given.friction,
-        "theta_S_degC": given.oil_temperature,
+        "mu_0T": inputs.base_friction,
+        "mu_zm": inputs.friction,
+        "theta_S_degC": inputs.oil_temperature,
     }
     changed = {
-        "W_ML": given.options.wear_factor, "sigma_HlimT_MPa": given.options.pitting_factor,
+        "W_ML": inputs.options.wear_factor, "sigma_HlimT_MPa": inputs.options.pitting_factor,
     }  # fmt: skip
     in_place |= {key: None if factor == 1.0 else factor for key, factor in changed.items()}
     housing, by_rule = operation.housing, {}

@@ -46,7 +46,7 @@ NUMBER = {name: number for number, name in enumerate(_NUMBERS, 1)} | {
 """Numbers of the components in a file, by what they are."""
 
 
-class Given(NamedTuple):
+class WormStage(NamedTuple):
     """What is written.
 
     Attributes
@@ -104,11 +104,11 @@ def celsius(kelvin: float | None) -> tuple[float | None, str]:
     return (None if kelvin is None else float(f"{kelvin - _ZERO_CELSIUS:.12g}")), "C"
 
 
-def materials(given: Given) -> list[Component]:
+def materials(stage: WormStage) -> list[Component]:
     """Return the materials of worm and wheel."""
     made = []
     for part in ("worm", "wheel"):
-        own = getattr(given.gearset, f"{part}_material")
+        own = getattr(stage.gearset, f"{part}_material")
         metal = "bronze" if "bronze" in getattr(own, "family", "") else "cast iron"
         grows = EXPANSION["steel" if part == "worm" else metal]
         made.append(
@@ -136,18 +136,18 @@ def oil(run: Operation) -> Component:
     )  # fmt: skip
 
 
-def tools(given: Given, pair: Pair) -> list[Component]:
+def tools(stage: WormStage, pair: Pair) -> list[Component]:
     """Return the tools that make worm and wheel, and how they stand."""
-    g, gearset, hob = given.gearset.geometry, given.gearset, pair.hob
+    g, gearset, hob = stage.gearset.geometry, stage.gearset, pair.hob
     form = (gearset.flank.lower(), "none")
     flat = (math.degrees(g.pressure_angle), "deg")
-    disc = given.disc or Disc()
+    disc = stage.disc or Disc()
     radius = None
     if gearset.flank == "ZC":
         radius = disc.profile_radius or DISC_PROFILE_RADIUS * g.axial_module / _MILLIMETRES
     ground = disc.diameter if gearset.flank in ("ZK", "ZC") else None
     correction = pair.cutting.centre_distance - g.centre_distance
-    given_hob = given.hob or Hob()
+    given_hob = stage.hob or Hob()
     return [
         component("worm_settings", "worm_gear_manufacturing_settings",
                    center_distance_correction=(0.0, "mm"),

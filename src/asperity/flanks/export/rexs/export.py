@@ -9,7 +9,7 @@ from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.files.store import write_text
 from asperity.flanks.export.rexs.carried import carried_of, left_out, with_carried
-from asperity.flanks.export.rexs.components import Given
+from asperity.flanks.export.rexs.components import WormStage
 from asperity.flanks.export.rexs.document import VERSION, Document
 from asperity.flanks.export.rexs.gearset import document
 from asperity.flanks.parameters import Disc, Hob, Mount
@@ -69,59 +69,59 @@ class Exchanged(Result):
         return write_text(path, self.text())
 
 
-def prepare(case: Case) -> Given:
+def prepare(case: Case) -> WormStage:
     """Return what is written of a case; raises InputError."""
     gearset = case.require(Gearset).require_consistent()
     operation = None if case.get(Operation) is None else run_of(case)
     options = case.get(RatingOptions)
-    given = Given(
+    stage = WormStage(
         gearset, None, case.get(Hob), case.get(Disc), case.get(Mount),
         worm_shaft=case.get(WormShaft), wheel_shaft=case.get(WheelShaft),
         carried=carried_of(case), left_out=tuple(left_out(case)),
     )  # fmt: skip
     if operation is None:
-        return given
+        return stage
     with naming_source(case):
         operation = driven(gearset, operation, options)
     steps = tuple(
         (float(part.hours), float(part.torque), float(part.speed))
         for part in inputs(gearset, operation, options or RatingOptions()).duty
     )
-    given = given._replace(operation=operation, sump=operation.oil_temperature, steps=steps)
+    stage = stage._replace(operation=operation, sump=operation.oil_temperature, steps=steps)
     try:
         rated = rate(gearset, operation, options, ("iso14521",), folder=case.folder)
     except InputError:
-        return given
+        return stage
     clockwise = next((one for one in rated.forces if one.rotation == "clockwise"), None)
-    return given._replace(forces=clockwise)
+    return stage._replace(forces=clockwise)
 
 
-def answer(given: Given, _: Run) -> Exchanged:
+def answer(stage: WormStage, _: Run) -> Exchanged:
     """Return the model of a case."""
-    made = with_carried(document(given), given.carried)
+    made = with_carried(document(stage), stage.carried)
     notes = ["results of a rating are left out: the format has names for those of DIN 3996:2019"]
-    if given.carried:
-        listed = ", ".join(f"[{name}]" for name in given.carried)
+    if stage.carried:
+        listed = ", ".join(f"[{name}]" for name in stage.carried)
         notes.append(
             f"carried in an attribute of our own, which other programs pass over: {listed}"
         )
-    if given.left_out:
-        notes.append(f"left out: {', '.join(given.left_out)}")
-    factor = None if given.operation is None else given.operation.application_factor
-    if given.forces is not None and factor != 1.0:
+    if stage.left_out:
+        notes.append(f"left out: {', '.join(stage.left_out)}")
+    factor = None if stage.operation is None else stage.operation.application_factor
+    if stage.forces is not None and factor != 1.0:
         notes.append(
             f"forces of the teeth are those under K_A T_2, K_A {factor:g}; torques are without it"
         )
     for part in ("worm", "wheel"):
-        if getattr(given, f"{part}_shaft") is None:
+        if getattr(stage, f"{part}_shaft") is None:
             notes.append(
                 f"the {part}'s shaft is a plain one with bearings at either side: the case has no "
                 f"[{part}_shaft]"
             )
-    if given.operation is None:
+    if stage.operation is None:
         notes.append("the case has no [operation]: speed, torque and oil are left out")
     return Exchanged(
-        name=given.gearset.name,
+        name=stage.gearset.name,
         rexs=VERSION,
         components=len(made.components),
         attributes=sum(len(one.attributes) for one in made.components),

@@ -13,7 +13,7 @@ from asperity.flanks.export.rexs.components import (
     LUBRICATION,
     NUMBER,
     OWN,
-    Given,
+    WormStage,
     celsius,
     component,
     materials,
@@ -37,28 +37,28 @@ from asperity.rating import Operation
 _HOURS = 1.0 / 3600.0
 
 
-def document(given: Given) -> Document:
+def document(stage: WormStage) -> Document:
     """Return a case as a REXS model; raises InputError where it makes no gearset."""
-    pair = Pair.of(given.gearset, given.hob, given.mount, None, given.disc)
+    pair = Pair.of(stage.gearset, stage.hob, stage.mount, None, stage.disc)
     components = [
-        *_machine(given), *_gears(given, pair), *_shafts(given), *materials(given),
-        *tools(given, pair),
+        *_machine(stage), *_gears(stage, pair), *_shafts(stage), *materials(stage),
+        *tools(stage, pair),
     ]  # fmt: skip
-    if given.operation is not None:
-        components.append(oil(given.operation))
+    if stage.operation is not None:
+        components.append(oil(stage.operation))
     made = {one.number for one in components}
-    relations = tuple(one for one in _relations(given) if made >= set(one.roles.values()))
+    relations = tuple(one for one in _relations(stage) if made >= set(one.roles.values()))
     ordered = tuple(sorted(components, key=lambda one: one.number))
-    return Document(ordered, relations, tuple(_load_cases(given)))
+    return Document(ordered, relations, tuple(_load_cases(stage)))
 
 
-def _machine(given: Given) -> list[Component]:
-    gearset, run = given.gearset, given.operation
-    g, mount = gearset.geometry, given.mount or Mount()
+def _machine(stage: WormStage) -> list[Component]:
+    gearset, run = stage.gearset, stage.operation
+    g, mount = gearset.geometry, stage.mount or Mount()
     own: dict[str, Any] = {}
     life: float | None = None
     if run is not None:
-        life = _life(run, g.gear_ratio, given.steps)
+        life = _life(run, g.gear_ratio, stage.steps)
         own = {
             f"{OWN}seals": (run.seals, "none"), f"{OWN}fan": (run.fan, "none"),
             f"{OWN}immersed": (run.immersed, "none"), f"{OWN}service": (run.service, "none"),
@@ -67,17 +67,17 @@ def _machine(given: Given) -> list[Component]:
             f"{OWN}bearings": (run.bearings.name or None, "none"),
             "reference_temperature": celsius(run.ambient_temperature),
         }  # fmt: skip
-    stage: dict[str, Any] = {
+    machine: dict[str, Any] = {
         "center_distance": (g.centre_distance, "mm"),
         "gear_ratio": (g.gear_ratio, "none"),
         "center_distance_offset": mm(mount.centre_distance_error),
         "width_offset": mm(mount.axial_offset),
         "intersection_angle_offset": (math.degrees(mount.shaft_angle_error), "deg"),
         "inclination_angle_offset": (0.0, "deg"),
-        "temperature_lubricant": celsius(given.sump),
+        "temperature_lubricant": celsius(stage.sump),
     }
     if run is not None:
-        stage |= {
+        machine |= {
             "application_factor_din_3996_2019": (run.application_factor, "none"),
             "lubrication_type_din_3996_2019": (LUBRICATION[run.lubrication], "none"),
         }
@@ -88,8 +88,8 @@ def _machine(given: Given) -> list[Component]:
             gear_shift_index=(1, "none"), reference_component_for_position=(1, "none"),
             support_vector=((0.0, 0.0, 0.0), "mm"), **ALONG_X, **own,
         ),
-        component("casing", "gear_casing", temperature_lubricant=celsius(given.sump)),
-        component("stage", "worm_stage", **stage),
+        component("casing", "gear_casing", temperature_lubricant=celsius(stage.sump)),
+        component("stage", "worm_stage", **machine),
         component("worm_data", "worm_stage_gear_data", is_driving_gear=(True, "none")),
         component("wheel_data", "worm_stage_gear_data", is_driving_gear=(False, "none")),
     ]  # fmt: skip
@@ -106,18 +106,18 @@ def _life(run: Operation, ratio: float, steps: tuple[tuple[float, ...], ...]) ->
     return None
 
 
-def _gears(given: Given, pair: Pair) -> list[Component]:
-    gearset = given.gearset
+def _gears(stage: WormStage, pair: Pair) -> list[Component]:
+    gearset = stage.gearset
     g, sign = gearset.geometry, gearset.hand_sign
-    speed = None if given.operation is None else _rpm(given.operation.worm_speed)
-    span, place = worm_shaft(given).mesh, wheel_shaft(given).mesh
+    speed = None if stage.operation is None else _rpm(stage.operation.worm_speed)
+    span, place = worm_shaft(stage).mesh, wheel_shaft(stage).mesh
     angle = sign * math.degrees(g.lead_angle)
     # The format's u, v, w of the worm's shaft are x, y and z, v turned round with w.
     own, others = {}, {}
-    if given.forces is not None:
-        x, y, z = given.forces.worm
+    if stage.forces is not None:
+        x, y, z = stage.forces.worm
         own = _forces((-x, -y, z))
-        x, y, z = given.forces.wheel
+        x, y, z = stage.forces.wheel
         others = _forces((z, -x, -y))
     common = {
         "flank_form": (gearset.flank.lower(), "none"),
@@ -173,9 +173,9 @@ def _rpm(speed: float) -> float:
     return float(f"{speed * 30.0 / math.pi:.14g}")
 
 
-def _shafts(given: Given) -> list[Component]:
-    g, run = given.gearset.geometry, given.operation
-    worm, wheel = worm_shaft(given), wheel_shaft(given)
+def _shafts(stage: WormStage) -> list[Component]:
+    g, run = stage.gearset.geometry, stage.operation
+    worm, wheel = worm_shaft(stage), wheel_shaft(stage)
     torque = None if run is None else run.output_torque
     speed = {} if run is None else {
         "defines_speed": (True, "none"), "rotational_speed": (_rpm(run.worm_speed), "1 / min"),
@@ -192,7 +192,7 @@ def _shafts(given: Given) -> list[Component]:
     ]  # fmt: skip
 
 
-def _relations(given: Given) -> tuple[Relation, ...]:
+def _relations(stage: WormStage) -> tuple[Relation, ...]:
     def one(type_: str, order: int | None = None, **roles: str) -> Relation:
         return Relation(type_, {role: NUMBER[what] for role, what in roles.items()}, order)
 
@@ -205,7 +205,7 @@ def _relations(given: Given) -> tuple[Relation, ...]:
         one("reference", origin="casing", referenced="oil"),
         one("reference", origin="stage", referenced="oil"),
     ]  # fmt: skip
-    shafts = worm_shaft(given), wheel_shaft(given)
+    shafts = worm_shaft(stage), wheel_shaft(stage)
     for part, tool, laid in zip(("worm", "wheel"), ("disc", "hob"), shafts, strict=True):
         shaft = f"{part}_shaft"
         made += [
@@ -229,14 +229,14 @@ def _relations(given: Given) -> tuple[Relation, ...]:
     return tuple(made)
 
 
-def _load_cases(given: Given) -> list[tuple[Component, ...]]:
+def _load_cases(stage: WormStage) -> list[tuple[Component, ...]]:
     """What the steps of a duty cycle or spectrum are, each by its share of the operating time."""
-    whole = math.fsum(hours for hours, *_ in given.steps)
+    whole = math.fsum(hours for hours, *_ in stage.steps)
     return [
         (
             component("unit", "gear_unit", operating_time_fraction=(100.0 * hours / whole, "%")),
             component("worm_shaft", "shaft", rotational_speed=(speed, "1 / min")),
             component("wheel_load", "external_load", torque_around_u_axis=(torque, "N m")),
         )
-        for hours, torque, speed in given.steps
+        for hours, torque, speed in stage.steps
     ]

@@ -8,7 +8,7 @@ plain one, long enough for the gear, with a bearing at either side.
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from asperity.flanks.export.rexs.components import OWN, Given, component, mm
+from asperity.flanks.export.rexs.components import OWN, WormStage, component, mm
 from asperity.flanks.export.rexs.document import Component
 from asperity.rating import Operation
 from asperity.shafts.parameters import ShaftBearing
@@ -62,20 +62,20 @@ class Laid(NamedTuple):
     places: tuple[Place, ...]
 
 
-def worm_shaft(given: Given) -> Laid:
+def worm_shaft(stage: WormStage) -> Laid:
     """Return the worm's shaft."""
-    g = given.gearset.geometry
-    if given.worm_shaft is not None:
-        return _described(given.worm_shaft, g.worm_root_diameter)
-    span = _span(given.operation, g.centre_distance)
+    g = stage.gearset.geometry
+    if stage.worm_shaft is not None:
+        return _described(stage.worm_shaft, g.worm_root_diameter)
+    span = _span(stage.operation, g.centre_distance)
     return _plain(span, 0.5 * span, _OF_ROOT * g.worm_root_diameter)
 
 
-def wheel_shaft(given: Given) -> Laid:
+def wheel_shaft(stage: WormStage) -> Laid:
     """Return the wheel's shaft."""
-    far = given.gearset.geometry.centre_distance
-    if given.wheel_shaft is not None:
-        return _described(given.wheel_shaft, 0.0)
+    far = stage.gearset.geometry.centre_distance
+    if stage.wheel_shaft is not None:
+        return _described(stage.wheel_shaft, 0.0)
     return _plain(far, 0.5 * far, _OF_DISTANCE * far)
 
 
