@@ -38,7 +38,7 @@ from asperity.cli.rig_look import looking
 from asperity.errors import InputError
 from asperity.results import read
 from asperity.tribometer.importing.cells import is_number, marks_of
-from asperity.tribometer.importing.files import read_export, read_joined, told_of
+from asperity.tribometer.importing.files import declaration_of, read_export, read_joined
 from asperity.tribometer.importing.text import read_text
 from asperity.tribometer.recording import Recording
 
@@ -187,7 +187,9 @@ def test_a_file_a_channel_is_joined_by_time(tmp_path):
     for name, values, first in (("C1run.txt", A, 0), ("C2run.txt", B, late)):
         rows = lecroy()[:5] + joined(zip(TIMES[first:], values[first:], strict=True))
         (tmp_path / name).write_text("\n".join(rows), "utf-8")
-    found = read_joined([str(tmp_path / "C1run.txt"), str(tmp_path / "C2run.txt")], told_of())
+    found = read_joined(
+        [str(tmp_path / "C1run.txt"), str(tmp_path / "C2run.txt")], declaration_of()
+    )
     assert [*found.headings] == ["C1", "C2"]
     assert found.values[0] == pytest.approx(A, abs=1e-4)
     assert np.all(np.isnan(found.values[1][:late]))
@@ -202,19 +204,19 @@ def test_files_of_other_rates_or_times_are_no_one_recording(tmp_path):
         )
     for other, told in (("b.csv", "one rate"), ("c.csv", "apart in time")):
         with pytest.raises(InputError, match=told):
-            read_joined([str(tmp_path / "a.csv"), str(tmp_path / other)], told_of())
+            read_joined([str(tmp_path / "a.csv"), str(tmp_path / other)], declaration_of())
 
 
 def test_what_a_file_does_not_say_can_be_said(tmp_path):
     path = tmp_path / "run.csv"
     path.write_text("\n".join(triples()), "utf-8")
-    found = read_text(path, "run.csv", told_of(columns="time,-,B", units="s,V,mV"))
+    found = read_text(path, "run.csv", declaration_of(columns="time,-,B", units="s,V,mV"))
     assert ([*found.headings], [*found.units]) == (["B"], ["mV"])
     holds(found, (B,))
     path.write_text("\n".join(joined(zip(A, B, strict=True))), "utf-8")
-    holds(read_text(path, "run.csv", told_of("1 kHz", "A,B", "V,V")), BOTH)
+    holds(read_text(path, "run.csv", declaration_of("1 kHz", "A,B", "V,V")), BOTH)
     path.write_text("\n".join(joined(A[:, None])), "utf-8")
-    holds(read_text(path, "run.csv", told_of("1 kHz", "A", "V")), ONE)
+    holds(read_text(path, "run.csv", declaration_of("1 kHz", "A", "V")), ONE)
 
 
 NOT_READ = {
@@ -256,7 +258,7 @@ def test_a_file_that_is_not_what_it_is_called_is_told_what_to_export(tmp_path, n
 
 def test_a_structure_of_matlab_is_told_how_to_be_saved(tmp_path):
     scipy.io.savemat(tmp_path / "run.mat", {"data": {"A": np.arange(100.0), "fs": 1.0}})
-    for told in (told_of(), told_of("1 kHz")):
+    for told in (declaration_of(), declaration_of("1 kHz")):
         with pytest.raises(InputError, match="a variable of numbers of its own, not in a struct"):
             read_export(tmp_path / "run.mat", "run.mat", told)
 
@@ -362,7 +364,7 @@ def test_what_is_said_of_a_file_must_fit_it(tmp_path, asked, told):
     path = tmp_path / "run.csv"
     path.write_text("\n".join(["Time (s),A (V),B (V)", *triples()]), "utf-8")
     with pytest.raises(InputError, match=told):
-        read_text(path, "run.csv", told_of(**asked))
+        read_text(path, "run.csv", declaration_of(**asked))
 
 
 @given(st.floats(-1e9, 1e9, allow_nan=False), st.sampled_from([(".", ""), (",", "."), (".", ",")]))

@@ -125,9 +125,9 @@ def mistakes_of(model: type[Table], entries: Mapping[str, Any]) -> Iterator[tupl
             return
 
 
-def _without_echoes(found: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+def _without_echoes(errors: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
     """Leave out keys that are missing because they are misspelt."""
-    listed = list(found)
+    listed = list(errors)
     meant = {word for _, sentence in listed for word in _MEANT.findall(sentence)}
     return [
         (key, sentence)

@@ -39,15 +39,20 @@ def print_instruments(*, as_json: bool) -> None:
     )
 
 
-def _row(one: Description) -> tuple[str, str, str, str]:
-    return one.name, one.kind, one.title, "off is read back" if one.proves_off else "NOT PROVEN OFF"
+def _row(description: Description) -> tuple[str, str, str, str]:
+    return (
+        description.name,
+        description.kind,
+        description.title,
+        "off is read back" if description.proves_off else "NOT PROVEN OFF",
+    )
 
 
-def _json(one: Description) -> dict[str, Any]:
+def _json(description: Description) -> dict[str, Any]:
     return {
-        "name": one.name,
-        "kind": one.kind,
-        "title": one.title,
-        "source": one.source,
-        "off_is_read_back": one.proves_off,
+        "name": description.name,
+        "kind": description.kind,
+        "title": description.title,
+        "source": description.source,
+        "off_is_read_back": description.proves_off,
     }

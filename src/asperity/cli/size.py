@@ -67,11 +67,11 @@ def size(
             show.print_tables(found.tables())
 
 
-def _written(found: Proposals, asking: Case, out: Path, ratio: str) -> str:
+def _written(proposals: Proposals, asking: Case, out: Path, ratio: str) -> str:
     """Write proposals to a folder, each also as a case; returns what is to be said of it."""
     folder, values = output_folder(out), asking.raw
-    kind, names = kind_of("gear"), found.write(folder, pictures="")
-    for place, proposal in enumerate(found.found, 1):
+    kind, names = kind_of("gear"), proposals.write(folder, pictures="")
+    for place, proposal in enumerate(proposals.found, 1):
         kept = {k: v for k, v in values["gearset"].items() if k not in OTHER_FORMS}
         mine = {**with_bearings(values, proposal.bearings), "gearset": {**kept, **proposal.keys}}
         tables = (*kind.tables, *(name for name in mine if name not in kind.tables))
@@ -79,6 +79,6 @@ def _written(found: Proposals, asking: Case, out: Path, ratio: str) -> str:
         names.append(write_text(folder / f"proposal-{place}.toml", text).name)
     heading = Heading.of(asking, __version__)
     given = {"ratio": ratio, **heading.given} if ratio else heading.given
-    report = found.to_html(dataclasses.replace(heading, given=given), folder)
+    report = proposals.to_html(dataclasses.replace(heading, given=given), folder)
     names.append(write_text(folder / "report.html", report).name)
     return f"written to {folder}: {', '.join(names)}"

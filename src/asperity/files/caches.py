@@ -85,7 +85,7 @@ def kept(kinds: Sequence[str]) -> list[Kept]:
     StorageError
         A folder cannot be looked into.
     """
-    with _trouble_told():
+    with _storage_errors():
         return [_kept(kind) for kind in kinds]
 
 
@@ -101,7 +101,7 @@ def clear(kinds: Sequence[str]) -> tuple[int, int]:
         Somebody else can have put a file there, and nothing was removed; or something cannot be
         removed, and everything else was.
     """
-    with _trouble_told():
+    with _storage_errors():
         folders = _removable(kinds)
     files = size = 0
     failed: list[str] = []
@@ -125,7 +125,7 @@ def clear(kinds: Sequence[str]) -> tuple[int, int]:
 
 
 @contextlib.contextmanager
-def _trouble_told() -> Iterator[None]:
+def _storage_errors() -> Iterator[None]:
     try:
         yield
     except StorageError:

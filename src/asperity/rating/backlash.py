@@ -8,14 +8,14 @@ from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating.result import Rating
 
 
-def worn(found: Mapping[str, Rating]) -> float | None:
+def worn(ratings: Mapping[str, Rating]) -> float | None:
     """Return how deep the wheel's flanks are worn at the end of the life by ISO/TR 14521, um."""
-    iso = found.get("iso14521")
+    iso = ratings.get("iso14521")
     return None if iso is None or "delta_Wn_mm" not in iso else 1e3 * float(iso["delta_Wn_mm"])
 
 
 def play_of(
-    gearset: Gearset, tolerances: Tolerances | None, found: Mapping[str, Rating]
+    gearset: Gearset, tolerances: Tolerances | None, ratings: Mapping[str, Rating]
 ) -> Backlash | None:
     """Return the backlash that tolerances leave, None without any; raises InputError."""
-    return None if tolerances is None else backlash(gearset, tolerances, worn(found))
+    return None if tolerances is None else backlash(gearset, tolerances, worn(ratings))

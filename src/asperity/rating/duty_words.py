@@ -28,13 +28,13 @@ def loads_line(inputs: Inputs) -> str:
 
 def duty_lines(
     inputs: Inputs,
-    found: dict[str, Rating],
+    ratings: dict[str, Rating],
     parts: Sequence[DutyPart],
     lasts: Sequence[Endurance],
     starts: Sequence[Starting],
 ) -> Iterator[str]:
     """Yield the lines of a spectrum and a housing; none without them."""
-    operation, iso = inputs.operation, found.get("iso14521")
+    operation, iso = inputs.operation, ratings.get("iso14521")
     if operation.steps is not None:
         if mean := duty_mean(inputs, parts):
             yield _over_all(inputs, mean)
@@ -42,7 +42,7 @@ def duty_lines(
         if lasts:
             hours = float(inputs.total(part.hours for part in inputs.loads))
             yield lasts[0].sentence(hours, "endurance.0")
-        if "agma6034" in found:
+        if "agma6034" in ratings:
             factor = operation.service_factor
             times = "" if factor is None else f", times a service factor of {factor:g}"
             yield f"AGMA 6034 has no load spectra: the load nearest to its limit{times}"

@@ -68,20 +68,20 @@ def endurance_table(rows: Sequence[Endurance]) -> Table:
     )
 
 
-def endurance(inputs: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, ...]:
+def endurance(inputs: Inputs, ratings: Mapping[str, Rating]) -> tuple[Endurance, ...]:
     """Return the running time until each limit, the shortest first.
 
     Parameters
     ----------
     inputs : Inputs
         What was rated.
-    found : mapping of str to Rating
+    ratings : mapping of str to Rating
         Its ratings, by standard.
     """
     hours = float(inputs.total(part.hours for part in inputs.loads) if inputs.duty else inputs.life)
     asked = {demand.path: demand.asked for demand in DEMANDS}
-    lasting = dict(_factors(inputs, found, asked))
-    at_all = dict(_factors(inputs, found, dict.fromkeys(asked, 1.0)))
+    lasting = dict(_factors(inputs, ratings, asked))
+    at_all = dict(_factors(inputs, ratings, dict.fromkeys(asked, 1.0)))
     rows = [
         Endurance(
             standard=path.partition(".")[0],
@@ -97,10 +97,10 @@ def endurance(inputs: Inputs, found: Mapping[str, Rating]) -> tuple[Endurance, .
 
 
 def _factors(
-    inputs: Inputs, found: Mapping[str, Rating], least: Mapping[str, float]
+    inputs: Inputs, ratings: Mapping[str, Rating], least: Mapping[str, float]
 ) -> Iterator[tuple[str, float]]:
     """Yield how many times as long it runs until each safety is the least."""
-    iso: Any = found.get("iso14521", {})
+    iso: Any = ratings.get("iso14521", {})
     if "safety_wear" in iso:
         yield (path := "iso14521.safety_wear"), float(iso["safety_wear"]) / least[path]
     if "safety_pitting" in iso:
@@ -112,7 +112,7 @@ def _factors(
         yield path, float(25000.0 / equivalent * of_25000**6 if holds else 0.0)
     if "safety_root" in iso and "safety_wear" in iso:
         yield (path := "iso14521.safety_root"), float(_of_root(inputs, iso, least[path]))
-    bs: Any = found.get("bs721", {})
+    bs: Any = ratings.get("bs721", {})
     if "safety_wear" in bs:
         of_26000 = bs["safety_wear"] / bs["wear_life_factor"] / least["bs721.safety_wear"]
         yield "bs721.safety_wear", float((27000.0 * of_26000**3 - 1000.0) / bs["U_w_h"])

@@ -25,7 +25,7 @@ NAME = "own table"
 """In place of a standard's."""
 
 
-class Found(NamedTuple):
+class PlasticRating(NamedTuple):
     """What a wheel of plastic comes to.
 
     Attributes
@@ -56,7 +56,7 @@ def plastic_of(inputs: Inputs) -> Plastic | None:
     return own if isinstance(own, Plastic) else None
 
 
-def judged(inputs: Inputs, plastic: Plastic) -> Found:
+def judged(inputs: Inputs, plastic: Plastic) -> PlasticRating:
     """Return what a wheel of plastic comes to.
 
     Raises
@@ -90,7 +90,7 @@ def judged(inputs: Inputs, plastic: Plastic) -> Found:
     if plastic.wear_coefficient is not None:
         depth = sum(_worn(inputs, plastic, part) for part in parts)
     efficiency = worm_driving_efficiency(inputs.lead_angle, plastic.friction)
-    return Found(float(root), float(_pressure(inputs, torque)), cycles, celsius, depth,
+    return PlasticRating(float(root), float(_pressure(inputs, torque)), cycles, celsius, depth,
                  float(efficiency))  # fmt: skip
 
 

@@ -194,7 +194,7 @@ def friction_share(inputs: Inputs, name: str) -> Real:
 
 
 def locking_margins(
-    inputs: Inputs, found: Numbers, tables: Tables | None = None
+    inputs: Inputs, numbers: Numbers, tables: Tables | None = None
 ) -> dict[tuple[str, State], Real]:
     """Return by how much friction is above that from which on a worm locks itself, over it.
 
@@ -202,7 +202,7 @@ def locking_margins(
     ----------
     inputs : Inputs
         What was rated, arrays of variants among them.
-    found : Numbers
+    numbers : Numbers
         Of ratings, or of variants; a standard that has none is left out.
     tables : Tables, optional
         Of BS 721, in place of those that ship.
@@ -221,21 +221,21 @@ def locking_margins(
     keys = {"iso14521": "mu_zm", "bs721": "mu", "agma6034": "mu"}
     margins: dict[tuple[str, State], Real] = {}
     for name, limit in limits.items():
-        if f"{name}.{keys[name]}" in found:
+        if f"{name}.{keys[name]}" in numbers:
             at_rest = inputs.friction
             if at_rest is None:
-                at_rest = _at_rest(inputs, name, found, tables or read_tables())
+                at_rest = _at_rest(inputs, name, numbers, tables or read_tables())
             margins[name, "static"] = inputs.friction_factor * at_rest / limit - 1.0
-            margins[name, "dynamic"] = found[f"{name}.{keys[name]}"] / limit - 1.0
+            margins[name, "dynamic"] = numbers[f"{name}.{keys[name]}"] / limit - 1.0
     return margins
 
 
-def _at_rest(inputs: Inputs, name: str, found: Numbers, tables: Tables) -> Real:
+def _at_rest(inputs: Inputs, name: str, numbers: Numbers, tables: Tables) -> Real:
     if name == "agma6034":
         return mesh.friction(0.0)
     if name == "bs721":
         return torque.friction(0.0, tables=tables)
-    return _iso_at_rest(inputs, {key: found[f"iso14521.{key}"] for key in _FACTORS})
+    return _iso_at_rest(inputs, {key: numbers[f"iso14521.{key}"] for key in _FACTORS})
 
 
 def _friction(

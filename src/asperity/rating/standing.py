@@ -58,13 +58,15 @@ class Standing(NamedTuple):
     reasons: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, found: Mapping[str, Rating], unanswered: Mapping[str, str]) -> "Iterator[Standing]":
+    def of(
+        cls, ratings: Mapping[str, Rating], unanswered: Mapping[str, str]
+    ) -> "Iterator[Standing]":
         """Yield that of every standard that was asked for."""
         for name in NAMES:
             if name in unanswered:
                 yield cls(name, "no answer", reasons=(unanswered[name],))
-            elif name in found:
-                yield cls._rated(name, found[name])
+            elif name in ratings:
+                yield cls._rated(name, ratings[name])
 
     @classmethod
     def _rated(cls, name: str, rating: Rating) -> "Standing":

@@ -110,9 +110,9 @@ def _found(
         )  # fmt: skip
 
 
-def starting_line(found: Sequence[Starting]) -> Sentence:
+def starting_line(starting: Sequence[Starting]) -> Sentence:
     """Return what starting takes by the standard that asks for most."""
-    place, worst = min(enumerate(found), key=lambda pair: pair[1].efficiency)
+    place, worst = min(enumerate(starting), key=lambda pair: pair[1].efficiency)
     key = f"starting.{place}"
     name = NAMES.get(worst.standard, "the given friction")
     return Sentence(
@@ -122,10 +122,10 @@ def starting_line(found: Sequence[Starting]) -> Sentence:
     )  # fmt: skip
 
 
-def starting_table(found: Sequence[Starting]) -> Table:
+def starting_table(starting: Sequence[Starting]) -> Table:
     """Return what starting takes as a table."""
     return table_of_rows(
-        found,
+        starting,
         {
             "friction of": lambda one: NAMES.get(one.standard, one.standard),
             "friction at rest": "friction",

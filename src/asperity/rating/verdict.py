@@ -101,7 +101,7 @@ class Verdict(NamedTuple):
     @classmethod
     def of(
         cls,
-        found: Mapping[str, Rating],
+        ratings: Mapping[str, Rating],
         levers: tuple[Lever, ...] = (),
         alternatives: tuple[Alternative, ...] = (),
         wear_assumed: str = "",
@@ -113,7 +113,7 @@ class Verdict(NamedTuple):
 
         Parameters
         ----------
-        found : mapping of str to Rating
+        ratings : mapping of str to Rating
             By standard.
         levers : tuple of Lever
             What raises a safety, and how much.
@@ -133,15 +133,15 @@ class Verdict(NamedTuple):
         Verdict
             Safeties, and where each standard stands.
         """
-        asked = [demand for demand in DEMANDS if demand.standard in found]
-        rated = {d: found[d.standard][d.key] for d in asked if d.key in found[d.standard]}
+        asked = [demand for demand in DEMANDS if demand.standard in ratings]
+        rated = {d: ratings[d.standard][d.key] for d in asked if d.key in ratings[d.standard]}
         return cls(
             tuple(Safety(demand, float(value)) for demand, value in rated.items()),
             tuple(demand.path for demand in asked if demand not in rated),
-            tuple(Standing.of(found, unanswered or {})),
+            tuple(Standing.of(ratings, unanswered or {})),
             levers,
             alternatives,
-            Film.of(found["iso14521"]) if "h_min_um" in found.get("iso14521", ()) else None,
+            Film.of(ratings["iso14521"]) if "h_min_um" in ratings.get("iso14521", ()) else None,
             wear_assumed if any(demand.name == "wear" for demand in rated) else "",
             rows,
             heat_assumed if any(demand.name == "temperature" for demand in rated) else "",
@@ -343,7 +343,7 @@ def locking_line(locking: SelfLocking) -> str:
 
 def screen(
     verdict: Verdict,
-    found: Mapping[str, Rating],
+    ratings: Mapping[str, Rating],
     locking: SelfLocking,
     assumed: int,
     notes: Iterable[str],
@@ -354,13 +354,13 @@ def screen(
 
     At most 23 lines, unless the verdict itself takes more; what has no room is left to ``--full``.
     """
-    iso = found.get("iso14521")
+    iso = ratings.get("iso14521")
     first, best = verdict.nearest(), verdict.best()
     power = power_lines(iso) if iso is not None else ()
     film = () if verdict.film is None else (verdict.film.sentence(),)
     # What is nearer to the verdict stays where there is no room for all.
     said = {f"{one.standard}: {reason}" for one in verdict.standing for reason in one.reasons}
-    remarks = *(note for note in notes if note not in said), *_outside(found)
+    remarks = *(note for note in notes if note not in said), *_outside(ratings)
     kept = {"film": film, "remarks": remarks}
     blocks = {"stands": verdict.stands(), "first": first, "best": best, "power": power,
               "duty": duty, "locking": (locking_line(locking),), "play": play}  # fmt: skip
@@ -377,7 +377,9 @@ def screen(
             if len(own) <= _MOST_LINES - 1 - sum(map(len, lines.values())):
                 lines[name] += own
                 shown += name == "remarks"
-    memory = len({entry.key for rating in found.values() for entry in rating if entry.from_memory})
+    memory = len(
+        {entry.key for rating in ratings.values() for entry in rating if entry.from_memory}
+    )
     more = len(kept["remarks"]) - shown
     rest = "number rests" if memory == 1 else "numbers rest"
     further = f", {more} remark{'s' * (more > 1)}" if more > 0 else ""
@@ -392,5 +394,5 @@ def screen(
     return "\n".join(line for name in order for line in lines[name])
 
 
-def _outside(found: Mapping[str, Rating]) -> tuple[str, ...]:
-    return tuple(text for rating in found.values() for text in (*rating.violations, *rating.gaps))
+def _outside(ratings: Mapping[str, Rating]) -> tuple[str, ...]:
+    return tuple(text for rating in ratings.values() for text in (*rating.violations, *rating.gaps))

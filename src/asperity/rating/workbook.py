@@ -46,7 +46,7 @@ _FREE = (
 def write_rating(
     inputs: Inputs,
     tables: Tables,
-    found: Mapping[str, Rating],
+    ratings: Mapping[str, Rating],
     path: Path,
     shafts: Shafts | None = None,
 ) -> Path:
@@ -58,7 +58,7 @@ def write_rating(
         What was rated.
     tables : Tables
         Of BS 721.
-    found : mapping of str to Rating
+    ratings : mapping of str to Rating
         The ratings, by standard.
     path : path
         The file.
@@ -67,7 +67,7 @@ def write_rating(
     """
     cells = Cells(_fact)
     traced, own = _traced(inputs, cells), _tables(tables, cells)
-    values = {standard: _rated(standard, traced, own) for standard in found}
+    values = {standard: _rated(standard, traced, own) for standard in ratings}
     others = {} if shafts is None else shafts.sheets(cells, traced, values.get("iso14521", {}))
     cells.settle(number for rated in values.values() for number in rated.values())
     cells.settle(number for rows in others.values() for number, *_ in rows)
@@ -76,7 +76,7 @@ def write_rating(
         if isinstance(value, Traced) and value.operation:
             geometry.add(value, *_about_geometry(name))
     pages = [geometry]
-    for standard, rating in found.items():
+    for standard, rating in ratings.items():
         parts = Page(f"{standard} parts", cells)
         for key, value in values[standard].items():
             if key.startswith("part_"):

@@ -58,11 +58,11 @@ class Interval:
         return f"{self.value:.4g} ({low} to {high})"
 
 
-def value_of(found: Interval | None) -> float | None:
+def value_of(interval: Interval | None) -> float | None:
     """Return an estimate without its interval; None where there is none."""
-    return None if found is None else found.value
+    return None if interval is None else interval.value
 
 
-def numbers_of(found: Interval | None) -> tuple[float | None, float | None, float | None]:
+def numbers_of(interval: Interval | None) -> tuple[float | None, float | None, float | None]:
     """Return an estimate and both ends, as rows of tables have them."""
-    return (None, None, None) if found is None else (found.value, found.low, found.high)
+    return (None, None, None) if interval is None else (interval.value, interval.low, interval.high)

@@ -49,8 +49,8 @@ def lines_of_text(text: str, width: int, hanging: str = "") -> list[str]:
     """
     room = width - len(hanging) - len(",")
 
-    def bound(found: "re.Match[str]") -> str:
-        return found[0].replace(" ", _BOUND) if len(found[0]) <= room else found[0]
+    def bound(match: "re.Match[str]") -> str:
+        return match[0].replace(" ", _BOUND) if len(match[0]) <= room else match[0]
 
     bound_text = _MEASURED.sub(bound, text)
     lines = textwrap.wrap(bound_text, width, subsequent_indent=hanging, break_on_hyphens=False)

@@ -297,8 +297,8 @@ def _unit_of(key: str) -> str:
     return ""
 
 
-def _replaced(found: "re.Match[str]") -> str:
-    shown = US[found["unit"]]
+def _replaced(match: "re.Match[str]") -> str:
+    shown = US[match["unit"]]
 
     def one(number: "re.Match[str]") -> str:
         text = number[0]
@@ -307,15 +307,15 @@ def _replaced(found: "re.Match[str]") -> str:
         value = float(bare) * shown.factor + (0.0 if sign else shown.offset)
         return f"{'+-' if sign else ''}{_digits(bare, value)}"
 
-    return f"{re.sub(_NUMBER, one, found['numbers'])} {shown.unit}"
+    return f"{re.sub(_NUMBER, one, match['numbers'])} {shown.unit}"
 
 
-def _of_title(found: "re.Match[str]") -> str:
-    return f", {US[found['unit']].unit}"
+def _of_title(match: "re.Match[str]") -> str:
+    return f", {US[match['unit']].unit}"
 
 
-def _of_heading(found: "re.Match[str]") -> str:
-    return f"({US[found['unit']].unit})"
+def _of_heading(match: "re.Match[str]") -> str:
+    return f"({US[match['unit']].unit})"
 
 
 def shown_frame(frame: Any) -> Any:

@@ -39,7 +39,7 @@ class Rows:
         self._path = path
         self._notify = notify
         self._database: sqlite3.Connection | None = None
-        with self._trouble_told():
+        with self._storage_errors():
             self._database = _open(path)
 
     @classmethod
@@ -65,7 +65,7 @@ class Rows:
             marks = ",".join("?" * len(some))
             query = f"SELECT key, value, checksum, day FROM results WHERE key IN ({marks})"
             found: list[tuple[str, bytes, int, int]] = []
-            with self._trouble_told():
+            with self._storage_errors():
                 if self._database is not None:
                     found = self._database.execute(query, some).fetchall()
                     self._still_asked_for([(key,) for key, _, _, day in found if day < _long_ago()])
@@ -86,7 +86,7 @@ class Rows:
         values = {key: json.dumps(row, allow_nan=False).encode() for key, row in rows.items()}
         entries = [(key, value, zlib.crc32(value), _today()) for key, value in values.items()]
         for _ in ("at once", "in a new file"):
-            with self._trouble_told():
+            with self._storage_errors():
                 if self._database is not None:
                     # The context manager commits, so that what is put outlives a kill.
                     with self._database as database:
@@ -103,7 +103,7 @@ class Rows:
             self._database = None
 
     @contextlib.contextmanager
-    def _trouble_told(self) -> Iterator[None]:
+    def _storage_errors(self) -> Iterator[None]:
         try:
             yield
         except sqlite3.ProgrammingError:  # ours

@@ -146,12 +146,12 @@ def deflection(
     return Deflection(at, seated(bent, rest), seated(sheared, [np.zeros(2)] * 2), slope - tilt)
 
 
-def at_place(found: Deflection, place: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+def at_place(deflection: Deflection, place: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return bending, shear and slope at a place where something changes, by y and z.
 
     Parameters
     ----------
-    found : Deflection
+    deflection : Deflection
         Of the shaft.
     place : float
         One of its positions, mm.
@@ -161,8 +161,8 @@ def at_place(found: Deflection, place: float) -> tuple[FloatArray, FloatArray, F
     bent, sheared, slope : ndarray, shape (2,)
         By y and z; mm, mm and rad.
     """
-    index = int(np.argmin(np.abs(found.at - place)))
-    return found.bent[index], found.sheared[index], found.slope[index]
+    index = int(np.argmin(np.abs(deflection.at - place)))
+    return deflection.bent[index], deflection.sheared[index], deflection.slope[index]
 
 
 def mesh_compliance(

@@ -14,7 +14,7 @@ from asperity.shafts.bearing import RollingBearing
 from asperity.shafts.loads import loads_of
 from asperity.shafts.model import Model
 from asperity.shafts.parameters import ShaftBearing
-from asperity.shafts.shaft import ShaftFound
+from asperity.shafts.shaft import LoadedShaft
 from asperity.shafts.study import Prepared, asked_life, found_of
 
 _SAME = 1e-9
@@ -72,21 +72,21 @@ def from_shelf(
 
 
 def _chosen(
-    found: ShaftFound,
+    shaft: LoadedShaft,
     place: ShaftBearing,
     shelf: Sequence[RollingBearing],
     life: float,
     factor: float,
 ) -> ShaftBearing:
-    model = found.model
+    model = shaft.model
     number = 0 if place is model.places[0] else 1
     best: tuple[float, ShaftBearing] | None = None
     for candidate in _fitting(model, place, shelf):
         assert candidate.bearing is not None
-        asked = found.options.at_rest(candidate.bearing.elements)
+        asked = shaft.options.at_rest(candidate.bearing.elements)
         margin = min(
             min(own.told / life, own.static_safety / asked)
-            for own in found.lives_of(number, candidate).values()
+            for own in shaft.lives_of(number, candidate).values()
         )
         if best is None or margin > best[0]:
             best = margin, candidate

@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
-from asperity.shafts.shaft import ShaftFound
+from asperity.shafts.shaft import LoadedShaft
 from asperity.shafts.verdict_rows import NAMES
 
 Study = Any
@@ -27,9 +27,9 @@ _OF_ALL = (
 )
 
 
-def shaft_json(found: ShaftFound) -> dict[str, Any]:
+def shaft_json(shaft: LoadedShaft) -> dict[str, Any]:
     """Return a shaft by key: its bearings by case, and its sections."""
-    model = found.model
+    model = shaft.model
     return {
         "length_mm": model.length,
         "cases": {
@@ -52,7 +52,7 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
                     )
                 ],
             }
-            for condition, each in zip(found.cases, found.hardest, strict=True)
+            for condition, each in zip(shaft.cases, shaft.hardest, strict=True)
         },
         "bearings": [
             {
@@ -76,7 +76,7 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
                     for condition, life in lives.items()
                 },
             }
-            for at, place, lives in zip(model.bearings, model.places, found.lives, strict=True)
+            for at, place, lives in zip(model.bearings, model.places, shaft.lives, strict=True)
         ],
         "sections": [
             {
@@ -98,7 +98,7 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
                 "n_goodman": _known(each.judged.goodman),
                 "n_gerber": _known(each.judged.gerber),
             }
-            for each in found.sections
+            for each in shaft.sections
         ],
     }
 
@@ -130,8 +130,8 @@ def tables(study: Study) -> tuple[Table, ...]:
     return tuple(made)
 
 
-def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
-    name, told = NAMES[key], shaft_json(found)
+def _of_shaft(key: str, shaft: LoadedShaft) -> Iterator[Table]:
+    name, told = NAMES[key], shaft_json(shaft)
     reactions = [
         (
             condition.text,
@@ -142,16 +142,16 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
             ),
             *_keyed(f"{key}.cases.{condition.key}", case, ("deflection_um",)),
         )
-        for condition, case in zip(found.cases, told["cases"].values(), strict=True)
+        for condition, case in zip(shaft.cases, told["cases"].values(), strict=True)
     ]
-    a, b = found.model.bearings
+    a, b = shaft.model.bearings
     yield Table.of(
         ("", "F_r,A (N)", "F_a,A (N)", "F_r,B (N)", "F_a,B (N)", "v at the mesh (um)"),
         reactions,
         title=f"Loads of the {name}'s bearings, A at {a:.4g} mm and B at {b:.4g} mm, at "
-        f"{max(each.load.torque for each in found.hardest):.4g} N m",
+        f"{max(each.load.torque for each in shaft.hardest):.4g} N m",
     )
-    every = [life for own in found.lives for life in (own or {}).values()]
+    every = [life for own in shaft.lives for life in (own or {}).values()]
     oiled = bool(every) and every[0].modified is not None
     keys = (*_LOAD, "P_N", "L10h_h", *(_OIL if oiled else ()), "static_safety")
     lives = [
@@ -160,7 +160,7 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
             *_keyed(f"{key}.bearings.{n}.cases.{condition.key}", own["cases"][condition.key], keys),
         )
         for n, (end, own) in enumerate(zip(_ENDS, told["bearings"], strict=True))
-        for condition in found.lives[n] or {}
+        for condition in shaft.lives[n] or {}
     ]
     if lives:
         oil = ("kappa", "a_ISO", "L_nmh (h)") if oiled else ()
@@ -175,7 +175,7 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
         for n, each in enumerate(told["sections"])
     ]
     if sections:
-        steel = found.model.table.material
+        steel = shaft.model.table.material
         assert steel is not None
         yield Table.of(
             ("", "d (mm)", "M (N m)", "T (N m)", "sigma_v (MPa)", "S_D,1", "S_D,2", "S_F",
@@ -223,10 +223,10 @@ def _shown(value: float, key: str, unit: str) -> str:
     return Sentence(number, " ", unit) if unit else number
 
 
-def courses(found: Mapping[str, ShaftFound]) -> dict[str, Any]:
+def courses(shafts: Mapping[str, LoadedShaft]) -> dict[str, Any]:
     """Return what runs along each shaft in the case that bends it most, as dataset variables."""
     made: dict[str, Any] = {}
-    for key, shaft in found.items():
+    for key, shaft in shafts.items():
         name, worst = NAMES[key], shaft.worst
         m, v = worst.moments(_BETWEEN), worst.deflection(_BETWEEN)
         along, at = f"{name}_position", np.repeat(m.at, 2)

@@ -8,7 +8,7 @@ from asperity.gearset.answer import Drawn
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.shafts.loads import Load
-from asperity.shafts.shaft import ShaftFound
+from asperity.shafts.shaft import LoadedShaft
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -30,7 +30,7 @@ class ShaftStudy(Drawn):
     ----------
     name : str
         Of the gearset.
-    found : mapping of str to ShaftFound
+    found : mapping of str to LoadedShaft
         By ``worm_shaft`` and ``wheel_shaft``, those that are given.
     loads : tuple of Load
         Of the life.
@@ -51,7 +51,7 @@ class ShaftStudy(Drawn):
     }
 
     name: str
-    found: Mapping[str, ShaftFound]
+    found: Mapping[str, LoadedShaft]
     loads: tuple[Load, ...]
     life: float = quantity("", "h", "life that the bearings must reach", key="asked_life_h")
     worm_deflection: float | None = quantity(
@@ -86,7 +86,7 @@ class ShaftStudy(Drawn):
     def of(
         cls,
         inputs: "Inputs",
-        found: Mapping[str, ShaftFound],
+        shafts: Mapping[str, LoadedShaft],
         loads: tuple[Load, ...],
         life: float,
         iso: tuple[float, float] | None,
@@ -98,7 +98,7 @@ class ShaftStudy(Drawn):
         ----------
         inputs : Inputs
             The gearset and its operation.
-        found : mapping of str to ShaftFound
+        shafts : mapping of str to LoadedShaft
             By ``worm_shaft`` and ``wheel_shaft``.
         loads : tuple of Load
             That they carry.
@@ -115,12 +115,12 @@ class ShaftStudy(Drawn):
             With the least of each safety and life.
         """
         lives = [
-            each for shaft in found.values() for own in shaft.lives if own for each in own.values()
+            each for shaft in shafts.values() for own in shaft.lives if own for each in own.values()
         ]
-        sections = [each.judged for shaft in found.values() for each in shaft.sections]
-        worm = found.get("worm_shaft")
+        sections = [each.judged for shaft in shafts.values() for each in shaft.sections]
+        worm = shafts.get("worm_shaft")
         bent = None if worm is None else worm.worst.at_mesh
-        notes = [note for shaft in found.values() for note in shaft.model.notes]
+        notes = [note for shaft in shafts.values() for note in shaft.model.notes]
         if worm is not None and worm.model.overhang:
             notes.append(
                 f"the worm overhangs, its mesh {worm.model.overhang}: ISO/TR 14521 has no "
@@ -131,7 +131,7 @@ class ShaftStudy(Drawn):
                 f"forces of the teeth are those under K_A = {factor:g} times the torque, as in "
                 "ISO/TR 14521: lives, strength, static safety and deflection have it"
             )
-        for key, shaft in found.items():
+        for key, shaft in shafts.items():
             if shaft.model.table.material is None:
                 notes.append(f"{key}.material is not given: its strength is not judged")
             elif not shaft.model.details:
@@ -156,7 +156,7 @@ class ShaftStudy(Drawn):
             name=inputs.gearset.name,
             given=inputs,
             blanks=blanks,
-            found=found,
+            found=shafts,
             loads=loads,
             life=life,
             worm_deflection=None if bent is None else bent[0],

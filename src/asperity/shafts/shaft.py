@@ -130,7 +130,7 @@ class Section:
 
 
 @dataclasses.dataclass(frozen=True)
-class ShaftFound:
+class LoadedShaft:
     """A shaft under all loads.
 
     Attributes
@@ -242,7 +242,7 @@ def find_shaft(
     teeth: Teeth,
     *,
     of_wheel: bool,
-) -> ShaftFound:
+) -> LoadedShaft:
     """Return a shaft under loads.
 
     Raises
@@ -262,4 +262,4 @@ def find_shaft(
             own.append(found)
         every.append(tuple(own))
     speeds = tuple(each.wheel_speed if of_wheel else each.speed for each in loads)
-    return ShaftFound(model, tuple(cases), tuple(every), options, speeds)
+    return LoadedShaft(model, tuple(cases), tuple(every), options, speeds)

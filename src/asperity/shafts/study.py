@@ -31,7 +31,7 @@ from asperity.shafts.model import Model, model_of
 from asperity.shafts.options import BearingOptions
 from asperity.shafts.parameters import WheelShaft, WormShaft
 from asperity.shafts.result import ShaftStudy
-from asperity.shafts.shaft import ShaftFound, find_shaft
+from asperity.shafts.shaft import LoadedShaft, find_shaft
 from asperity.shafts.shape import require_once, shape_of
 from asperity.shafts.statics import PointLoad
 
@@ -163,7 +163,7 @@ def asked_life(problem: Prepared, loads: tuple[Load, ...]) -> float:
     return float(sum(load.hours for load in loads))
 
 
-def found_of(problem: Prepared, loads: tuple[Load, ...]) -> dict[str, ShaftFound]:
+def found_of(problem: Prepared, loads: tuple[Load, ...]) -> dict[str, LoadedShaft]:
     """Return both shafts under loads, by table."""
     given, options = problem.given, problem.options
     hand = 1.0 if given.gearset.hand == "right" else -1.0
@@ -179,7 +179,7 @@ def found_of(problem: Prepared, loads: tuple[Load, ...]) -> dict[str, ShaftFound
         force = load.on_worm(case, hand)
         return on_wheel_shaft(problem.wheel.mesh, force, float(given.wheel_mean_diameter))
 
-    found: dict[str, ShaftFound] = {}
+    found: dict[str, LoadedShaft] = {}
     if problem.worm is not None:
         found["worm_shaft"] = find_shaft(
             problem.worm, loads, cases, options, on_worm, of_wheel=False

@@ -20,7 +20,7 @@ from asperity.results.formula_sheets import Cells, Page, write_live
 from asperity.shafts.bearings import Carried, life_of
 from asperity.shafts.loads import Condition, Load, forces, on_wheel_shaft, on_worm_shaft
 from asperity.shafts.options import BearingOptions
-from asperity.shafts.shaft import Section, ShaftFound
+from asperity.shafts.shaft import LoadedShaft, Section
 from asperity.shafts.statics import PointLoad, reactions
 from asperity.shafts.statics import section as carried_at
 from asperity.shafts.strength.section import Actions, judged, strength
@@ -41,7 +41,7 @@ _CARRIED = (
 
 
 def write_shafts(
-    found: Mapping[str, ShaftFound],
+    shafts: Mapping[str, LoadedShaft],
     loads: tuple[Load, ...],
     inputs: Inputs,
     options: BearingOptions,
@@ -51,7 +51,7 @@ def write_shafts(
 
     Parameters
     ----------
-    found : mapping of str to ShaftFound
+    shafts : mapping of str to LoadedShaft
         By ``worm_shaft`` and ``wheel_shaft``.
     loads : tuple of Load
         Of the life.
@@ -65,14 +65,14 @@ def write_shafts(
     if len(loads) > MOST:
         return None
     cells = Cells()
-    sheets = sheets_of(found, loads, inputs, options, cells)
+    sheets = sheets_of(shafts, loads, inputs, options, cells)
     cells.settle(value for own in sheets.values() for value, *_ in own)
     pages = [Page.of(name, cells, own) for name, own in sheets.items()]
     return write_live(cells, pages, _REMARKS, path)
 
 
 def sheets_of(
-    found: Mapping[str, ShaftFound],
+    shafts: Mapping[str, LoadedShaft],
     loads: tuple[Load, ...],
     inputs: Inputs,
     options: BearingOptions,
@@ -83,7 +83,7 @@ def sheets_of(
 
     Parameters
     ----------
-    found, loads, inputs, options
+    shafts, loads, inputs, options
         As of `write_shafts`; the numbers of ``inputs`` may be cells already.
     cells : Cells
         Of the workbook.
@@ -94,7 +94,7 @@ def sheets_of(
         return {}
     with masking():
         own = [
-            _Shaft(name, each, loads, inputs, options, cells, iso) for name, each in found.items()
+            _Shaft(name, each, loads, inputs, options, cells, iso) for name, each in shafts.items()
         ]
         return {sheet.name.replace("_", " "): list(sheet.rows()) for sheet in own}
 
@@ -132,7 +132,7 @@ class _Shaft:
     def __init__(
         self,
         name: str,
-        found: ShaftFound,
+        shaft: LoadedShaft,
         loads: tuple[Load, ...],
         inputs: Inputs,
         options: BearingOptions,
@@ -140,7 +140,7 @@ class _Shaft:
         iso: Values | None = None,
     ) -> None:
         self._given, self._iso = inputs, iso or {}
-        self.name, self.found, self._cells = name, found, cells
+        self.name, self.found, self._cells = name, shaft, cells
         self._of_wheel = name == "wheel_shaft"
         self._right = inputs.gearset.hand == "right"
         self._shared = {
@@ -153,7 +153,7 @@ class _Shaft:
         factor = inputs.operation.application_factor
         self._factor = _number(factor, "operation.application_factor", "", cells)
         self.loads = tuple(self._load(number, load) for number, load in enumerate(loads, 1))
-        model = found.model
+        model = shaft.model
         self._mesh = cells.input(f"{name}.mesh", model.mesh, "mm")
         self._bearings = tuple(
             cells.input(f"{name}.bearing_{end}", at, "mm")

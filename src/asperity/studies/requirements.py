@@ -173,7 +173,7 @@ def _below(size: Any, most: float) -> Any:
 
 
 def broken_by(
-    asked: Requirements, found: "Variants", tables: "Tables | None"
+    asked: Requirements, variants: "Variants", tables: "Tables | None"
 ) -> dict[str, npt.NDArray[np.bool_]]:
     """Return by what is asked which designs do not keep it; no answer breaks nothing.
 
@@ -181,24 +181,24 @@ def broken_by(
     ----------
     asked : Requirements
         What is asked.
-    found : Variants
+    variants : Variants
         The designs, rated with their load capacity.
     tables : Tables or None
         Of BS 721.
     """
-    with masking(found.shape):
-        margins = locking_margins(found.given, found, tables)
+    with masking(variants.shape):
+        margins = locking_margins(variants.given, variants, tables)
     at_rest = {
-        name: np.where(found.reason(name) == 0, margin, math.inf)
+        name: np.where(variants.reason(name) == 0, margin, math.inf)
         for (name, state), margin in margins.items()
         if state == "static"
     }
     broken = {
-        name: np.broadcast_to(np.asarray(room) < 0.0, found.shape)
-        for name, room in asked.room(found.given, at_rest).items()
+        name: np.broadcast_to(np.asarray(room) < 0.0, variants.shape)
+        for name, room in asked.room(variants.given, at_rest).items()
     }
     if asked.safety > 1.0:
-        safeties = [found[d.path] / d.asked for d in DEMANDS if d.path in found]
+        safeties = [variants[d.path] / d.asked for d in DEMANDS if d.path in variants]
         least = np.min(np.nan_to_num(safeties, nan=math.inf), axis=0)
         broken["safety"] = least < asked.safety
     return broken

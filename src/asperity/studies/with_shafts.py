@@ -149,7 +149,7 @@ def with_shafts(
     )
 
 
-def _kept(kept: Optimum, found: Optimum, safety: float) -> Optimum:
+def _kept(kept: Optimum, optimum: Optimum, safety: float) -> Optimum:
     """Return an optimum under its shafts, with them among its limits and what they cost."""
     limits = [
         Limit(
@@ -161,7 +161,7 @@ def _kept(kept: Optimum, found: Optimum, safety: float) -> Optimum:
     ]  # fmt: skip
     note = (
         "shafts and bearings are kept; without them the efficiency of the teeth were "
-        f"{100.0 * found.after.iso14521['eta_z1_2']:.1f} %"
+        f"{100.0 * optimum.after.iso14521['eta_z1_2']:.1f} %"
     )
     return dataclasses.replace(kept, limits=(*kept.limits, *limits), notes=(*kept.notes, note))
 

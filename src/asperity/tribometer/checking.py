@@ -17,7 +17,7 @@ from asperity.tribometer.reduction.study import Series
 
 
 @dataclasses.dataclass(frozen=True)
-class Found:
+class DrawnFinding:
     """A finding in a recording.
 
     Attributes
@@ -66,7 +66,7 @@ class Checked(Result):
     stem = "check"
     drawings: ClassVar[Mapping[str, str]] = {"check": "asperity.tribometer.plots:plot_findings"}
 
-    found: tuple[Found, ...]
+    found: tuple[DrawnFinding, ...]
     recordings: int = quantity("", "", "recordings")
     segments: int = quantity("", "", "segments with vibration")
     refused: int = quantity("", "", "of these refused, and not checked")
@@ -141,7 +141,7 @@ def answer(series: Series, run: Run) -> Checked:
         for finding in listened.findings:
             start = None if finding.place is None else parts[finding.place].start
             found.append(
-                Found(name, start, finding.name, finding.evidence, finding.remedy,
+                DrawnFinding(name, start, finding.name, finding.evidence, finding.remedy,
                       finding.signals, finding.spoils)
             )  # fmt: skip
             courses.append(finding.course)
@@ -152,7 +152,7 @@ def answer(series: Series, run: Run) -> Checked:
     )  # fmt: skip
 
 
-def _drawn(found: Sequence[Found], courses: Sequence[Course]) -> dict[str, Any]:
+def _drawn(findings: Sequence[DrawnFinding], courses: Sequence[Course]) -> dict[str, Any]:
     """Return the courses of the findings, each in so many points."""
     shape = len(courses), _POINTS
     x, y, marks = np.zeros(shape), np.zeros(shape), np.zeros((len(courses), 2))
@@ -164,7 +164,7 @@ def _drawn(found: Sequence[Found], courses: Sequence[Course]) -> dict[str, Any]:
         "x": x, "y": y, "marks": marks,
         "across": np.array([one.across for one in courses], dtype=object),
         "up": np.array([one.up for one in courses], dtype=object),
-        "told": np.array([one.told for one in found], dtype=object),
+        "told": np.array([one.told for one in findings], dtype=object),
     }  # fmt: skip
 
 

@@ -81,9 +81,9 @@ def sheets(channels: Channels) -> tuple[Sheet, ...]:
     return tuple(_sheet(name, one) for name, one in channels.mapped().items())
 
 
-def broken_classes(found: Mapping[str, Channel]) -> Iterator[str]:
+def broken_classes(channels: Mapping[str, Channel]) -> Iterator[str]:
     """Yield sensors whose own points say that they do not keep their class."""
-    for name, channel in found.items():
+    for name, channel in channels.items():
         one = _sheet(name, channel)
         if one.keeps_class is False:
             yield (

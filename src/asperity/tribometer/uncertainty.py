@@ -157,9 +157,9 @@ class Budget:
         """U: half the interval."""
         return self.coverage_factor * self.uncertainty
 
-    def share(self, one: Contribution) -> float:
+    def share(self, contribution: Contribution) -> float:
         """Return the share of a contribution in the variance."""
-        return one.variance / self.variance if self.variance > 0.0 else 0.0
+        return contribution.variance / self.variance if self.variance > 0.0 else 0.0
 
     def times(self, factor: float) -> "Budget":
         """Return it for the number in another unit."""

@@ -33,7 +33,7 @@ class Assembly:
     wheel_angle: float
 
     @classmethod
-    def of(cls, found: Analysis, *, made: bool) -> "Assembly":
+    def of(cls, analysis: Analysis, *, made: bool) -> "Assembly":
         """Return worm and wheel as they were analysed.
 
         As they are ``made``, threads that would cut into the wheel are as thin as leaves no play.
@@ -43,8 +43,8 @@ class Assembly:
         InputError, ConvergenceError
             There are no such threads.
         """
-        meshes = {side: flank.transmission for side, flank in found.flanks.items()}
-        if made and min(found.play.normal.values()) < -RESOLVED:
+        meshes = {side: flank.transmission for side, flank in analysis.flanks.items()}
+        if made and min(analysis.play.normal.values()) < -RESOLVED:
             meshes = set_backlash(meshes, 0.0)
         pair = meshes[1].search.pair
         # A flank touches where its lead and the turn of the wheel make up for each other.
@@ -54,7 +54,7 @@ class Assembly:
         )
         return cls(
             pair=pair,
-            thinned=2.0 * (pair.worm.half_space - found.pair.worm.half_space),
+            thinned=2.0 * (pair.worm.half_space - analysis.pair.worm.half_space),
             wheel_angle=(minus - plus) / (2.0 * pair.ratio),
         )
 

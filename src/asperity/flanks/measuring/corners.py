@@ -328,12 +328,12 @@ class Mounted:
             by=EXACT, exact=True, warm=warm,
         )  # fmt: skip
 
-    def _alone(self, axis: int, found: dict[Place, float]) -> Part:
+    def _alone(self, axis: int, plays: dict[Place, float]) -> Part:
         """Return what one deviation brings, nothing else off; what is found may be more."""
-        middle = found[Place()]
+        middle = plays[Place()]
         own = {
             place: value
-            for place, value in found.items()
+            for place, value in plays.items()
             if not any(off for k, off in enumerate(place) if k != axis)
         }
         top = max(own, key=own.__getitem__)

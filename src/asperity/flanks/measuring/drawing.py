@@ -32,7 +32,7 @@ class Datum(NamedTuple):
 
 def drawing_data(
     pair: Pair,
-    found: Measuring,
+    measuring: Measuring,
     graded: Sequence[Allowed] = (),
     backlash: Backlash | None = None,
 ) -> list[Datum]:
@@ -42,7 +42,7 @@ def drawing_data(
     ----------
     pair : Pair
         Worm and wheel.
-    found : Measuring
+    measuring : Measuring
         What they measure.
     graded : sequence of Allowed, optional
         Deviations that a grade of accuracy allows.
@@ -66,13 +66,13 @@ def drawing_data(
         ("root diameter", "d_f1", 2.0 * worm.root_radius, "mm"),
         ("length of the threaded worm", "b_1", g.worm_face_width, "mm"),
         ("tip rounding", "", worm.tip_rounding, "mm"),
-        ("axial thread thickness", "s_x1", found.thread_thickness_axial, "mm"),
-        ("normal thread thickness", "s_n1", found.thread_thickness, "mm"),
-        ("upper allowance", "E_sn1,s", found.thread_allowance_upper, "mm"),
-        ("lower allowance", "E_sn1,i", found.thread_allowance_lower, "mm"),
-        ("measuring pin diameter", "D_M1", found.pin_diameter, "mm"),
-        ("dimension over three pins, upper", "M_dR1,s", found.over_pins_upper, "mm"),
-        ("dimension over three pins, lower", "M_dR1,i", found.over_pins_lower, "mm"),
+        ("axial thread thickness", "s_x1", measuring.thread_thickness_axial, "mm"),
+        ("normal thread thickness", "s_n1", measuring.thread_thickness, "mm"),
+        ("upper allowance", "E_sn1,s", measuring.thread_allowance_upper, "mm"),
+        ("lower allowance", "E_sn1,i", measuring.thread_allowance_lower, "mm"),
+        ("measuring pin diameter", "D_M1", measuring.pin_diameter, "mm"),
+        ("dimension over three pins, upper", "M_dR1,s", measuring.over_pins_upper, "mm"),
+        ("dimension over three pins, lower", "M_dR1,i", measuring.over_pins_lower, "mm"),
     ]
     of_wheel: list[_Line] = [
         ("number of teeth", "z_2", g.wheel_teeth, ""),
@@ -85,12 +85,12 @@ def drawing_data(
         ("outside diameter", "d_e2", g.wheel_outside_diameter, "mm"),
         ("throat form radius", "r_k", g.wheel_throat_radius, "mm"),
         ("face width", "b_2", g.wheel_face_width, "mm"),
-        ("tooth thickness on the mean circle", "s_m2", found.tooth_thickness, "mm"),
-        ("upper allowance, normal", "E_sn2,s", found.tooth_allowance_upper, "mm"),
-        ("lower allowance, normal", "E_sn2,i", found.tooth_allowance_lower, "mm"),
-        ("measuring ball diameter", "D_M2", found.ball_diameter, "mm"),
-        ("dimension over two balls, upper", "M_dK2,s", found.over_balls_upper, "mm"),
-        ("dimension over two balls, lower", "M_dK2,i", found.over_balls_lower, "mm"),
+        ("tooth thickness on the mean circle", "s_m2", measuring.tooth_thickness, "mm"),
+        ("upper allowance, normal", "E_sn2,s", measuring.tooth_allowance_upper, "mm"),
+        ("lower allowance, normal", "E_sn2,i", measuring.tooth_allowance_lower, "mm"),
+        ("measuring ball diameter", "D_M2", measuring.ball_diameter, "mm"),
+        ("dimension over two balls, upper", "M_dK2,s", measuring.over_balls_upper, "mm"),
+        ("dimension over two balls, lower", "M_dK2,i", measuring.over_balls_lower, "mm"),
         ("hob: reference diameter", "", 2.0 * pair.hob.pitch_radius, "mm"),
         ("hob: centre distance", "", pair.cutting.centre_distance, "mm"),
         ("hob: tilt", "", math.degrees(pair.cutting.tilt), "deg"),
@@ -99,9 +99,19 @@ def drawing_data(
         ("centre distance", "a", g.centre_distance, "mm"),
         ("shaft angle", "Sigma", 90.0, "deg"),
         ("gear ratio", "u", g.gear_ratio, ""),
-        ("normal backlash, least", "j_n,min", found.backlash_normal_min, "mm"),
-        ("circumferential backlash, least", "j_t,min", found.backlash_circumferential_min, "mm"),
-        ("circumferential backlash, greatest", "j_t,max", found.backlash_circumferential_max, "mm"),
+        ("normal backlash, least", "j_n,min", measuring.backlash_normal_min, "mm"),
+        (
+            "circumferential backlash, least",
+            "j_t,min",
+            measuring.backlash_circumferential_min,
+            "mm",
+        ),
+        (
+            "circumferential backlash, greatest",
+            "j_t,max",
+            measuring.backlash_circumferential_max,
+            "mm",
+        ),
     ]
     for one in graded:
         line = (f"{one.name} ({_short(one)})", one.symbol, one.value / _MICROMETRES, "mm")
@@ -118,8 +128,8 @@ def drawing_data(
     ]
 
 
-def _short(one: Allowed) -> str:
-    return f"grade {one.grade}, {one.source.name.partition(' after ')[0]}"
+def _short(allowed: Allowed) -> str:
+    return f"grade {allowed.grade}, {allowed.source.name.partition(' after ')[0]}"
 
 
 def csv_of(data: list[Datum]) -> str:

@@ -259,21 +259,21 @@ def study(prepared: Prepared) -> FlankStudy:
     )
 
 
-def _notes(found: Analysis, wheel: Wheel) -> list[str]:
+def _notes(analysis: Analysis, wheel: Wheel) -> list[str]:
     notes = []
-    least = min(found.play.normal.values())
+    least = min(analysis.play.normal.values())
     if least < -_TOUCH:
         notes.append(
             f"the threads of nominal thickness would cut {-MICROMETRES * least:.3g} um into the "
             "wheel: give mount.backlash, and they are made thinner"
         )
-    room = core_clearance(found.pair, wheel.blank)
+    room = core_clearance(analysis.pair, wheel.blank)
     if room < -_TOUCH:
         notes.append(
             f"the wheel's tips would reach {-MICROMETRES * room:.3g} um into the worm's core: look "
             "at mount.centre_distance_error"
         )
-    flanks = found.flanks.values()
+    flanks = analysis.flanks.values()
     if any(flank.undercut for flank in flanks):
         notes.append("the hob undercuts the wheel")
     if not all(flank.ease_off.compared.all() for flank in flanks):

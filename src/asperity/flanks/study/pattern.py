@@ -35,15 +35,15 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     return add
 
 
-def _contact(found: FlankStudy) -> Section:
-    hob = found.assumed.get("hob")
+def _contact(study: FlankStudy) -> Section:
+    hob = study.assumed.get("hob")
     cut = f"Cut by a hob {hob}" if hob else "Cut by the hob of the case"
     return Section(
         "Contact pattern and lines",
         (f"{cut}, without load; asperity flank tells all of the flanks.",),
         tuple(
-            Picture(name.replace("-", " ").capitalize(), found.figure(name), found.captions[name])
+            Picture(name.replace("-", " ").capitalize(), study.figure(name), study.captions[name])
             for name in _PICTURES
         ),
-        (Table((), (), remarks=found.notes),),
+        (Table((), (), remarks=study.notes),),
     )

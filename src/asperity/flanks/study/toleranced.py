@@ -47,7 +47,7 @@ class Toleranced:
         cls,
         gearset: Gearset,
         wheel: Wheel,
-        found: Analysis,
+        analysis: Analysis,
         tolerances: Tolerances,
         wear: float | None = None,
     ) -> "Toleranced":
@@ -58,20 +58,20 @@ class Toleranced:
         ConvergenceError
             At a corner the worm does not reach the wheel.
         """
-        mounted = Mounted.of(found.pair, wheel, tolerances)
-        backlash = mounted.backlash(gearset, tolerances, found.play.worm_angle, wear)
+        mounted = Mounted.of(analysis.pair, wheel, tolerances)
+        backlash = mounted.backlash(gearset, tolerances, analysis.play.worm_angle, wear)
         sides = {
             side: Side(
                 flank.pattern.area_fraction, *flank.pattern_centre, flank.transmission.peak_to_peak
             )
-            for side, flank in found.flanks.items()
+            for side, flank in analysis.flanks.items()
         }
         return cls(
             backlash,
-            Corner(Place(), sides, found.flanks[1].pattern.gap),
+            Corner(Place(), sides, analysis.flanks[1].pattern.gap),
             mounted.corners(),
-            () if tolerances.grade is None else graded(found.pair.geometry, tolerances.grade),
-            found.flanks[1].transmission.resolution("peak_to_peak"),
+            () if tolerances.grade is None else graded(analysis.pair.geometry, tolerances.grade),
+            analysis.flanks[1].transmission.resolution("peak_to_peak"),
         )
 
     def tables(self) -> tuple[Table, ...]:
@@ -142,5 +142,5 @@ def require_once(
             )
 
 
-def _source(one: Allowed) -> Any:
-    return one.source
+def _source(allowed: Allowed) -> Any:
+    return allowed.source

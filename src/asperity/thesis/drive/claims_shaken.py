@@ -54,8 +54,8 @@ def _parted(runs: "list[Shaken]") -> str:
     return f"part for up to {most:.0%} of the time" if most > 0.0 else "never part"
 
 
-def _state(one: Shaken) -> str:
-    return "settled" if one.settled else "not settled"
+def _state(shaken: Shaken) -> str:
+    return "settled" if shaken.settled else "not settled"
 
 
 @claim("7.2")

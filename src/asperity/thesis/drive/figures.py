@@ -134,9 +134,9 @@ def _over_time() -> Computed:
     return dataset, [last, "asperity.thesis.drive.marches.from_load"]
 
 
-def system_efficiencies(found: Sequence[Shaken]) -> FloatArray:
+def system_efficiencies(shaken: Sequence[Shaken]) -> FloatArray:
     """Return the load's power over the motor's and the actuator's electrical power."""
-    return np.array([one.load / (one.drive + (one.electrical or 0.0)) for one in found])
+    return np.array([one.load / (one.drive + (one.electrical or 0.0)) for one in shaken])
 
 
 @figure("7.15", drawings.advantage)

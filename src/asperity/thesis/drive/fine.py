@@ -28,16 +28,16 @@ def computed() -> "Reduction":
     return reduction(prepare(read_case(BASE, case_tables(), ("drive.density=fine",))), Run())
 
 
-def lines(found: "Reduction") -> list[str]:
+def lines(reduction: "Reduction") -> list[str]:
     """Return teeth as settings of ``[drive]``, as they are kept."""
     pairs = ", ".join(
-        f'["{torque:.10g} N m", "{1e6 * turn:.10g} urad"]' for torque, turn in found.deflection
+        f'["{torque:.10g} N m", "{1e6 * turn:.10g} urad"]' for torque, turn in reduction.deflection
     )
-    radius = found.radius or 0.0
+    radius = reduction.radius or 0.0
     return [
         f"deflection = [{pairs}]",
         f'effective_radius = "{1e3 * radius:.10g} mm"',
-        f'tangential_compliance = "{1e9 * found.compliance:.10g} nm/N"',
+        f'tangential_compliance = "{1e9 * reduction.compliance:.10g} nm/N"',
     ]
 
 

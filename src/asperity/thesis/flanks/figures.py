@@ -99,8 +99,8 @@ def _lines(gears: Mapping[str, Gear]) -> Computed:
     ]  # fmt: skip
 
 
-def _outline(found: Meshing) -> Any:
-    place = np.stack([found.grid.z, found.grid.radius], axis=-1)
+def _outline(meshing: Meshing) -> Any:
+    place = np.stack([meshing.grid.z, meshing.grid.radius], axis=-1)
     return np.concatenate([place[0], place[1:, -1], place[-1, -2::-1], place[-2::-1, 0]])
 
 
@@ -169,15 +169,15 @@ def _dye() -> Computed:
     return dataset, [*TILTS.values()]
 
 
-def _dyed(found: Meshing, grid: FlankGrid, marks: Pattern) -> Shape:
+def _dyed(meshing: Meshing, grid: FlankGrid, marks: Pattern) -> Shape:
     """Some teeth, the flanks that bear in fine faces, those that are marked with the number 1."""
-    mesh = tooth(found.wheel, "coarse", teeth=_TEETH)
+    mesh = tooth(meshing.wheel, "coarse", teeth=_TEETH)
     sets = [name for name in mesh.face_sets if name.split("_")[0] in ("fillet", "tip", "face")]
     sets += ["flank_minus", "cut_minus", "cut_plus"]
     bare = Shape.of_mesh(mesh, [name for name in sets if not name[-1].isdigit()])
     corners = [marks.gap[:-1, :-1], marks.gap[1:, :-1], marks.gap[1:, 1:], marks.gap[:-1, 1:]]
     dyed = np.mean(corners, axis=0) < marks.thickness
-    pitch = 2.0 * math.pi / found.wheel.pair.geometry.wheel_teeth
+    pitch = 2.0 * math.pi / meshing.wheel.pair.geometry.wheel_teeth
     flank = Shape.of_grid(grid.points, dyed.reshape(-1))
     flanks = [flank.turned(pitch * number) for number in range(_TEETH)]
     return joined([bare, *flanks]).turned(-pitch * (_TEETH // 2))

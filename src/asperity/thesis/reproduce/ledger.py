@@ -125,8 +125,8 @@ def _chapter(chapter: Mapping[str, Any], told: Mapping[str, Any], folder: Path) 
     return Section(title, (chapter["text"],), pictures, tables)
 
 
-def _claimed(found: Shown | None, words: Any) -> dict[str, Any]:
-    plain = found.plain if found else {}
+def _claimed(shown: Shown | None, words: Any) -> dict[str, Any]:
+    plain = shown.plain if shown else {}
     return {
         "text": words["claim"],
         "section": words["section"],

@@ -268,10 +268,10 @@ class Fit:
                 break
         return Estimate(point, here, slopes)
 
-    def _seen(self, found: Estimate) -> Estimate:
-        if self.lowest is None or found.chi2 < self.lowest.chi2:
-            self.lowest = found
-        return found
+    def _seen(self, estimate: Estimate) -> Estimate:
+        if self.lowest is None or estimate.chi2 < self.lowest.chi2:
+            self.lowest = estimate
+        return estimate
 
     def end(self, best: Estimate, place: int, side: int) -> float | None:
         """Return an end of a parameter's interval, None where it is open; side is 1 or -1."""
@@ -343,21 +343,21 @@ def _limited(normal: FloatArray, downhill: FloatArray) -> FloatArray:
     return step
 
 
-def _lost(found: Estimate, start: FloatArray) -> BoolArray:
+def _lost(estimate: Estimate, start: FloatArray) -> BoolArray:
     """Return which logarithms ran to where they say nothing, from where none finds its way back."""
-    silent = np.linalg.norm(found.slopes, axis=0) < _LOST
-    lost: BoolArray = silent & (np.abs(found.point - start) > 1.0)
+    silent = np.linalg.norm(estimate.slopes, axis=0) < _LOST
+    lost: BoolArray = silent & (np.abs(estimate.point - start) > 1.0)
     return lost
 
 
-def _root(found: Estimate, best: Estimate) -> float:
-    return math.sqrt(max(found.chi2 - best.chi2, 0.0))
+def _root(estimate: Estimate, best: Estimate) -> float:
+    return math.sqrt(max(estimate.chi2 - best.chi2, 0.0))
 
 
-def _left(found: Estimate, place: int, root: float, wanted: float) -> float:
+def _left(estimate: Estimate, place: int, root: float, wanted: float) -> float:
     """Return what is left to an end that is near, by the slope of a least chi-square."""
     # The others are at their best, so that chi-square changes by this one's own slope alone.
-    slope = 2.0 * float(found.slopes[:, place] @ found.residuals)
+    slope = 2.0 * float(estimate.slopes[:, place] @ estimate.residuals)
     return (wanted * wanted - root * root) / slope if slope else math.inf
 
 

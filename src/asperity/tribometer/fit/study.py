@@ -280,8 +280,8 @@ def _chosen(problem: FitProblem, fitted: Mapping[str, _Fitted]) -> str:
     return best
 
 
-def _freedom(one: _Fitted) -> int:
-    return int(one.data.answered.sum()) - one.best.point.size
+def _freedom(fitted: _Fitted) -> int:
+    return int(fitted.data.answered.sum()) - fitted.best.point.size
 
 
 def _fit(problem: FitProblem, predict: Predictor, law: str, start: FloatArray | None) -> _Fitted:
@@ -327,14 +327,14 @@ def _deeper(fitted: dict[str, _Fitted], law: str) -> bool:
     return True
 
 
-def _ruined(problem: FitProblem, one: _Fitted) -> Spoilt | None:
+def _ruined(problem: FitProblem, fitted: _Fitted) -> Spoilt | None:
     """Return which rows spoil a fit, where it is not as it should be."""
     weighed = problem.data.weighed
-    if weighed and not improbable(one.best.chi2, _freedom(one)):
+    if weighed and not improbable(fitted.best.chi2, _freedom(fitted)):
         return None
-    if not weighed and float(np.abs(one.best.residuals).max()) < _STRIKING:
+    if not weighed and float(np.abs(fitted.best.residuals).max()) < _STRIKING:
         return None
-    return spoilt(one.fit, one.best, one.data.start, weighed)
+    return spoilt(fitted.fit, fitted.best, fitted.data.start, weighed)
 
 
 def _result(

@@ -128,7 +128,7 @@ def notes(
 
 
 def told_of(
-    problem: FitProblem, place: int, one: Outlier, deviations: FloatArray
+    problem: FitProblem, place: int, outlier: Outlier, deviations: FloatArray
 ) -> dict[str, float | int]:
     """Return a row that spoils a fit, as JSON has it."""
     value = float(problem.data.values[place])
@@ -136,8 +136,8 @@ def told_of(
         "row": problem.data.rows[place],
         "measurement": place + 1,
         "measured": value,
-        "by_the_others": value - one.by_others * float(deviations[one.place]),
-        "standardised_residual": one.residual,
+        "by_the_others": value - outlier.by_others * float(deviations[outlier.place]),
+        "standardised_residual": outlier.residual,
     }
 
 

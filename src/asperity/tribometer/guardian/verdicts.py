@@ -78,10 +78,10 @@ class Verdicts:
         """
         named: dict[str, bool] = {}
 
-        def meanwhile(found: Verdict) -> bool:
-            if found.seconds < self._switching.limit:
+        def meanwhile(verdict: Verdict) -> bool:
+            if verdict.seconds < self._switching.limit:
                 return False
-            self._name_first(found, named)
+            self._name_first(verdict, named)
             return urgent()
 
         found = self._switching.off(
@@ -91,13 +91,13 @@ class Verdicts:
             self._name_first(found, named)
         self._note(found)
 
-    def _name_first(self, found: Verdict, named: dict[str, bool]) -> None:
+    def _name_first(self, verdict: Verdict, named: dict[str, bool]) -> None:
         """Name what is not read back yet, and say of what was named that it is.
 
         ``named`` keeps of each that was named whether it was read to be on: one that was silent
         before, and now is, is named again.
         """
-        left = {one.name: one for one in found.found if not one.proven}
+        left = {one.name: one for one in verdict.found if not one.proven}
         fresh = _worse(left.values(), named)
         proven = sorted(set(named) - set(left))
         if not fresh and not proven:
@@ -106,10 +106,10 @@ class Verdicts:
         still = {name: one.on or named.get(name, False) for name, one in left.items()}
         named.clear()
         named.update(still)
-        self._writing.verdict(found)
+        self._writing.verdict(verdict)
         if proven:
             self._say(
-                f"read back to be off {found.seconds:.2g} s after the start: {', '.join(proven)}"
+                f"read back to be off {verdict.seconds:.2g} s after the start: {', '.join(proven)}"
             )
         # Without power nothing answers that may only be slow.
         self._alarm.name(
@@ -136,22 +136,22 @@ class Verdicts:
         after = self._now() - self.event
         self._tell(unproven(why, self.event, after, names, said(error)), last=True)
 
-    def _tell(self, found: Verdict, *, last: bool) -> None:
+    def _tell(self, verdict: Verdict, *, last: bool) -> None:
         """Write down what was found, and tell a person what has to be switched off by hand."""
-        self._note(found)
-        unread = [one for one in found.found if not one.proven and (last or not one.unheard)]
+        self._note(verdict)
+        unread = [one for one in verdict.found if not one.proven and (last or not one.unheard)]
         # Without power nothing answers; a procedure that lives has yet to ask, and to read.
         waits = self._unasked == NOT_YET and all(map(self._switched_by_hand, unread))
         self._alarm.name(unread, cut=not waits)
 
-    def _note(self, found: Verdict) -> None:
+    def _note(self, verdict: Verdict) -> None:
         """Write a verdict down, and when there was nothing more that was not read back."""
-        self.last, self.tried = found, self._now()
-        self._writing.verdict(found)
-        if found.still_on:
+        self.last, self.tried = verdict, self._now()
+        self._writing.verdict(verdict)
+        if verdict.still_on:
             self._proven = None
         elif self._proven is None:
-            self._proven = found.event + found.seconds
+            self._proven = verdict.event + verdict.seconds
 
     def again(self, *, listen: bool = False) -> bool:
         """Try once more what was not read back to be off; with nobody there it may listen.
@@ -174,8 +174,8 @@ class Verdicts:
                 self._say(f"read back to be off at last: {found.names}")
         return True
 
-    def _switched_by_hand(self, one: Off) -> bool:
-        return one.name in self._by_hand
+    def _switched_by_hand(self, output: Off) -> bool:
+        return output.name in self._by_hand
 
     @property
     def took(self) -> float | None:

@@ -57,14 +57,14 @@ class Writing:
 
         return self._hand.begin(act)
 
-    def verdict(self, found: Verdict) -> None:
+    def verdict(self, verdict: Verdict) -> None:
         """Take what was found when everything was switched off."""
-        self._unwritten.append(found)
+        self._unwritten.append(verdict)
         self._hand.begin(self._write_down)
 
-    def end(self, why: str, found: Verdict) -> None:
+    def end(self, why: str, verdict: Verdict) -> None:
         """Write how a run ended whose procedure is there no more, and save what it recorded."""
-        self._hand.begin(lambda: self._write_end(why, found))
+        self._hand.begin(lambda: self._write_end(why, verdict))
         self._hand.begin(self._join)
 
     def all_written(self) -> "cf.Future[Any]":
@@ -92,17 +92,17 @@ class Writing:
             # What a full disk does not take is written when it does.
             del self._unwritten[0]
 
-    def _write_end(self, why: str, found: Verdict) -> None:
+    def _write_end(self, why: str, verdict: Verdict) -> None:
         journal = self._journal
         kinds = [] if journal is None else [line["kind"] for line in journal.lines]
         last = next((kind for kind in reversed(kinds) if kind != "off"), "")
         # What has not begun cannot be gone on with; lines "off" say what may be on.
         if journal is None or "started" not in kinds or last == "latched":
             return
-        if last in ENDED and not found.still_on:
+        if last in ENDED and not verdict.still_on:
             return
-        if found.still_on:
-            journal.write("latched", interlock="still on", reason=why, still_on=found.still_on)
+        if verdict.still_on:
+            journal.write("latched", interlock="still on", reason=why, still_on=verdict.still_on)
         else:
             journal.write("interrupted", reason=why)
 

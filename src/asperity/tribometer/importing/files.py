@@ -8,7 +8,7 @@ from asperity.errors import InputError, plain, shown
 from asperity.files import store
 from asperity.tribometer.importing.columns import Columns
 from asperity.tribometer.importing.dates import in_future, said_to_begin
-from asperity.tribometer.importing.heads import Told
+from asperity.tribometer.importing.heads import Declaration
 from asperity.tribometer.importing.join import joined, renamed
 from asperity.tribometer.importing.mat import read_mat
 from asperity.tribometer.importing.programs import channel_of, refuse_known
@@ -19,7 +19,7 @@ from asperity.units import to_si
 
 TEXT, MAT, TDMS, OWN = "text", "mat", "TDMS", "recording"
 WAV, SIGROK, MDF = "WAV", "sigrok", "MDF"
-_READERS: Mapping[str, Callable[[Path, str, Told], Columns]] = {
+_READERS: Mapping[str, Callable[[Path, str, Declaration], Columns]] = {
     TEXT: read_text, MAT: read_mat, TDMS: read_tdms, WAV: read_wav, SIGROK: read_sigrok,
     MDF: read_mdf,
 }  # fmt: skip
@@ -32,7 +32,9 @@ _HEAD = 256
 _MOST_RATE = 1e10
 
 
-def told_of(rate: str = "", columns: str = "", units: str = "", start: str = "") -> Told:
+def declaration_of(
+    rate: str = "", columns: str = "", units: str = "", start: str = ""
+) -> Declaration:
     """Read what somebody says of a file.
 
     Parameters
@@ -62,7 +64,7 @@ def told_of(rate: str = "", columns: str = "", units: str = "", start: str = "")
             f"--columns is {shown(columns)}; it must name every column once, - for one to leave out"
         )
     units_told = tuple(one.strip() for one in units.split(",")) if units else ()
-    return Told(found, names, units_told, said_to_begin(start) if start else None)
+    return Declaration(found, names, units_told, said_to_begin(start) if start else None)
 
 
 def form_of(path: Path, name: str) -> str:
@@ -106,7 +108,7 @@ def form_of(path: Path, name: str) -> str:
     return TEXT
 
 
-def read_export(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+def read_export(path: Path, name: str, declaration: Declaration = Declaration()) -> Columns:  # noqa: B008
     """Read what a laboratory's program wrote; refuses what is no such file.
 
     Parameters
@@ -115,24 +117,26 @@ def read_export(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa:
         The file.
     name : str
         What messages call it.
-    told : Told
+    declaration : Told
         What somebody says of it that it does not say itself.
     """
     form = form_of(path, name)
     if form == OWN:
         raise InputError(f"{name} is HDF5 of no known kind; export it as .csv, .mat or .tdms")
-    return renamed(_READERS[form](path, name, told), channel_of(path.stem))
+    return renamed(_READERS[form](path, name, declaration), channel_of(path.stem))
 
 
-def read_joined(files: Sequence[str], told: Told) -> Columns:
+def read_joined(files: Sequence[str], declaration: Declaration) -> Columns:
     """Read the files of one recording, a file some of its channels.
 
     Notes say by what it is dated, where it is.
     """
-    read = joined([(plain(one), read_export(Path(one), plain(one), told)) for one in files])
-    if told.began is not None:
-        late = in_future(told.began, "look at --start")
-        return dataclasses.replace(read, began=(told.began, "--start"), notes=(*read.notes, *late))
+    read = joined([(plain(one), read_export(Path(one), plain(one), declaration)) for one in files])
+    if declaration.began is not None:
+        late = in_future(declaration.began, "look at --start")
+        return dataclasses.replace(
+            read, began=(declaration.began, "--start"), notes=(*read.notes, *late)
+        )
     if read.began is None:
         return read
     began, by = read.began

@@ -35,7 +35,7 @@ ONE_COLUMN = (
 
 
 @dataclasses.dataclass(frozen=True)
-class Told:
+class Declaration:
     """What somebody says of a file that does not say it itself.
 
     Attributes
@@ -97,7 +97,7 @@ class Layout:
 
 
 @dataclasses.dataclass(frozen=True)
-class Found:
+class FirstRows:
     """The first rows of numbers, and the rows above them that are not empty."""
 
     separator: str
@@ -107,7 +107,7 @@ class Found:
     above: list[tuple[int, list[str]]]
 
 
-def found_in(lines: Sequence[str], name: str, *, narrow: bool = False) -> Found:
+def found_in(lines: Sequence[str], name: str, *, narrow: bool = False) -> FirstRows:
     """Return where the numbers begin.
 
     Parameters
@@ -182,7 +182,7 @@ def _begins_alike(line: str, separator: str) -> bool:
     return any(is_number(cell, separator) or is_clock(cell) for cell in cells[:2])
 
 
-def _found(lines: Sequence[str], begin: int, separator: str) -> Found:
+def _found(lines: Sequence[str], begin: int, separator: str) -> FirstRows:
     rows = [cells_of(line, separator) for line in lines[begin:] if line.strip()]
     above = []
     for number in range(begin):
@@ -190,10 +190,10 @@ def _found(lines: Sequence[str], begin: int, separator: str) -> Found:
         line = lines[number].strip(" \r\n").lstrip("#%!").strip(" ")
         if line and not (line.startswith(("//", ";")) and separator != ";"):
             above.append((number, cells_of(line, separator)))
-    return Found(separator, begin, max(len(rows[0]), 1), rows, above)
+    return FirstRows(separator, begin, max(len(rows[0]), 1), rows, above)
 
 
-def plain_layout(found: Found, name: str, told: Told) -> Layout:
+def plain_layout(first_rows: FirstRows, name: str, declaration: Declaration) -> Layout:
     """Return the layout of a table with headings and units above it, in one row or in two.
 
     Raises
@@ -201,31 +201,31 @@ def plain_layout(found: Found, name: str, told: Told) -> Layout:
     InputError
         With the row: no headings, no units.
     """
-    count = len(trimmed(found.rows[0]))
-    headings, units = _above(found, count, name, told)
-    if told.columns:
-        headings = _as_told(told.columns, count, "columns", name)
-    if told.units:
-        units = [unit_of(one) for one in _as_told(told.units, count, "units", name)]
-    clocks = [place for place, cell in enumerate(found.rows[0][:count]) if is_clock(cell)]
-    if not any(units) and not clocks and not told.rate:
-        row = _row_below(found)
+    count = len(trimmed(first_rows.rows[0]))
+    headings, units = _above(first_rows, count, name, declaration)
+    if declaration.columns:
+        headings = _as_declared(declaration.columns, count, "columns", name)
+    if declaration.units:
+        units = [unit_of(one) for one in _as_declared(declaration.units, count, "units", name)]
+    clocks = [place for place, cell in enumerate(first_rows.rows[0][:count]) if is_clock(cell)]
+    if not any(units) and not clocks and not declaration.rate:
+        row = _row_below(first_rows)
         raise InputError(
             f"{name}: row {row} must hold the units of the {count} columns, as in (ms),(V),(mV); "
             "or give them: --units ms,V,mV"
         )
-    blank = found.width - count
+    blank = first_rows.width - count
     return Layout(
-        "table of text", found.separator, (*headings, *[""] * blank), (*units, *[""] * blank),
-        found.begin, found.width, skipped=frozenset(range(count, found.width)),
+        "table of text", first_rows.separator, (*headings, *[""] * blank), (*units, *[""] * blank),
+        first_rows.begin, first_rows.width, skipped=frozenset(range(count, first_rows.width)),
     )  # fmt: skip
 
 
-def _row_below(found: Found) -> int:
-    return (found.above[-1][0] if found.above else found.begin) + 2
+def _row_below(first_rows: FirstRows) -> int:
+    return (first_rows.above[-1][0] if first_rows.above else first_rows.begin) + 2
 
 
-def _as_told(words: Sequence[str], count: int, option: str, name: str) -> list[str]:
+def _as_declared(words: Sequence[str], count: int, option: str, name: str) -> list[str]:
     if len(words) != count:
         raise InputError(
             f"{name}: --{option} names {len(words)} columns; the file has {count}: name each, in "
@@ -234,10 +234,12 @@ def _as_told(words: Sequence[str], count: int, option: str, name: str) -> list[s
     return list(words)
 
 
-def _above(found: Found, count: int, name: str, told: Told) -> tuple[list[str], list[str]]:
+def _above(
+    first_rows: FirstRows, count: int, name: str, declaration: Declaration
+) -> tuple[list[str], list[str]]:
     """Return headings and units from the rows above the numbers."""
     fitting = []
-    for number, cells in reversed(found.above):
+    for number, cells in reversed(first_rows.above):
         row = trimmed(cells)
         # A row that ends in a unit or a name that is empty is as wide all the same.
         if len(row) == count or (len(cells) >= count and len(row) <= count and len(row) > 1):
@@ -245,16 +247,16 @@ def _above(found: Found, count: int, name: str, told: Told) -> tuple[list[str], 
         elif fitting:
             break
     if not fitting:
-        if told.columns:
-            return list(told.columns), [""] * count
-        if found.above and (number := found.above[-1][0]) is not None:
-            cells = found.above[-1][1]
+        if declaration.columns:
+            return list(declaration.columns), [""] * count
+        if first_rows.above and (number := first_rows.above[-1][0]) is not None:
+            cells = first_rows.above[-1][1]
             raise InputError(
                 f"{name}: row {number + 1} has {len(cells)} cells where the {count} columns below "
                 "it have their headings; mend it, or give --columns and --units"
             )
         raise InputError(
-            f"{name}: row {found.begin + 1} holds numbers where headings must stand; put them "
+            f"{name}: row {first_rows.begin + 1} holds numbers where headings must stand; put them "
             "there, or give --columns and --units, as in --columns time,A --units s,V"
         )
     last = fitting[0][1]
@@ -267,7 +269,11 @@ def _above(found: Found, count: int, name: str, told: Told) -> tuple[list[str], 
 
 
 def timed(
-    layout: Layout, found: Found, told: Told, is_time: Mapping[str, bool], name: str
+    layout: Layout,
+    first_rows: FirstRows,
+    declaration: Declaration,
+    is_time: Mapping[str, bool],
+    name: str,
 ) -> Layout:
     """Return a layout that says which column is the time, or how far rows are apart.
 
@@ -277,24 +283,24 @@ def timed(
         No column is the time, or several are; a rate is given where the file tells times.
     """
     if layout.time is not None or layout.interval:
-        if told.rate:
+        if declaration.rate:
             raise InputError(f"{name} tells its own times; leave --rate out")
         return layout
     clocks = [
-        place for place, cell in enumerate(found.rows[0]) if is_clock(cell)
+        place for place, cell in enumerate(first_rows.rows[0]) if is_clock(cell)
         and place not in layout.skipped
     ]  # fmt: skip
     times = [
         place for place, unit in enumerate(layout.units)
         if is_time.get(unit) and place not in layout.skipped and place not in clocks
     ]  # fmt: skip
-    if told.rate:
+    if declaration.rate:
         if times or clocks:
             place = (times or clocks)[0]
             raise InputError(
                 f"{name}: column {shown(layout.headings[place])} is the time; leave --rate out"
             )
-        return dataclasses.replace(layout, interval=1.0 / told.rate)
+        return dataclasses.replace(layout, interval=1.0 / declaration.rate)
     if len(times) == 1:
         # A date and time beside a time that counts says nothing more.
         return dataclasses.replace(layout, time=times[0], skipped=layout.skipped | {*clocks})

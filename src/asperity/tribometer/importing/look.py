@@ -13,7 +13,7 @@ from asperity.results import Result, quantity
 from asperity.results.table import Table, table_of
 from asperity.runs import Run
 from asperity.tribometer.importing.columns import Columns, placed
-from asperity.tribometer.importing.files import read_joined, told_of
+from asperity.tribometer.importing.files import declaration_of, read_joined
 
 _FIRST = 3  # values shown
 _PARTS = 600  # of a picture's width
@@ -83,7 +83,7 @@ def prepare(
 ) -> tuple[str, Columns]:
     """Read the files; refuses what cannot be read, with the reason and what to export instead."""
     name = " and ".join(plain(Path(one).name) for one in files)
-    return name, read_joined(files, told_of(rate, columns, units))
+    return name, read_joined(files, declaration_of(rate, columns, units))
 
 
 # Bytes that were changed may be numbers that signal when they are touched.

@@ -13,7 +13,7 @@ from asperity.errors import InputError, plain
 from asperity.files import store
 from asperity.tribometer.importing.columns import Columns
 from asperity.tribometer.importing.dates import begun_by_count
-from asperity.tribometer.importing.heads import Told
+from asperity.tribometer.importing.heads import Declaration
 
 _INTERVAL = "Tinterval"
 _STEPS = {
@@ -44,7 +44,7 @@ _TOLD = frozenset(
 )
 
 
-def read_mat(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+def read_mat(path: Path, name: str, declaration: Declaration = Declaration()) -> Columns:  # noqa: B008
     """Read versions 4 to 7.2, and 7.3, which is HDF5.
 
     Raises
@@ -60,8 +60,8 @@ def read_mat(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
         # What is not as it must be surfaces as whatever the reader trips over.
         raise InputError(f"{name} cannot be read: not a MATLAB file, or damaged") from error
     step = _interval(found)
-    if told.rate and not step:
-        step = 1.0 / told.rate
+    if declaration.rate and not step:
+        step = 1.0 / declaration.rate
     columns = {
         plain(key): values for key, values in found.items()
         if key not in _TOLD and values.size > 1 and values.dtype.kind in "fiu"
@@ -92,10 +92,10 @@ def read_mat(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
     )  # fmt: skip
 
 
-def _interval(found: dict[str, Any]) -> float:
+def _interval(variables: dict[str, Any]) -> float:
     """Return the time between samples, s, by whichever name it has; 0 where there is none."""
     for name, turned in _STEPS.items():
-        one = next((value for key, value in found.items() if key in (name, name.lower())), None)
+        one = next((value for key, value in variables.items() if key in (name, name.lower())), None)
         if one is None or one.size != 1 or one.dtype.kind not in "fiu":
             continue
         value = float(one.reshape(-1)[0])
@@ -105,10 +105,10 @@ def _interval(found: dict[str, Any]) -> float:
     return 0.0
 
 
-def _start(found: dict[str, Any], times: Any) -> float:
+def _start(variables: dict[str, Any], times: Any) -> float:
     if times is not None:
         return float(times[0])
-    one = found.get("Tstart")
+    one = variables.get("Tstart")
     start = float(one.reshape(-1)[0]) if one is not None and one.size == 1 else 0.0
     return start if math.isfinite(start) else 0.0
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from asperity.errors import InputError, choices, shown
 from asperity.tribometer.importing.cells import cells_of, is_number, trimmed, unit_of
-from asperity.tribometer.importing.heads import MOST_ABOVE, Found, Layout
+from asperity.tribometer.importing.heads import MOST_ABOVE, FirstRows, Layout
 from asperity.units import to_si
 
 _CHANNEL = re.compile(r"(?:^|[^a-z])(ch?)[ _-]?(\d)(?!\d)", re.IGNORECASE)
@@ -196,16 +196,16 @@ _HEADS: Mapping[str, Callable[[Mapping[str, Sequence[str]]], bool]] = {
 }
 
 
-def told_above(lines: Sequence[str], found: Found) -> tuple[str, list[str], float]:
+def program_above(lines: Sequence[str], first_rows: FirstRows) -> tuple[str, list[str], float]:
     """Return the program whose words stand above a plain table, units and interval by them.
 
     Units are those of the columns in order, empty where no words are known; the interval is 0
     where none is told.
     """
-    above = lines[: found.begin]
-    words = _words(above, found.separator or " ")
+    above = lines[: first_rows.begin]
+    words = _words(above, first_rows.separator or " ")
     program = next((one for one, knows in _HEADS.items() if knows(words)), "")
-    count = len(trimmed(found.rows[0]))
+    count = len(trimmed(first_rows.rows[0]))
     if program == "Tektronix":
         vertical = [unit_of(one) for one in trimmed(words["vertical units"])] or ["V"]
         units = (vertical * count)[: count - 1]

@@ -16,8 +16,8 @@ from asperity.errors import InputError, plain
 from asperity.runs import Run
 from asperity.tribometer.channels import Channels
 from asperity.tribometer.importing.columns import Sampled, sampled
-from asperity.tribometer.importing.files import OWN, form_of, read_joined, told_of
-from asperity.tribometer.importing.heads import Told
+from asperity.tribometer.importing.files import OWN, declaration_of, form_of, read_joined
+from asperity.tribometer.importing.heads import Declaration
 from asperity.tribometer.importing.result import Imported
 from asperity.tribometer.pairs import pair_of
 from asperity.tribometer.recording import Event, Recording
@@ -45,13 +45,13 @@ class _Held(Recording):
 # Bytes that were changed may be scales that no sensor has.
 @np.errstate(all="ignore")
 def findings(
-    found: Sampled, events: Sequence[Event], case: Case, name: str, began: datetime.datetime
+    sampled: Sampled, events: Sequence[Event], case: Case, name: str, began: datetime.datetime
 ) -> tuple[dict[str, Any], ...]:
     """Return what is wrong with what was heard; nothing where it cannot be reduced at all."""
-    rows, _ = found.counts.shape
+    rows, _ = sampled.counts.shape
     held = _Held(
-        Path(name), found.sources, rows, found.interval, began, {},
-        tuple(events), (), simulated=False, counts=found.counts,
+        Path(name), sampled.sources, rows, sampled.interval, began, {},
+        tuple(events), (), simulated=False, counts=sampled.counts,
     )  # fmt: skip
     try:
         segments, heard = heard_in(Reducible(held, case))
@@ -68,7 +68,7 @@ class Importable:
     name: str
     form: str
     case: Case
-    told: Told
+    declaration: Declaration
 
 
 def prepare(
@@ -78,18 +78,18 @@ def prepare(
     """Look at a file's first bytes; refuses one that cannot be read, or a configuration."""
     pair_of(case)
     case.require(Channels)
-    told = told_of(rate, columns, units, start)
+    declaration = declaration_of(rate, columns, units, start)
     files = (file, *(join or ()))
     names = [plain(one) for one in files]
     if len(set(map(os.path.realpath, files))) < len(files):
         raise InputError(f"{names[0]}: a file is given twice")
     forms = [form_of(Path(one), name) for one, name in zip(files, names, strict=True)]
-    if OWN in forms and (len(files) > 1 or told != Told()):
+    if OWN in forms and (len(files) > 1 or declaration != Declaration()):
         raise InputError(
             f"{names[forms.index(OWN)]} is a recording; it is imported alone, without --join, "
             "--rate, --columns, --units or --start"
         )
-    return Importable(files, names[0], forms[0], case, told)
+    return Importable(files, names[0], forms[0], case, declaration)
 
 
 def answer(problem: Importable, run: Run) -> Imported:
@@ -101,7 +101,7 @@ def answer(problem: Importable, run: Run) -> Imported:
     if form == OWN:
         found, told, simulated, began = _own(problem)
     else:
-        columns = read_joined(problem.files, problem.told)
+        columns = read_joined(problem.files, problem.declaration)
         began = datetime.datetime.now(datetime.UTC)
         if columns.began is not None:
             began = columns.began[0]

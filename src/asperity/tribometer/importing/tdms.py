@@ -10,12 +10,12 @@ import numpy as np
 from asperity.errors import InputError, MissingExtraError, plain
 from asperity.tribometer.importing.columns import Columns, unit_in
 from asperity.tribometer.importing.dates import Moment, begun_by_stamp
-from asperity.tribometer.importing.heads import Told
+from asperity.tribometer.importing.heads import Declaration
 
 _INTERVAL, _UNIT, _START = "wf_increment", "unit_string", "wf_start_time"
 
 
-def read_tdms(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+def read_tdms(path: Path, name: str, declaration: Declaration = Declaration()) -> Columns:  # noqa: B008
     """Read the channels of all groups.
 
     Raises
@@ -42,8 +42,8 @@ def read_tdms(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
         raise InputError(f"{name} cannot be read: not a TDMS file, or damaged") from error
     kept = [n for n, one in enumerate(values) if one.dtype.kind in "fiu" and one.size > 1]
     steps = {properties[n].get(_INTERVAL) for n in kept}
-    if steps == {None} and told.rate:
-        steps = {1.0 / told.rate}
+    if steps == {None} and declaration.rate:
+        steps = {1.0 / declaration.rate}
     if len(steps) != 1 or not isinstance(step := steps.pop(), int | float):
         raise InputError(
             f"{name}: its channels must share one {_INTERVAL}, the time between samples in s; "

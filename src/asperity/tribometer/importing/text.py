@@ -27,17 +27,17 @@ from asperity.tribometer.importing.columns import Columns
 from asperity.tribometer.importing.dates import begun_in
 from asperity.tribometer.importing.heads import (
     ONE_COLUMN,
+    Declaration,
     Layout,
-    Told,
     found_in,
     plain_layout,
     timed,
 )
 from asperity.tribometer.importing.programs import (
     own_layout,
+    program_above,
     readable,
     refuse_segments,
-    told_above,
 )
 from asperity.units import to_si
 
@@ -49,7 +49,7 @@ _THOUSAND = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
 _TIME_OF_DAY = re.compile(r"(\d{1,2}):(\d{2}):(\d{2}(?:[.,]\d+)?) ?([AaPp])?")
 
 
-def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+def read_text(path: Path, name: str, declaration: Declaration = Declaration()) -> Columns:  # noqa: B008
     """Read a table of text.
 
     Parameters
@@ -58,7 +58,7 @@ def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
         The file.
     name : str
         What messages call it.
-    told : Told
+    declaration : Told
         What somebody says of it that it does not say itself.
 
     Raises
@@ -70,7 +70,7 @@ def read_text(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B
     head = text[:_HEAD].splitlines()
     if len(text) > _HEAD:
         head = head[:-1]
-    layout = _laid_out(head, path.stem, name, told)
+    layout = _laid_out(head, path.stem, name, declaration)
     refuse_segments(text, layout, name)
     rows_shown = [cells_of(line, layout.separator) for line in head[layout.begin :]]
     decimal, thousands = marks_of(rows_shown[:_ROWS_LOOKED_AT], layout.separator)
@@ -117,20 +117,20 @@ def _with_comma(rows: Sequence[Sequence[str]]) -> list[str]:
     return [cell for row in rows for cell in row if "," in cell]
 
 
-def _laid_out(head: Sequence[str], stem: str, name: str, told: Told) -> Layout:
+def _laid_out(head: Sequence[str], stem: str, name: str, declaration: Declaration) -> Layout:
     """Return how a text is laid out, by its own head and by what somebody says of it."""
     if own := own_layout(head, stem, name):
-        if told.rate or told.columns or told.units:
+        if declaration.rate or declaration.columns or declaration.units:
             raise InputError(
                 f"{name} is by {own.program}, which says all of it; leave --rate, --columns and "
                 "--units out"
             )
         return own
-    found = found_in(head, name, narrow=bool(told.rate))
-    program, units, interval = told_above(head, found)
-    if units and not told.units:
-        told = dataclasses.replace(told, units=tuple(units))
-    layout = plain_layout(found, name, told)
+    found = found_in(head, name, narrow=bool(declaration.rate))
+    program, units, interval = program_above(head, found)
+    if units and not declaration.units:
+        declaration = dataclasses.replace(declaration, units=tuple(units))
+    layout = plain_layout(found, name, declaration)
     if program:
         layout = dataclasses.replace(layout, program=program)
     left_out = {place for place, one in enumerate(layout.headings) if one == "-"}
@@ -138,7 +138,7 @@ def _laid_out(head: Sequence[str], stem: str, name: str, told: Told) -> Layout:
     times = {unit: is_time(unit) for unit in {*layout.units}}
     if interval and not any(times.values()):
         layout = dataclasses.replace(layout, interval=interval)
-    return timed(layout, found, told, times, name)
+    return timed(layout, found, declaration, times, name)
 
 
 def _decoded(path: Path, name: str) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from asperity.errors import InputError, MissingExtraError, plain
 from asperity.tribometer.importing.columns import Columns
 from asperity.tribometer.importing.dates import begun_by_stamp
-from asperity.tribometer.importing.heads import Told
+from asperity.tribometer.importing.heads import Declaration
 from asperity.units import to_si
 
 _MOST_BYTES = 4_000_000_000
@@ -21,7 +21,7 @@ _FULL = {"i": lambda kind: -float(np.iinfo(kind).min), "f": lambda kind: 1.0}
 
 
 @np.errstate(all="ignore")  # a damaged file may hold numbers that signal when they are touched
-def read_wav(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+def read_wav(path: Path, name: str, declaration: Declaration = Declaration()) -> Columns:  # noqa: B008
     """Read a WAV file of 8 to 32 bits or of floats: a recorder's or a sound card's.
 
     Raises
@@ -31,7 +31,7 @@ def read_wav(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
     """
     from scipy.io import wavfile
 
-    _says_all(name, told)
+    _says_all(name, declaration)
     notes = ["its full scale is taken as 1 V; a channel's points say what it is worth"]
     try:
         with warnings.catch_warnings(record=True) as caught:
@@ -55,7 +55,7 @@ def read_wav(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
     )  # fmt: skip
 
 
-def read_sigrok(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+def read_sigrok(path: Path, name: str, declaration: Declaration = Declaration()) -> Columns:  # noqa: B008
     """Read the analog channels of a session of sigrok (.sr, version 2).
 
     Raises
@@ -63,7 +63,7 @@ def read_sigrok(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa:
     InputError
         No such file, a damaged one, or one without analog channels.
     """
-    _says_all(name, told)
+    _says_all(name, declaration)
     try:
         with zipfile.ZipFile(path) as archive:
             sizes = {one.filename: one.file_size for one in archive.infolist()}
@@ -109,7 +109,7 @@ def _samples(archive: zipfile.ZipFile, sizes: Mapping[str, int], stem: str) -> n
     return np.concatenate([np.frombuffer(archive.read(one), "<f4") for one in parts])
 
 
-def read_mdf(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B008
+def read_mdf(path: Path, name: str, declaration: Declaration = Declaration()) -> Columns:  # noqa: B008
     """Read MDF 4 (and 3), as data loggers of vehicles write it, by asammdf.
 
     Raises
@@ -119,7 +119,7 @@ def read_mdf(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
     InputError
         No such file, a damaged one, or channels of several rates.
     """
-    _says_all(name, told)
+    _says_all(name, declaration)
     try:
         from asammdf import MDF
     except ImportError:
@@ -148,6 +148,6 @@ def read_mdf(path: Path, name: str, told: Told = Told()) -> Columns:  # noqa: B0
     )  # fmt: skip
 
 
-def _says_all(name: str, told: Told) -> None:
-    if told.rate:
+def _says_all(name: str, declaration: Declaration) -> None:
+    if declaration.rate:
         raise InputError(f"{name} tells its own rate; leave --rate out")

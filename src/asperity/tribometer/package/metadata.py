@@ -141,17 +141,17 @@ def datacite(about: About, items: Sequence[Item]) -> dict[str, Any]:
     return {key: value for key, value in made.items() if value}
 
 
-def _creator(one: Person) -> dict[str, Any]:
-    made: dict[str, Any] = {"name": one.name}
-    if one.given:
-        made |= {"nameType": "Personal", "familyName": one.family, "givenName": one.given}
-    if one.orcid:
+def _creator(person: Person) -> dict[str, Any]:
+    made: dict[str, Any] = {"name": person.name}
+    if person.given:
+        made |= {"nameType": "Personal", "familyName": person.family, "givenName": person.given}
+    if person.orcid:
         made["nameIdentifiers"] = [
-            {"nameIdentifier": _ORCID + one.orcid, "nameIdentifierScheme": "ORCID",
+            {"nameIdentifier": _ORCID + person.orcid, "nameIdentifierScheme": "ORCID",
              "schemeUri": "https://orcid.org"},
         ]  # fmt: skip
-    if one.affiliation:
-        made["affiliation"] = [{"name": one.affiliation}]
+    if person.affiliation:
+        made["affiliation"] = [{"name": person.affiliation}]
     return made
 
 
@@ -236,9 +236,9 @@ def _of(identifier: str) -> dict[str, str]:
     return {"@id": identifier}
 
 
-def _id_of(one: Person, place: int) -> str:
-    return _ORCID + one.orcid if one.orcid else f"#author-{place + 1}"
+def _id_of(person: Person, place: int) -> str:
+    return _ORCID + person.orcid if person.orcid else f"#author-{place + 1}"
 
 
-def _institute(one: Person) -> str:
-    return "#" + urllib.parse.quote(one.affiliation.replace(" ", "-"), safe="")
+def _institute(person: Person) -> str:
+    return "#" + urllib.parse.quote(person.affiliation.replace(" ", "-"), safe="")

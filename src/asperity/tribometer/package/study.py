@@ -102,17 +102,17 @@ def _case(case: Case) -> str:
     return written(case.raw, "Configuration of the first recording")
 
 
-def _description(found: Report, case: Case) -> str:
-    told = "; ".join(f"{name}: {value}" for name, value in found.conditions)
+def _description(report: Report, case: Case) -> str:
+    told = "; ".join(f"{name}: {value}" for name, value in report.conditions)
     return (
         f"Recordings of a disc-on-disc tribometer with imposed vibration, and their reduction: "
-        f"{found.recordings} recordings, {found.measured} segments. {told}."
+        f"{report.recordings} recordings, {report.measured} segments. {told}."
     )
 
 
-def _notes(case: Case, found: Report, about: About) -> Iterator[str]:
-    yield from found.notes
-    yield from (f"{what} is left out: {why}" for what, why in found.refused)
+def _notes(case: Case, report: Report, about: About) -> Iterator[str]:
+    yield from report.notes
+    yield from (f"{what} is left out: {why}" for what, why in report.refused)
     package = about.package
     if not package.publisher:
         yield "package.publisher is not told; DataCite's word for that is in its place (:unav)"

@@ -184,7 +184,7 @@ def planned_files(plan: Plan, limits: Limits) -> tuple[PlannedFile, ...]:
 
 def _worn(
     plan: Plan,
-    one: PlannedFile,
+    planned: PlannedFile,
     frequencies: FloatArray,
     earlier: Sequence[PlannedFile],
     cells: Iterator[int],
@@ -198,7 +198,7 @@ def _worn(
             cell = Cell(next(cells), frequency)
             number = begun + len(made) + 1
             made.append(
-                dataclasses.replace(one, number=number, cells=(cell,), run=run, stretch=stretch)
+                dataclasses.replace(planned, number=number, cells=(cell,), run=run, stretch=stretch)
             )
     return made
 

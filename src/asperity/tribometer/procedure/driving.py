@@ -35,9 +35,9 @@ class Driving:
         self._bench, self._plan = bench, plan
         self._ran, self._told = ran, told
 
-    def energise(self, logger: Logger, one: PlannedFile) -> None:
+    def energise(self, logger: Logger, planned: PlannedFile) -> None:
         """Switch the motors on."""
-        volts = {"steel": one.steel_supply, "bronze": self._plan.bronze_supply}
+        volts = {"steel": planned.steel_supply, "bronze": self._plan.bronze_supply}
         self._ran()
         for name, supply in self._bench.motors.items():
             logger.during(supply, functools.partial(supply.set, volts[name]))
@@ -46,12 +46,12 @@ class Driving:
             logger.event(f"{name}_supply", f"{volts[name]:g} V")
         logger.expect(Expected(volts=volts))
 
-    def configure(self, logger: Logger, one: PlannedFile, cell: Cell) -> None:
+    def configure(self, logger: Logger, planned: PlannedFile, cell: Cell) -> None:
         """Tell the drive what it is to give."""
         drive = self._bench.vibration
-        logger.during(drive, lambda: drive.configure(one.waveform, cell.frequency))
+        logger.during(drive, lambda: drive.configure(planned.waveform, cell.frequency))
 
-    def shake(self, logger: Logger, one: PlannedFile, cell: Cell) -> None:
+    def shake(self, logger: Logger, planned: PlannedFile, cell: Cell) -> None:
         """Switch the vibration on."""
         drive, amplifier = self._bench.vibration, self._bench.amplifier
         if amplifier is not None:
@@ -59,8 +59,8 @@ class Driving:
             amplifier.on()
             self._told({amplifier.name: "on"})
         logger.during(drive, drive.on)
-        logger.expect(Expected(cell.frequency, one.waveform, logger.expected.volts))
-        logger.event("vibration", f"{one.waveform} {cell.frequency:g} Hz")
+        logger.expect(Expected(cell.frequency, planned.waveform, logger.expected.volts))
+        logger.event("vibration", f"{planned.waveform} {cell.frequency:g} Hz")
 
     def still(self, logger: Logger) -> None:
         """Switch vibration off, then motors off."""

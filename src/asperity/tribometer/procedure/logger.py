@@ -256,12 +256,12 @@ class Logger:
                 self._recorder.__exit__(InterruptedError, None, None)
 
 
-def configuration_of(case: Case, one: PlannedFile | None) -> str:
+def configuration_of(case: Case, planned: PlannedFile | None) -> str:
     """Return a case as it stands for a file of its plan, as JSON."""
     raw = {name: dict(entries) for name, entries in case.raw.items()}
-    if one is not None:
-        raw.setdefault("rig", {})["mode"] = one.mode
-        raw.setdefault("lubricant", {})["kind"] = one.lubricant
-        raw.setdefault("drives", {})["steel_supply"] = f"{one.steel_supply!r} V"
+    if planned is not None:
+        raw.setdefault("rig", {})["mode"] = planned.mode
+        raw.setdefault("lubricant", {})["kind"] = planned.lubricant
+        raw.setdefault("drives", {})["steel_supply"] = f"{planned.steel_supply!r} V"
         raw["drives"]["bronze_supply"] = f"{case.require(Plan).bronze_supply!r} V"
     return json.dumps(raw, allow_nan=False, default=str)

@@ -364,20 +364,20 @@ class Machine:
             self._packer.pack(logger.path)
         return {"recording": _name(logger), "samples": logger.samples}
 
-    def _recording(self, one: PlannedFile) -> Logger:
+    def _recording(self, planned: PlannedFile) -> Logger:
         """Return the recording of a file that runs, or begin a part of it."""
-        if self._logger is None or self._file != one:
-            part = 1 + sum(line["file"] == one.name for line in self._journal.of("recording"))
-            name = one.name if part == 1 else f"{one.name}-{part}"
+        if self._logger is None or self._file != planned:
+            part = 1 + sum(line["file"] == planned.name for line in self._journal.of("recording"))
+            name = planned.name if part == 1 else f"{planned.name}-{part}"
             path = self._folder / f"{name}.nc"
-            self._journal.write("recording", file=one.name, recording=path.name)
-            self._logger, self._file = self._new_logger(path, one), one
+            self._journal.write("recording", file=planned.name, recording=path.name)
+            self._logger, self._file = self._new_logger(path, planned), planned
         return self._logger
 
-    def _new_logger(self, path: Path | None, one: PlannedFile | None) -> Logger:
+    def _new_logger(self, path: Path | None, planned: PlannedFile | None) -> Logger:
         return Logger(
-            self._bench, self._interlock, self._interval, path, configuration_of(self._case, one),
-            self._beat, self._preview,
+            self._bench, self._interlock, self._interval, path,
+            configuration_of(self._case, planned), self._beat, self._preview,
         )  # fmt: skip
 
     def _beat(self) -> None:

@@ -171,37 +171,37 @@ def _sequence(files: Sequence[PlannedFile]) -> Iterator[Action]:
     yield Action("end/step-32", (32,), "ask", STEPS[32])
 
 
-def _entering(name: str, one: PlannedFile, before: PlannedFile | None) -> Iterator[Action]:
+def _entering(name: str, planned: PlannedFile, before: PlannedFile | None) -> Iterator[Action]:
     """What comes before the first file of a setting."""
-    built = 29 if before is not None and one.mode == LONGITUDINAL != before.mode else 3
+    built = 29 if before is not None and planned.mode == LONGITUDINAL != before.mode else 3
     steps: tuple[tuple[int, Act, str], ...] = (
         (1, "ask", STEPS[1]),
-        *(() if one.stretch else ((2, "weigh", STEPS[2]),)),
-        (built, "arrange", STEPS[3].format(mode=one.mode)),
+        *(() if planned.stretch else ((2, "weigh", STEPS[2]),)),
+        (built, "arrange", STEPS[3].format(mode=planned.mode)),
         (4, "ask", STEPS[4]),
         (8, "preload", STEPS[8]),
         (9, "waveform", STEPS[9]),
-        (10, "ask", _LUBRICATE.get(one.lubricant, STEPS[10])),
+        (10, "ask", _LUBRICATE.get(planned.lubricant, STEPS[10])),
         (11, "ask", STEPS[11]),
     )
     for step, act, text in steps:
-        yield Action(f"{name}/step-{step}", (step,), act, text, one)
+        yield Action(f"{name}/step-{step}", (step,), act, text, planned)
 
 
-def _weighing(name: str, one: PlannedFile, step: int) -> Iterator[Action]:
+def _weighing(name: str, planned: PlannedFile, step: int) -> Iterator[Action]:
     """Take discs out and weigh them, between what nobody has counted the sliding of and what is."""
-    yield Action(f"{name}/step-25", (25,), "ask", STEPS[25], one)
-    yield Action(f"{name}/step-{step}", (step,), "weigh", STEPS[2], one)
-    yield Action(f"{name}/step-3", (3,), "arrange", STEPS[3].format(mode=one.mode), one)
-    yield Action(f"{name}/step-11", (11,), "ask", STEPS[11], one)
+    yield Action(f"{name}/step-25", (25,), "ask", STEPS[25], planned)
+    yield Action(f"{name}/step-{step}", (step,), "weigh", STEPS[2], planned)
+    yield Action(f"{name}/step-3", (3,), "arrange", STEPS[3].format(mode=planned.mode), planned)
+    yield Action(f"{name}/step-11", (11,), "ask", STEPS[11], planned)
 
 
-def _leaving(name: str, one: PlannedFile) -> Iterator[Action]:
+def _leaving(name: str, planned: PlannedFile) -> Iterator[Action]:
     """What comes after the last file of a setting."""
-    yield Action(f"{name}/step-25", (25,), "ask", STEPS[25], one)
-    yield Action(f"{name}/step-26", (26,), "weigh", STEPS[26], one)
-    if one.lubricant == "oil":
-        yield Action(f"{name}/step-27", (27,), "ask", STEPS[27], one)
+    yield Action(f"{name}/step-25", (25,), "ask", STEPS[25], planned)
+    yield Action(f"{name}/step-26", (26,), "weigh", STEPS[26], planned)
+    if planned.lubricant == "oil":
+        yield Action(f"{name}/step-27", (27,), "ask", STEPS[27], planned)
 
 
 def file_of(action: Action) -> PlannedFile:

@@ -46,7 +46,7 @@ class Source:
     offset: float = 0.0
 
 
-class Told:
+class StorageErrors:
     """Turns what HDF5 says of a disk into a line; ``path`` is what was to be written."""
 
     def __init__(self, path: Path) -> None:
@@ -99,7 +99,7 @@ def _joined(path: Path, beside: Path, *, compress: bool) -> bool:
     damaged: list[int] = []
     told = blocks.about(beside, damaged.append)
     if told is not None:
-        with Told(path):
+        with StorageErrors(path):
             # A last chunk is as large as a whole one.
             chunk = 2 * int(told["block"]) * len(told["sources"])
             _require_space(path, beside.stat().st_size + chunk)

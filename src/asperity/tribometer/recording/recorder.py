@@ -18,7 +18,7 @@ import numpy as np
 from asperity.errors import StorageError, plain
 from asperity.tribometer.recording import layout
 from asperity.tribometer.recording.blocks import Blocks
-from asperity.tribometer.recording.hdf5 import Counts, Source, Told, joined
+from asperity.tribometer.recording.hdf5 import Counts, Source, StorageErrors, joined
 
 _BLOCK_SECONDS = 0.1
 
@@ -84,7 +84,7 @@ class Recorder:
                 "instruments": json.dumps(dict(instruments or {})),
             },
         }
-        with self._trouble_told():
+        with self._storage_errors():
             self._blocks = Blocks(path, about)
             # An earlier one would be taken for this.
             path.unlink(missing_ok=True)
@@ -132,13 +132,13 @@ class Recorder:
             A word for it, and what it was.
         """
         row = {"event_time": float(time), "event_kind": plain(kind), "event_text": plain(text)}
-        with self._trouble_told():
+        with self._storage_errors():
             self._blocks.event(row)
 
     def flush(self) -> None:
         """Bring all that has come to the disk, so that it may be said to be there."""
         self._write_waiting(self._came)
-        with self._trouble_told():
+        with self._storage_errors():
             self._blocks.sync()
 
     def leave(self) -> None:
@@ -147,7 +147,7 @@ class Recorder:
             return
         self._write_waiting(self._came)
         self._open = False
-        with self._trouble_told():
+        with self._storage_errors():
             self._blocks.close()
 
     def close(self, *, compress: bool = True) -> None:
@@ -161,7 +161,7 @@ class Recorder:
         if not self._open:
             return
         self.leave()
-        with self._trouble_told():
+        with self._storage_errors():
             joined(self.path, compress=compress)
 
     def __enter__(self) -> Self:
@@ -186,10 +186,10 @@ class Recorder:
             self._filled = 0
 
     def _write(self, clock: float, counts: Counts) -> None:
-        with self._trouble_told():
+        with self._storage_errors():
             self._blocks.block(self._first, clock, np.ascontiguousarray(counts))
         self.samples += len(counts)
         self._first += len(counts)
 
-    def _trouble_told(self) -> "Told":
-        return Told(self.path)
+    def _storage_errors(self) -> "StorageErrors":
+        return StorageErrors(self.path)

@@ -251,5 +251,5 @@ def _pair(values: Sequence[float]) -> tuple[str, str]:
     return first, last
 
 
-def _mixed(one: Contribution) -> str:
-    return f"{one.correlation:.2f}" if len(one.inputs) > 1 else ""
+def _mixed(contribution: Contribution) -> str:
+    return f"{contribution.correlation:.2f}" if len(contribution.inputs) > 1 else ""

@@ -133,12 +133,12 @@ class Following:
         steel, bronze = self.pair.rims(float(of[STEEL][place]), float(of[BRONZE][place]))
         return float(steel), float(bronze)
 
-    def _of_power(self, one: Efficiency) -> Budgeted | None:
+    def _of_power(self, efficiency: Efficiency) -> Budgeted | None:
         if not self.powered or CURRENT not in self.levels or self.voltage <= 0.0:
             return None
         if min(self.levels[CURRENT]) <= 0.0:
             return None
-        return self._interval(lambda of: 100.0 * (one(of, _WITH) - one(of, _BEFORE)))
+        return self._interval(lambda of: 100.0 * (efficiency(of, _WITH) - efficiency(of, _BEFORE)))
 
     def _interval(self, of: Number, beside: Sequence[Contribution] = ()) -> Budgeted:
         before = 2 * self.place

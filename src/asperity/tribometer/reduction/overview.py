@@ -13,12 +13,12 @@ from asperity.tribometer.signals import SIGNALS
 _SPREAD = "drive_deviation"
 
 
-def overview(one: Reducible, points: int) -> dict[str, Any]:
+def overview(reducible: Reducible, points: int) -> dict[str, Any]:
     """Return a recording's signals and segments, as JSON has them.
 
     Parameters
     ----------
-    one : Reducible
+    reducible : Reducible
         A recording with its configuration.
     points : int
         How many are kept of each signal: means over as many blocks as that takes.
@@ -29,8 +29,8 @@ def overview(one: Reducible, points: int) -> dict[str, Any]:
         ``time`` in s, ``signals`` in SI and ``segments``, each with the windows before and with
         vibration in s, and why it is refused.
     """
-    given, recording = one.reduction, one.recording
-    blocks = blocks_of(recording, one.case.require(Channels), given.block)
+    given, recording = reducible.reduction, reducible.recording
+    blocks = blocks_of(recording, reducible.case.require(Channels), given.block)
     every = max(1, -(-blocks.count // points))
     signals = [
         {"name": name, "unit": SIGNALS[name].unit, "meaning": SIGNALS[name].meaning,
@@ -51,7 +51,7 @@ def overview(one: Reducible, points: int) -> dict[str, Any]:
             "refused": segment.refused,
             "flags": list(segment.flags),
         }
-        for segment in heard_in(one)[0]
+        for segment in heard_in(reducible)[0]
     ]
     return {
         "recording": recording.name,

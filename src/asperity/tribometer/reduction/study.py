@@ -193,29 +193,42 @@ def _not_counted(problem: Sequence[Reducible]) -> Iterator[str]:
     yield from told
 
 
-def heard_in(one: Reducible) -> tuple[list[Segment], Listened]:
+def heard_in(reducible: Reducible) -> tuple[list[Segment], Listened]:
     """Return the segments of a recording, and what its sensors say of themselves."""
-    blocks = blocks_of(one.recording, one.case.require(Channels), one.reduction.block)
-    running = running_of(blocks, one.reduction)
-    segments, heard = _heard(one, blocks, running)
+    blocks = blocks_of(
+        reducible.recording, reducible.case.require(Channels), reducible.reduction.block
+    )
+    running = running_of(blocks, reducible.reduction)
+    segments, heard = _heard(reducible, blocks, running)
     # A speed whose zero is far off seems to turn at rest: windows would hold the seconds there.
-    seen = running_of(blocks, one.reduction, heard.tare.at_rest(blocks, "speed_steel"))
+    seen = running_of(blocks, reducible.reduction, heard.tare.at_rest(blocks, "speed_steel"))
     if len(seen) > len(running):
-        segments, heard = _heard(one, blocks, seen)
+        segments, heard = _heard(reducible, blocks, seen)
     return segments, heard
 
 
 def _heard(
-    one: Reducible, blocks: Blocks, running: Sequence[Stretch]
+    reducible: Reducible, blocks: Blocks, running: Sequence[Stretch]
 ) -> tuple[list[Segment], Listened]:
-    segments = segments_of(one.recording, blocks, one.plan, one.reduction, running)
-    return segments, listen(one.recording, one.case, blocks, segments, one.reduction)
+    segments = segments_of(
+        reducible.recording, blocks, reducible.plan, reducible.reduction, running
+    )
+    return segments, listen(
+        reducible.recording, reducible.case, blocks, segments, reducible.reduction
+    )
 
 
-def reduce_recording(one: Reducible) -> tuple[FileResult, list[SegmentResult]]:
+def reduce_recording(reducible: Reducible) -> tuple[FileResult, list[SegmentResult]]:
     """Reduce one recording."""
-    segments, heard = heard_in(one)
-    return reduce_file(one.recording, one.case, heard, segments, one.reduction, one.sonotrode)
+    segments, heard = heard_in(reducible)
+    return reduce_file(
+        reducible.recording,
+        reducible.case,
+        heard,
+        segments,
+        reducible.reduction,
+        reducible.sonotrode,
+    )
 
 
 def refusal(segment: SegmentResult) -> str:
@@ -236,9 +249,9 @@ def _nothing(problem: Sequence[Reducible], segments: Sequence[SegmentResult]) ->
     )
 
 
-def beyond(one: Reducible) -> str:
+def beyond(reducible: Reducible) -> str:
     """Return what is wrong with a drive signal that is past its range; nothing if it is not."""
-    share = float(np.isnan(one.recording.values("drive_voltage")).mean())
+    share = float(np.isnan(reducible.recording.values("drive_voltage")).mean())
     if share < _OFTEN:
         return ""
     return f"{share:.0%} of drive_voltage is missing or past its range; widen the channel's range"

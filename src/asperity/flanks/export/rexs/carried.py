@@ -99,10 +99,10 @@ def _mark(document: Document) -> str:
     return hashlib.sha256("\n".join(told).encode()).hexdigest()
 
 
-def _told(one: Component) -> str:
+def _told(component: Component) -> str:
     every = {
         key: value if isinstance(value, tuple) else (value,)
-        for key, (value, _) in sorted(one.attributes.items())
+        for key, (value, _) in sorted(component.attributes.items())
     }
     said = (f"{key}={','.join(map(written_as, values))}" for key, values in every.items())
-    return f"{one.type} {one.number}: {'; '.join(said)}"
+    return f"{component.type} {component.number}: {'; '.join(said)}"

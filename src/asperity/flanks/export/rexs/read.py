@@ -22,7 +22,7 @@ _TOLERATED = 2e-3
 _SAME = 1e-6
 
 
-class Found(NamedTuple):
+class StageRead(NamedTuple):
     """What a file holds.
 
     Attributes
@@ -37,7 +37,7 @@ class Found(NamedTuple):
     remarks: tuple[str, ...]
 
 
-def read_rexs(path: Path) -> Found:
+def read_rexs(path: Path) -> StageRead:
     """Read a worm stage from a REXS file.
 
     Raises
@@ -54,7 +54,7 @@ def read_rexs(path: Path) -> Found:
         raise InputError(f"{plain(str(path))}: {error}") from None
 
 
-def found_in(document: Document) -> Found:
+def found_in(document: Document) -> StageRead:
     """Return the tables of a model; raises InputError."""
     stages = list(document.of_type("worm_stage"))
     if len(stages) != 1:
@@ -78,7 +78,7 @@ def found_in(document: Document) -> Found:
             operation.pop("bearing_span", None)
         tables["operation"] = operation
     tables |= carried
-    return Found(tables, tuple(remarks))
+    return StageRead(tables, tuple(remarks))
 
 
 def _gear(document: Document, stage: Component, role: str, type_: str) -> Component:

@@ -107,31 +107,31 @@ def _described(table: Any, threads: float) -> Laid:
     return Laid(_millimetres(table.mesh), sections, places)
 
 
-def _place(one: ShaftBearing, sections: tuple[tuple[float, float], ...], absorbs: str) -> Place:
-    at, rolling = _millimetres(one.at), one.bearing
-    own: dict[str, tuple[Any, str]] = {"radial_stiffness": (one.stiffness, "N / m")}
+def _place(bearing: ShaftBearing, sections: tuple[tuple[float, float], ...], absorbs: str) -> Place:
+    at, rolling = _millimetres(bearing.at), bearing.bearing
+    own: dict[str, tuple[Any, str]] = {"radial_stiffness": (bearing.stiffness, "N / m")}
     if rolling is None:
         size = _diameter_at(sections, at)
         return Place(at, size, 2.0 * size, 0.5 * size, absorbs, own)
     own |= {
         "part_number": (rolling.name or None, "none"),
         f"{OWN}kind": (rolling.kind, "none"),
-        f"{OWN}arrangement": (one.arrangement, "none"),
+        f"{OWN}arrangement": (bearing.arrangement, "none"),
         f"{OWN}dynamic_rating": (rolling.dynamic_rating, "N"),
         f"{OWN}static_rating": (rolling.static_rating, "N"),
     }
     bore, outside, width = (
         _millimetres(each) for each in (rolling.bore, rolling.outside_diameter, rolling.width)
     )
-    return Place(at, bore, outside, width * (2.0 if one.pair else 1.0), absorbs, own)
+    return Place(at, bore, outside, width * (2.0 if bearing.pair else 1.0), absorbs, own)
 
 
-def _absorbs(one: ShaftBearing, first: bool) -> str:
+def _absorbs(bearing: ShaftBearing, first: bool) -> str:
     """Return the axial force that a bearing takes; of adjusted ones each takes one way."""
-    if not one.adjusted:
-        return _WAYS[one.takes]
+    if not bearing.adjusted:
+        return _WAYS[bearing.takes]
     # Face to face each is pushed outwards, back to back inwards.
-    outwards = one.arrangement == "adjusted face-to-face"
+    outwards = bearing.arrangement == "adjusted face-to-face"
     return "negative" if first == outwards else "positive"
 
 

@@ -164,11 +164,11 @@ def _breaks(of: Material, place: int) -> Iterator[Finding]:
             return
 
 
-def _alike(of: Material, one: Tone | None, other: Tone | None) -> bool:
-    if one is None or other is None:
+def _alike(of: Material, tone: Tone | None, other: Tone | None) -> bool:
+    if tone is None or other is None:
         return True
-    apart = abs(one.frequency - other.frequency)
-    return apart < of.given.frequency_tolerance * one.frequency
+    apart = abs(tone.frequency - other.frequency)
+    return apart < of.given.frequency_tolerance * tone.frequency
 
 
 def _before(of: Material, place: int) -> Iterator[Finding]:

@@ -302,7 +302,7 @@ def _carried(of: Material) -> Iterator[Finding]:
 
 
 def _misfit(
-    of: Material, found: Answers, slack: tuple[float, float], wanted: float,
+    of: Material, answers: Answers, slack: tuple[float, float], wanted: float,
     bounds: tuple[float, float], of_it: float = 1.0,
 ) -> str:  # fmt: skip
     """Return by what parts a signal answers a torque, where no one of those wanted fits all cells.
@@ -311,7 +311,7 @@ def _misfit(
     ----------
     of : Material
         What is looked at.
-    found : Answers
+    answers : Answers
         Changes of both.
     slack : tuple of 2 floats
         By what share the part may differ from cell to cell, and by what else the signal changes.
@@ -322,15 +322,15 @@ def _misfit(
     of_it : float
         What the parts are told as shares of.
     """
-    least, most = found.parts(*slack)
+    least, most = answers.parts(*slack)
     one, other = int(least.argmax()), int(most.argmin())
     if least[one] > most[other]:
-        shares = found.y / np.maximum(found.x, 1e-12) / of_it
+        shares = answers.y / np.maximum(answers.x, 1e-12) / of_it
         told = sorted({one, other})
         return ", ".join(
-            f"{shares[n]:.2g} at {of.segments[found.places[n]].start:.0f} s" for n in told
+            f"{shares[n]:.2g} at {of.segments[answers.places[n]].start:.0f} s" for n in told
         )
-    least, most = found.parts(0.0, slack[1])
+    least, most = answers.parts(0.0, slack[1])
     if least.max() > bounds[1] * wanted or most.min() < bounds[0] * wanted:
-        return f"{found.slope / of_it:.2g}"
+        return f"{answers.slope / of_it:.2g}"
     return ""
