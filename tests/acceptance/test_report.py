@@ -147,7 +147,7 @@ def test_forces_balance_on_the_worm_and_do_its_work(rated, hand):
 
     found = asperity.rate("gearset-3", settings=[f"gearset.hand={hand}"])
     arm = 0.5 * found.geometry.worm_pitch_diameter
-    half = 0.5 * float(found.given.bearing_span)
+    half = 0.5 * float(found.rating_inputs.bearing_span)
     for forces, turn in zip(found.forces, (-1.0, 1.0), strict=True):
         x, y, z = forces.worm
         (ay, az), (by, bz) = forces.driven_end, forces.free_end

@@ -12,7 +12,7 @@ from apparatus.grid import slow
 from apparatus.standing_rig import PATIENT, Procedure, StandingRig, lines_of, waited_for
 
 from asperity.tribometer.guardian import guard, guardian, stop, switching
-from asperity.tribometer.guardian.asked import AskedPerson, AskedScope
+from asperity.tribometer.guardian.remote import RemotePerson, RemoteScope
 from asperity.tribometer.instruments.protocols import InstrumentError
 from asperity.tribometer.procedure import packer
 from asperity.tribometer.procedure.interlock import Interlock
@@ -411,10 +411,10 @@ def test_at_a_start_it_is_named_within_a_second_and_nothing_waits_for_the_rest(
     assert [one.partition(":")[0] for one in first["still_on"]] == [NAMES["steel"]]
     # Said by whoever is not in the terminal's way.
     waited_for(lambda: f"NOT READ BACK TO BE OFF: {NAMES['steel']}" in procedure.said)
-    asked = time.monotonic()
+    remote = time.monotonic()
     procedure.kill(signal.SIGINT if way == "interrupted" else signal.SIGKILL)
     code = procedure.ended()
-    assert time.monotonic() - asked < 15.0
+    assert time.monotonic() - remote < 15.0
     if way == "killed":
         assert code == -signal.SIGKILL
     elif fault != "late":
@@ -499,12 +499,12 @@ def test_a_person_may_take_longer_than_the_patience_of_hardware(dials, tmp_path)
         'plan.modes=["transverse","longitudinal"]', 'plan.frequencies=["250 Hz"]',
         f'guardian.patience="{LONG} s"', f'guardian.deadline="{LONG} s"',
     )  # fmt: skip
-    asked = tmp_path / "asked"
+    remote = tmp_path / "asked"
 
     def takes_long():
         def long(act):
             def done(self, *given):
-                with asked.open("a") as file:
+                with remote.open("a") as file:
                     file.write(f"{given[0]}\n")
                 time.sleep(2 * PATIENCE)
                 return act(self, *given)
@@ -512,7 +512,7 @@ def test_a_person_may_take_longer_than_the_patience_of_hardware(dials, tmp_path)
             return done
 
         for verb in ("do", "arrange", "read"):
-            setattr(AskedPerson, verb, long(getattr(AskedPerson, verb)))
+            setattr(RemotePerson, verb, long(getattr(RemotePerson, verb)))
 
     rig = StandingRig(case)
     dials.turn(patience=PATIENCE)
@@ -526,7 +526,7 @@ def test_a_person_may_take_longer_than_the_patience_of_hardware(dials, tmp_path)
         cells = [line["line"] for line in lines if line["kind"] == "done" and "cell" in line]
         between = [line for line in lines if cells[0] < line["line"] < cells[1]]
         assert any("mode" in line for line in between if line["kind"] == "done")
-        assert len(asked.read_text().splitlines()) > 4
+        assert len(remote.read_text().splitlines()) > 4
         assert not OUTPUTS & set(rig.on())
     finally:
         procedure.end()
@@ -550,7 +550,7 @@ def test_what_takes_its_time_between_two_files_is_no_hang_and_a_hang_is(dials, t
             return done
 
         for verb in ("start", "stop"):
-            setattr(AskedScope, verb, slowly(getattr(AskedScope, verb)))
+            setattr(RemoteScope, verb, slowly(getattr(RemoteScope, verb)))
         Blocks.sync, Blocks.close = slowly(Blocks.sync), slowly(Blocks.close)
         hdf5._join, hdf5.compressed = slowly(hdf5._join), slowly(hdf5.compressed)
         packer.compressed = hdf5.compressed

@@ -101,10 +101,10 @@ def test_centre_distance_and_profile_shift_lead_to_the_same_answer(gearset, word
     shift = numbers["profile_shift"]
     del numbers["axial_module"]
     by_shift = rated(words, **numbers, axial_module=[4e-3])
-    distance = 1e-3 * by_shift.given.centre_distance
+    distance = 1e-3 * by_shift.rating_inputs.centre_distance
     del numbers["profile_shift"]
     by_distance = rated(words, **numbers, axial_module=[4e-3], centre_distance=distance)
-    assert by_distance.given.profile_shift == pytest.approx(shift, abs=1e-12)
+    assert by_distance.rating_inputs.profile_shift == pytest.approx(shift, abs=1e-12)
     for key in ("iso14521.eta_z1_2", "iso14521.eta_ges"):
         np.testing.assert_allclose(by_distance[key], by_shift[key], rtol=1e-10)
 

@@ -128,7 +128,9 @@ def _tried(seeds, folder):
 
 
 def _by_workbook(found, folder, seed):
-    path = write_rating(found.given, found.tables_bs721, found.found, folder / f"{seed}.xlsx")
+    path = write_rating(
+        found.rating_inputs, found.tables_bs721, found.found, folder / f"{seed}.xlsx"
+    )
     count, wrong = workbooks.differences(workbooks.Workbook(path), found)
     assert count > 0
     assert not wrong, seed

@@ -148,7 +148,7 @@ def test_a_stepped_shaft_bends_as_by_finite_elements(shaft):
 def test_a_bearing_that_yields_lets_its_end_go_by_its_force():
     load = PointLoad(30.0, (0.0, 900.0, 0.0))
     stretches = [Stretch(0.0, 90.0, 40.0)]
-    found = deflection(stretches, [load], (0.0, 90.0), E, yielding=(1e-5, 2e-5))
+    found = deflection(stretches, [load], (0.0, 90.0), E, radial_compliance=(1e-5, 2e-5))
     assert at_place(found, 0.0)[0][0] == pytest.approx(600.0 * 1e-5)
     assert at_place(found, 90.0)[0][0] == pytest.approx(300.0 * 2e-5)
 

@@ -15,12 +15,12 @@ from apparatus.duties import A100
 import asperity
 from asperity.casefile import read_case
 from asperity.commands import case_tables
-from asperity.flanks.measuring.corners import Mounted, Place
+from asperity.flanks.measuring.corners import Mounted, Offset
 from asperity.flanks.meshing.backlash import worm_turn
 from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.parameters import Hob, Mount
 from asperity.flanks.sides import both
-from asperity.flanks.study.rated_play import Made, exact_backlash
+from asperity.flanks.study.rated_play import Manufacture, exact_backlash
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
@@ -60,7 +60,7 @@ def mounted(name="A100", oversize=1.05):
 def interval(name="A100", oversize=1.05):
     """What a rating says of it: by the command where the gearset ships."""
     if name == "A100":
-        return exact_backlash(A100, Made(hob_of(name, oversize)), GIVEN).states["new"]
+        return exact_backlash(A100, Manufacture(hob_of(name, oversize)), GIVEN).states["new"]
     own = [f"hob.oversize={oversize or 1.0}", "hob.tilt=0 deg"] if oversize != "own" else []
     rated = asperity.rate(name, settings=["tolerances.centre_distance=js7", *OFFS, *own])
     assert rated.backlash.by == "by the exact flanks"
@@ -90,7 +90,7 @@ def assembled(thread, tooth, off, name="A100", oversize=1.05):
     pair, g = own.pair, own.pair.geometry
     slant = np.cos(pair.worm.lead_angle)
     thin = pair.with_worm(pair.worm.half_space + 0.5e-3 * thread / slant)
-    stood = Place(1e-3 * off).of(thin)
+    stood = Offset(1e-3 * off).of(thin)
     turn = worm_turn(both(lambda side: transmission(stood, own.wheel.flank(side))))
     return 0.5e3 * g.wheel_mean_diameter * turn / pair.ratio + tooth
 
@@ -105,7 +105,7 @@ def plays_of(name, oversize):
     place = 0.5 * off * (1.0 - np.cos(np.pi * np.arange(7) / 6))
     sides = []
     for sign in (-1.0, 1.0):
-        values = [own.play(Place(1e-3 * sign * value)) for value in place]
+        values = [own.play(Offset(1e-3 * sign * value)) for value in place]
         sides.append(np.polynomial.Polynomial.fit(sign * place, values, 6))
     return lambda value: np.where(value < 0.0, sides[0](value), sides[1](value))
 
@@ -116,7 +116,7 @@ def test_centre_distance_moves_the_exact_backlash_smoothly_to_each_side(name, ov
     # So that what follows takes the flanks' own numbers between the places that are solved.
     plays = plays_of(name, oversize)
     for off in off_of(name) * np.random.default_rng(3).uniform(-1.0, 1.0, 3):
-        solved = mounted(name, oversize).play(Place(1e-3 * off))
+        solved = mounted(name, oversize).play(Offset(1e-3 * off))
         assert float(plays(off)) == pytest.approx(solved, abs=1e-2)
 
 
@@ -169,7 +169,7 @@ def test_a_rating_says_that_a_gearset_may_jam_where_its_worst_assembly_does():
     assert backlash(rated.gearset, given).least > 0.0 > rated.backlash.least
     pair = Pair.of(rated.gearset, read_case("gearset-3", case_tables()).require(Hob))
     own = Mounted.of(pair, Wheel.cut(pair), given)
-    worst = own.play(Place(-own.deviations.centre_distance)) + 40.0
+    worst = own.play(Offset(-own.deviations.centre_distance)) + 40.0
     assert rated.backlash.states["new"].least == pytest.approx(worst, abs=1e-9)
     assert "MAY JAM" in rated.brief()
 
@@ -178,7 +178,9 @@ def test_a_rating_says_that_a_gearset_may_jam_where_its_worst_assembly_does():
 def test_a_fit_leaves_its_least_backlash_by_the_exact_flanks(name):
     # Hob and mounting take more of it than the formula knows.
     hob = read_case(name, case_tables()).get(Hob)
-    found = exact_backlash(gearset_of(name), Made(hob), Tolerances(centre_distance="js9", fit="C"))
+    found = exact_backlash(
+        gearset_of(name), Manufacture(hob), Tolerances(centre_distance="js9", fit="C")
+    )
     least = 1e3 * fit_backlash(gearset_of(name).geometry.centre_distance, "C")
     assert found.least == pytest.approx(least, abs=1e-9)
 
@@ -186,7 +188,7 @@ def test_a_fit_leaves_its_least_backlash_by_the_exact_flanks(name):
 def test_a_fit_that_leaves_none_does_not_jam_by_rounding():
     hob = read_case("gearset-3", case_tables()).get(Hob)
     given = Tolerances(centre_distance="js7", fit="H")
-    found = exact_backlash(gearset_of("gearset-3"), Made(hob), given)
+    found = exact_backlash(gearset_of("gearset-3"), Manufacture(hob), given)
     assert found.least == 0.0
     assert "MAY JAM" not in str(found.sentence())
 
@@ -195,19 +197,19 @@ def test_a_fit_that_leaves_none_does_not_jam_by_rounding():
 def test_a_hob_that_is_the_worm_leaves_no_play_and_no_overlap():
     for name in ("A100", *SHIPPED):
         own = mounted(name, None)
-        assert own.play(Place()) == pytest.approx(0.0, abs=1e-6)
-        less = exact_backlash(gearset_of(name), Made(), GIVEN).states["new"]
-        solved = exact_backlash(gearset_of(name), Made(Hob()), GIVEN).states["new"]
+        assert own.play(Offset()) == pytest.approx(0.0, abs=1e-6)
+        less = exact_backlash(gearset_of(name), Manufacture(), GIVEN).states["new"]
+        solved = exact_backlash(gearset_of(name), Manufacture(Hob()), GIVEN).states["new"]
         assert less == pytest.approx(solved, abs=1e-6)
 
 
 @pytest.mark.slow
 def test_a_warm_backlash_is_that_of_axes_as_far_apart():
     hot = GIVEN.model_copy(update={"temperatures": Temperatures(gears="80 degC")})
-    states = exact_backlash(A100, Made(), hot).states
+    states = exact_backlash(A100, Manufacture(), hot).states
     apart = Warmth.of(A100, hot.temperatures, hot.housing).apart
-    worst = mounted("A100", None).play(Place(apart - 1e-3 * off_of("A100")))
-    new = mounted("A100", None).play(Place(-1e-3 * off_of("A100")))
+    worst = mounted("A100", None).play(Offset(apart - 1e-3 * off_of("A100")))
+    new = mounted("A100", None).play(Offset(-1e-3 * off_of("A100")))
     assert states["warm"].least - states["new"].least == pytest.approx(worst - new, abs=1e-5)
     # Closing, it takes more than the formula has.
     assert states["warm"].least - states["new"].least < backlash(A100, hot).warmth < 0.0
@@ -219,7 +221,7 @@ def test_an_identical_hob_makes_the_centre_distance_count_more_where_it_closes()
     pair = Pair.of(A100)
     own = Mounted.of(pair, Wheel.cut(pair), GIVEN)
     off = 1e-3 * off_of("A100")
-    closed, opened = own.play(Place(-off)), own.play(Place(off))
+    closed, opened = own.play(Offset(-off)), own.play(Offset(off))
     middle = backlash(A100, GIVEN).parts[2].greatest
     assert 0.0 < opened < middle < -closed
 
@@ -229,7 +231,7 @@ def test_an_identical_hob_makes_the_centre_distance_count_more_where_it_closes()
 def test_where_the_worm_stands_as_its_hob_stood_an_angle_that_may_be_off_leaves_most(hob, mount):
     given = Tolerances(shaft_angle="0.08 deg", thread=["-100 um", "-102 um"],
                        tooth=["-20 um", "-22 um"])  # fmt: skip
-    found = exact_backlash(gearset_of("actuator-duty"), Made(hob, mount), given)
+    found = exact_backlash(gearset_of("actuator-duty"), Manufacture(hob, mount), given)
     # An identical hob leaves no play of its own there: what is left is off thread and tooth.
     _, thread, tooth, angle = found.parts
     assert found.states["new"].greatest == pytest.approx(thread.greatest + tooth.greatest, abs=1e-3)
@@ -247,15 +249,15 @@ def test_no_place_has_more_play_than_the_worst_case_however_the_worm_is_mounted(
     plays = own.plays()
     rng = np.random.default_rng(7)
     for _ in range(40):
-        place = Place(*(rng.uniform(-1, 1, 3) * own.deviations))
+        place = Offset(*(rng.uniform(-1, 1, 3) * own.deviations))
         assert min(plays.values()) - 1e-6 <= own.play(place) <= max(plays.values()) + 1e-3
 
 
 @pytest.mark.slow
 def test_no_place_within_the_mounting_tolerances_has_less_play_than_their_corners():
-    given = dataclasses.replace(mounted(), deviations=Place(0.02, 0.03, 1e-3))
+    given = dataclasses.replace(mounted(), deviations=Offset(0.02, 0.03, 1e-3))
     least = min(given.play(place) for place in given.places((-1, 1)))
     rng = np.random.default_rng(5)
     for _ in range(12):
-        place = Place(*(rng.uniform(-1, 1, 3) * given.deviations))
+        place = Offset(*(rng.uniform(-1, 1, 3) * given.deviations))
         assert given.play(place) >= least - 1e-6

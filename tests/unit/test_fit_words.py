@@ -73,7 +73,7 @@ def test_two_rows_on_one_side_do_not_hide_each_other():
     best = fit.least(np.zeros(1))
     for weighed in (True, False):
         found = spoilt(fit, best, np.zeros(1), weighed)
-        assert [one.place for one in found.outliers] == [13, 14]
+        assert [one.measurement for one in found.outliers] == [13, 14]
         assert math.exp(found.point[0]) == pytest.approx(2.0, rel=5e-3)
 
 

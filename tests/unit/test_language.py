@@ -11,7 +11,7 @@ from asperity.commands.listed import COMMANDS
 from asperity.commands.shown import shown_as
 from asperity.errors import InputError
 from asperity.files.shipped import shipped_cases
-from asperity.flanks.measuring.corners import Corner, Place, Side, corner_table
+from asperity.flanks.measuring.corners import Corner, Offset, Side, corner_table
 from asperity.python import size
 from asperity.results.language import Catalogue, catalogue_of, languages, said, spoken
 from asperity.results.report import Heading
@@ -219,7 +219,7 @@ def test_german_tables_of_tolerances_by_the_exact_flanks_leave_nothing_english()
     side = Side(0.18, 1.7, 0.011, 1e-4)
     nominal, corner = (
         Corner(place, {1: side, -1: side}, np.zeros((1, 1)))
-        for place in (Place(), Place(0.1, -0.1, 0.1))
+        for place in (Offset(), Offset(0.1, -0.1, 0.1))
     )
     german = catalogue_of("de")
     german.missing.clear()

@@ -138,7 +138,7 @@ def test_what_does_not_count_is_said_and_no_table_is_empty(ours):
 def test_stresses_are_those_that_the_standard_has_for_the_same_geometry(ours):
     # Of bronze with the moduli of the plastic; its wear leaves the root as it was.
     rated = rate_case(case())
-    found = own_table.judged(rated.given, own_table.plastic_of(rated.given))
+    found = own_table.judged(rated.rating_inputs, own_table.plastic_of(rated.rating_inputs))
     bronze = rate_case(
         case(
             "gearset.wheel_material={family='tin bronze', youngs_modulus='2.6 GPa', "
@@ -149,13 +149,15 @@ def test_stresses_are_those_that_the_standard_has_for_the_same_geometry(ours):
     assert found.flank == pytest.approx(bronze["sigma_Hm_MPa"], rel=1e-12)
     assert found.root == pytest.approx(bronze["tau_F_MPa"], rel=1e-4)
     assert rated.rows[0].value == pytest.approx(
-        1e-6 * own_table.plastic_of(rated.given).bears("root", 60.0, found.cycles) / found.root
+        1e-6
+        * own_table.plastic_of(rated.rating_inputs).bears("root", 60.0, found.cycles)
+        / found.root
     )
 
 
 def test_what_is_worn_off_is_archards_volume(ours):
     rated = rate_case(case())
-    given, plastic = rated.given, own_table.plastic_of(rated.given)
+    given, plastic = rated.rating_inputs, own_table.plastic_of(rated.rating_inputs)
     found = own_table.judged(given, plastic)
     # The wheel's turns times the way of a turn of it, by the worm's sliding at its mean diameter.
     turns = found.cycles
@@ -167,7 +169,7 @@ def test_what_is_worn_off_is_archards_volume(ours):
 
 
 def test_the_force_across_the_flanks_gives_torque_and_efficiency(ours):
-    given = rate_case(case()).given
+    given = rate_case(case()).rating_inputs
     mu, gamma, alpha = 0.1, given.lead_angle, given.pressure_angle
     force = own_table.normal_force(given, 10.0, mu)
     round_wheel = force * (math.cos(alpha) * math.cos(gamma) - mu * math.sin(gamma))
@@ -193,7 +195,7 @@ def test_wear_adds_up_over_loads_and_the_rated_torque_is_for_all_cycles(ours):
 
 
 def _of(*settings):
-    given = rate_case(case("operation.wheel_revolutions=", *settings)).given
+    given = rate_case(case("operation.wheel_revolutions=", *settings)).rating_inputs
     return given, own_table.plastic_of(given)
 
 

@@ -449,29 +449,29 @@ def test_examples_of_self_locking_say_what_they_print():
 
 class TestVariants:
     def test_centre_distance_stays_and_profile_shift_follows(self):
-        given = variants(*minimal(), diameter_factor=[9.0, 10.0, 11.0]).given
+        given = variants(*minimal(), diameter_factor=[9.0, 10.0, 11.0]).rating_inputs
         assert given.centre_distance == 100.0
         np.testing.assert_allclose(given.profile_shift, [0.5, 0.0, -0.5], atol=1e-12)
 
     def test_module_follows_a_profile_shift(self):
-        given = variants(*minimal(), profile_shift=[-0.5, 0.5]).given
+        given = variants(*minimal(), profile_shift=[-0.5, 0.5]).rating_inputs
         assert given.centre_distance == 100.0
         np.testing.assert_allclose(given.axial_module, [200 / 49, 200 / 51], rtol=1e-14)
 
     def test_diameter_factor_follows_profile_shift_and_module(self):
-        given = variants(*minimal(), profile_shift=[0.5], axial_module=[4e-3]).given
+        given = variants(*minimal(), profile_shift=[0.5], axial_module=[4e-3]).rating_inputs
         np.testing.assert_allclose(given.diameter_factor, [9.0], rtol=1e-14)
 
     def test_centre_distance_follows_the_other_three(self):
         given = variants(
             *minimal(), profile_shift=[0.5], axial_module=[4e-3], diameter_factor=[10.0]
-        ).given
+        ).rating_inputs
         np.testing.assert_allclose(given.centre_distance, [102.0], rtol=1e-14)
 
     def test_ratio_varies_teeth_without_rounding(self):
-        given = variants(*minimal(), gear_ratio=[20.0, 20.7]).given
+        given = variants(*minimal(), gear_ratio=[20.0, 20.7]).rating_inputs
         np.testing.assert_allclose(given.wheel_teeth, [40.0, 41.4], rtol=1e-14)
-        given = variants(*minimal(), gear_ratio=[20.0], wheel_teeth=[60.0]).given
+        given = variants(*minimal(), gear_ratio=[20.0], wheel_teeth=[60.0]).rating_inputs
         np.testing.assert_allclose(given.starts, [3.0])
 
     @pytest.mark.parametrize(
@@ -553,13 +553,15 @@ class TestVariants:
         assert "iso14521.safety_wear" not in rated
 
     def test_torque_through_the_travel_follows_the_rated_one_where_it_is_left_out(self):
-        given = variants(*minimal(), output_torque=[300.0, 600.0]).given
+        given = variants(*minimal(), output_torque=[300.0, 600.0]).rating_inputs
         np.testing.assert_allclose(given.through_travel_torque, [300.0, 600.0])
-        given = variants(*minimal(run={"service": "valve"}), output_torque=[300.0, 600.0]).given
+        given = variants(
+            *minimal(run={"service": "valve"}), output_torque=[300.0, 600.0]
+        ).rating_inputs
         np.testing.assert_allclose(given.through_travel_torque, [100.0, 200.0])
         given = variants(
             *minimal(run={"through_travel_torque": "80 N m"}), output_torque=[300.0, 600.0]
-        ).given
+        ).rating_inputs
         assert given.through_travel_torque == 80.0
 
 

@@ -102,9 +102,9 @@ def test_the_rated_torque_of_a_valve_counts_for_a_third_and_a_tenth():
     assert (plain.bs721["U_s_h"], valve.bs721["U_s_h"]) == (5000.0, 500.0)
     assert (
         "of a valve assumed a third"
-        in plain.given.operation.model_copy(update={"service": "valve"}).wear_assumed
+        in plain.rating_inputs.operation.model_copy(update={"service": "valve"}).wear_assumed
     )
-    assert plain.given.operation.wear_assumed == ""
+    assert plain.rating_inputs.operation.wear_assumed == ""
 
 
 @pytest.mark.parametrize("key", ["input_power", "input_torque"])

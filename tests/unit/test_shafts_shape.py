@@ -309,7 +309,7 @@ def moved(at, *more):
 def test_the_span_of_the_standards_is_that_of_the_shaft(at):
     plain = read_case("actuator-duty", case_tables(), [f"operation.bearing_span={at - 30} mm"])
     found = rate_case(moved(at))
-    assert found.given.bearing_span == at - 30
+    assert found.rating_inputs.bearing_span == at - 30
     assert "operation.bearing_span" not in found.assumed
     # The same by the sized gearset's own way, and by the forces of the standard.
     assert found.iso14521["delta_m_mm"] == rate_case(plain).iso14521["delta_m_mm"]

@@ -27,7 +27,7 @@ def solved(*settings):
 def workbook(found, folder, loads=None):
     options = next(iter(found.found.values())).options
     path = folder / "shafts.xlsx"
-    written = write_shafts(found.found, loads or found.loads, found.given, options, path)
+    written = write_shafts(found.found, loads or found.loads, found.rating_inputs, options, path)
     return None if written is None else Workbook(path)
 
 
@@ -87,7 +87,7 @@ def beside_the_rating(folder, *settings):
     case = read_case("actuator-shafts", case_tables(), settings)
     rated = study.beside_rating(case)(rate_case(case, ("iso14521", "bs721")), Run())
     file = folder / "rate.xlsx"
-    write_rating(rated.given, rated.tables_bs721, rated.found, file, rated.shafts)
+    write_rating(rated.rating_inputs, rated.tables_bs721, rated.found, file, rated.shafts)
     return solved(*settings), Workbook(file)
 
 

@@ -25,7 +25,7 @@ def rated(*, name="gearset-3", settings=(), values=None):
 
 
 def workbook(found, folder):
-    path = write_rating(found.given, found.tables_bs721, found.found, folder / "rate.xlsx")
+    path = write_rating(found.rating_inputs, found.tables_bs721, found.found, folder / "rate.xlsx")
     return Workbook(path)
 
 

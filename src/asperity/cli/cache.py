@@ -8,7 +8,7 @@ from typing import Any
 from asperity.cli import show
 from asperity.errors import plain
 from asperity.files import caches
-from asperity.files.caches import Kept
+from asperity.files.caches import CacheUse
 from asperity.files.folders import cache_root
 
 _HEADS = ("kind", "files", "size", "oldest use", "what it is")
@@ -18,7 +18,7 @@ def cache(names: Sequence[str], *, clear: bool, as_json: bool) -> None:
     """Print what is kept of some kinds, or of all; remove it first, if that is asked for."""
     kinds = caches.require_kinds(names)
     removed = caches.clear(kinds) if clear else None
-    found = caches.kept(kinds)
+    found = caches.uses_of(kinds)
     _tell_what_stays(found, clear=clear)
     if as_json:
         show.print_json(_json(found, removed))
@@ -30,8 +30,8 @@ def cache(names: Sequence[str], *, clear: bool, as_json: bool) -> None:
         show.print_text(f"{where}\n\n{_table(found)}")
 
 
-def _tell_what_stays(found: Sequence[Kept], *, clear: bool) -> None:
-    for each in found:
+def _tell_what_stays(uses: Sequence[CacheUse], *, clear: bool) -> None:
+    for each in uses:
         if each.is_link:
             show.note(f"{each.kind}: its folder is a link, which is not followed")
         if each.others and clear:
@@ -39,21 +39,21 @@ def _tell_what_stays(found: Sequence[Kept], *, clear: bool) -> None:
             show.note(f"{each.kind}: {things} of another name stayed")
 
 
-def _json(found: Sequence[Kept], removed: tuple[int, int] | None) -> dict[str, Any]:
+def _json(uses: Sequence[CacheUse], removed: tuple[int, int] | None) -> dict[str, Any]:
     root = cache_root()
-    kinds = [{**asdict(each), "oldest": _date(each, "%Y-%m-%dT%H:%M:%SZ")} for each in found]
+    kinds = [{**asdict(each), "oldest": _date(each, "%Y-%m-%dT%H:%M:%SZ")} for each in uses]
     gone = None if removed is None else dict(zip(("files", "bytes"), removed, strict=True))
     return {"folder": None if root is None else str(root), "kinds": kinds, "removed": gone}
 
 
-def _table(found: Sequence[Kept]) -> str:
+def _table(uses: Sequence[CacheUse]) -> str:
     # Without the tables of answers, which take numpy.
     rows = [_HEADS]
-    for each in found:
+    for each in uses:
         date = _date(each, "%Y-%m-%d") or "-"
         rows.append((each.kind, str(each.files), _size(each.bytes), date, each.what))
-    if found[1:]:
-        files, size = sum(each.files for each in found), sum(each.bytes for each in found)
+    if uses[1:]:
+        files, size = sum(each.files for each in uses), sum(each.bytes for each in uses)
         rows.append(("all", str(files), _size(size), "", ""))
     k, n, s, d, _ = (max(map(len, column)) for column in zip(*rows, strict=True))
     return "\n".join(
@@ -62,7 +62,7 @@ def _table(found: Sequence[Kept]) -> str:
     )
 
 
-def _date(each: Kept, form: str) -> str | None:
+def _date(each: CacheUse, form: str) -> str | None:
     return None if each.oldest is None else time.strftime(form, time.gmtime(each.oldest))
 
 

@@ -23,7 +23,7 @@ from asperity.start.write import case_text
 def new(
     name: str,
     file: Path | None,
-    asked: Mapping[str, str | None],
+    operation_options: Mapping[str, str | None],
     settings: Sequence[str],
     ratio: str,
     read: str = "",
@@ -41,17 +41,20 @@ def new(
     if name in DATA_FILES:
         if read:
             raise InputError(f"--from {plain(read)}: a REXS file is read as a gear, not as {name}")
-        _new_data(name, path, asked, settings, ratio, as_json=as_json)
+        _new_data(name, path, operation_options, settings, ratio, as_json=as_json)
         return
     kind = kind_of(name)
-    if any(each is not None for each in asked.values()) and Operation.table not in kind.tables:
+    if (
+        any(each is not None for each in operation_options.values())
+        and Operation.table not in kind.tables
+    ):
         raise InputError(f"--output-torque and --worm-speed are of a gear; {name} has neither")
     if path.exists():
         raise InputError(f"{plain(str(path))} is there already; name another file")
     values, told = kind.begun(), tuple[str, ...]()
     if read:
         values, told = _received(name, read, values, ratio)
-    given = given_to(values, asked, settings)
+    given = given_to(values, operation_options, settings)
     if ratio and "requirements" in kind.values:
         given |= {apply(values, f"requirements.ratio={ratio_of(ratio):g}", case_tables())}
     wanted = ratio or values.get("requirements", {}).get("ratio") or RATIO
@@ -128,7 +131,7 @@ def _received(name: str, file: str, begun: Values, ratio: str) -> tuple[Values, 
 def _new_data(
     name: str,
     path: Path,
-    asked: Mapping[str, str | None],
+    operation_options: Mapping[str, str | None],
     settings: Sequence[str],
     ratio: str,
     *,
@@ -136,7 +139,7 @@ def _new_data(
 ) -> None:
     """Write a data file of bearings or plastics, which has nothing that can be asked."""
     data = DATA_FILES[name]
-    if settings or ratio or any(each is not None for each in asked.values()):
+    if settings or ratio or any(each is not None for each in operation_options.values()):
         raise InputError(
             "--set, --ratio, --output-torque and --worm-speed are of a case; a data file of "
             f"{name}s has none: leave them out"
@@ -164,21 +167,27 @@ _FORMS = {
 """What of the operation has an option, and what would take its place."""
 
 
-def given_to(values: Values, asked: Mapping[str, str | None], settings: Sequence[str]) -> Set[str]:
+def given_to(
+    values: Values, operation_options: Mapping[str, str | None], settings: Sequence[str]
+) -> Set[str]:
     """Apply what is asked of the operation, and settings; returns their keys."""
     keys = set()
-    loads = [f"--{key.replace('_', '-')} {asked[key]}" for key in LOADS if asked.get(key)]
+    loads = [
+        f"--{key.replace('_', '-')} {operation_options[key]}"
+        for key in LOADS
+        if operation_options.get(key)
+    ]
     if len(loads) > 1:
         raise InputError(f"{loads[1]}: {loads[0]} says what it comes to; keep one of them")
     for setting in settings:
         table, _, name = setting.partition("=")[0].strip().partition(".")
         for key, forms in _FORMS.items():
-            if table == "operation" and name in forms and asked.get(key) is not None:
+            if table == "operation" and name in forms and operation_options.get(key) is not None:
                 raise InputError(
-                    f"--set {setting}: --{key.replace('_', '-')} {asked[key]} says the same; "
-                    "keep one of them"
+                    f"--set {setting}: --{key.replace('_', '-')} {operation_options[key]} says the "
+                    "same; keep one of them"
                 )
-    for key, text in asked.items():
+    for key, text in operation_options.items():
         if text is not None:
             setting, option = f"operation.{key}={text}", f"--{key.replace('_', '-')} {text}"
             try:

@@ -25,7 +25,7 @@ from asperity.studies.proposed import Proposals
 def size(
     case: str,
     ratio: str,
-    asked: Mapping[str, str | None],
+    operation_options: Mapping[str, str | None],
     settings: Sequence[str],
     rank: str,
     locks: str,
@@ -43,7 +43,7 @@ def size(
     """
     check_shown(*shown)
     values = duty(case)
-    given_to(values, asked, settings)
+    given_to(values, operation_options, settings)
     wanted = ratio_of(ratio) if ratio else None
     origin = {setting.partition("=")[0].strip(): setting for setting in settings}
     asking = Case(case or "size", Path(), {}, values, case_tables(), origin)

@@ -41,7 +41,7 @@ KINDS = {
 
 
 @dataclass(frozen=True)
-class Kept:
+class CacheUse:
     """What is kept of a kind.
 
     Attributes
@@ -77,7 +77,7 @@ def require_kinds(names: Sequence[str]) -> list[str]:
     return list(dict.fromkeys(names)) or list(KINDS)
 
 
-def kept(kinds: Sequence[str]) -> list[Kept]:
+def uses_of(kinds: Sequence[str]) -> list[CacheUse]:
     """Return what is kept of some kinds.
 
     Raises
@@ -86,7 +86,7 @@ def kept(kinds: Sequence[str]) -> list[Kept]:
         A folder cannot be looked into.
     """
     with _storage_errors():
-        return [_kept(kind) for kind in kinds]
+        return [_use_of(kind) for kind in kinds]
 
 
 def clear(kinds: Sequence[str]) -> tuple[int, int]:
@@ -151,11 +151,11 @@ def _removable(kinds: Sequence[str]) -> list[Path]:
     return folders
 
 
-def _kept(kind: str) -> Kept:
+def _use_of(kind: str) -> CacheUse:
     what, names = KINDS[kind]
     root = cache_root()
     if root is None or (root / kind).is_symlink():
-        return Kept(kind, what, is_link=root is not None)
+        return CacheUse(kind, what, is_link=root is not None)
     files = size = others = 0
     oldest = None
     for entry in _entries(root / kind):
@@ -167,7 +167,7 @@ def _kept(kind: str) -> Kept:
             count, inside = _size(entry)
             oldest = used if oldest is None else min(oldest, used)
             files, size = files + count, size + inside
-    return Kept(kind, what, files, size, oldest, others)
+    return CacheUse(kind, what, files, size, oldest, others)
 
 
 def _entries(folder: Path) -> list[os.DirEntry[str]]:

@@ -67,7 +67,7 @@ class Rated(Result):
         What moves the least safety most, where it was asked for, as ``asperity rate`` does.
     alternatives : tuple of Alternative
         The oil and the wheel material of those with a name that bring most of it, likewise.
-    given : Inputs
+    rating_inputs : Inputs
         What the formulas started from.
     tables_bs721 : Tables
         Those of BS 721.
@@ -95,7 +95,7 @@ class Rated(Result):
     assumed: Mapping[str, str]
     levers: tuple[Lever, ...] = ()
     alternatives: tuple[Alternative, ...] = ()
-    given: Inputs
+    rating_inputs: Inputs
     tables_bs721: Tables
     unanswered: Mapping[str, str] = dataclasses.field(default_factory=dict)
     contact: "Section | None" = None
@@ -110,42 +110,43 @@ class Rated(Result):
             self.found,
             self.levers,
             self.alternatives,
-            self.given.operation.wear_assumed,
+            self.rating_inputs.operation.wear_assumed,
             self.unanswered,
             self.rows,
-            uncounted(self.given),
+            uncounted(self.rating_inputs),
         )
 
     @property
     def forces(self) -> tuple[Forces, ...]:
         """What shafts and bearings carry in each direction of rotation, by ISO/TR 14521."""
-        return () if self.iso14521 is None else forces(self.given, self.iso14521)
+        return () if self.iso14521 is None else forces(self.rating_inputs, self.iso14521)
 
     @property
     def holding(self) -> tuple[Holding, ...]:
         """What a brake on the worm must bring to hold the load when the motor stops."""
-        return holding(self.given, self.self_locking)
+        return holding(self.rating_inputs, self.self_locking)
 
     @property
     def duty_cycle(self) -> tuple[DutyPart, ...]:
         """What each part of a duty cycle has in wear and heat, by ISO/TR 14521."""
-        return () if self.iso14521 is None else duty_parts(self.given, self.iso14521)
+        return () if self.iso14521 is None else duty_parts(self.rating_inputs, self.iso14521)
 
     @property
     def endurance(self) -> tuple[Endurance, ...]:
         """How long it runs until each limit of ISO/TR 14521 and BS 721, the shortest first."""
-        return endurance(self.given, self.found)
+        return endurance(self.rating_inputs, self.found)
 
     @property
     def starting(self) -> tuple[Starting, ...]:
         """What starting takes, where the spectrum has starts."""
-        return starting(self.given, self.iso14521, self.self_locking, self.holding)
+        return starting(self.rating_inputs, self.iso14521, self.self_locking, self.holding)
 
     @property
     def of_duty(self) -> tuple[str, ...]:
         """What the verdict says of spectrum and housing."""
-        lasts = self.endurance if self.given.operation.steps is not None else ()
-        return tuple(duty_lines(self.given, self.found, self.duty_cycle, lasts, self.starting))
+        inputs = self.rating_inputs
+        lasts = self.endurance if inputs.operation.steps is not None else ()
+        return tuple(duty_lines(inputs, self.found, self.duty_cycle, lasts, self.starting))
 
     @property
     def found(self) -> dict[str, Rating]:
@@ -181,9 +182,9 @@ class Rated(Result):
         }
 
     def _of_spectrum(self) -> dict[str, Any]:
-        if self.given.operation.steps is None:
+        if self.rating_inputs.operation.steps is None:
             return {}
-        mean = duty_mean(self.given, self.duty_cycle)
+        mean = duty_mean(self.rating_inputs, self.duty_cycle)
         return {
             **({} if mean is None else {"duty_mean": mean.to_json()}),
             "endurance": [one.to_json() for one in self.endurance],
@@ -210,8 +211,8 @@ class Rated(Result):
     def heading(self) -> str:
         """Return the gearset's name, and how it is loaded."""
         name = self.gearset.name or "worm gearset"
-        steps = self.given.operation.steps
-        return name if steps is None else f"{name}: {loads_line(self.given)}"
+        inputs = self.rating_inputs
+        return name if inputs.operation.steps is None else f"{name}: {loads_line(inputs)}"
 
     def __repr__(self) -> str:
         return f"{self.heading()}\n{self.verdict!r}"
@@ -233,11 +234,10 @@ class Rated(Result):
         tables += beside(self.rows)
         if self.holding:
             tables.append(held_table(self.holding))
-        if self.given.operation.steps is not None and self.endurance:
+        if self.rating_inputs.operation.steps is not None and self.endurance:
             tables.append(endurance_table(self.endurance))
         tables += [starting_table(self.starting)] if self.starting else []
-        if self.backlash is not None:
-            tables.append(self.backlash.table())
+        tables += [] if self.backlash is None else [self.backlash.table()]
         if self.notes:
             tables.append(Table((), (), remarks=self.notes))
         return tuple(tables)
@@ -268,12 +268,12 @@ class Rated(Result):
         """Write JSON, netCDF, and for spreadsheets a table and live formulas."""
         from asperity.rating.workbook import write_rating
 
-        names = super().write(folder, pictures="")
+        names, inputs = super().write(folder, pictures=""), self.rating_inputs
         table = shown_frame(self.to_frame()).map(harmless_cell)
         write_text(folder / "rate.csv", table.to_csv(lineterminator="\n"))
-        if len(self.given.duty) > _MOST_SHEETS:
+        if len(inputs.duty) > _MOST_SHEETS:
             return [*names, "rate.csv"]
-        write_rating(self.given, self.tables_bs721, self.found, folder / "rate.xlsx", self.shafts)
+        write_rating(inputs, self.tables_bs721, self.found, folder / "rate.xlsx", self.shafts)
         return [*names, "rate.csv", "rate.xlsx"]
 
 
@@ -323,18 +323,18 @@ def rate(
         tolerances=(tolerances, Tolerances | None),
     )
     wanted = known_standards(standards)
-    given = given_of(gearset, operation, options or RatingOptions(), wanted)
-    return rated_of(given, operation, wanted, folder, tolerances)
+    inputs = given_of(gearset, operation, options or RatingOptions(), wanted)
+    return rated_of(inputs, operation, wanted, folder, tolerances)
 
 
 def rated_of(
     inputs: Inputs,
-    asked: Operation,
+    as_run: Operation,
     wanted: Sequence[str],
     folder: Path | None,
     tolerances: Tolerances | None,
 ) -> Rated:
-    """Return the rating that `rate` describes, of what is given; ``asked`` as it was operated."""
+    """Return the rating that `rate` describes, of what is given; ``as_run`` as it was operated."""
     gearset = inputs.gearset
     tables = tables_of(inputs.options, folder)
     found: dict[str, Rating] = {}
@@ -358,7 +358,7 @@ def rated_of(
         unanswered=unanswered,
         contact=None,
         backlash=play_of(gearset, tolerances, found),
-        given=inputs,
+        rating_inputs=inputs,
         tables_bs721=tables,
         gearset=gearset,
         geometry=gearset.geometry,
@@ -366,7 +366,7 @@ def rated_of(
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
         self_locking=self_locking(inputs, found, tables),
-        notes=(*told_of(asked, inputs.operation), *told, *notes),
+        notes=(*told_of(as_run, inputs.operation), *told, *notes),
         rows=rows,
         assumed=assumptions(inputs),
     )

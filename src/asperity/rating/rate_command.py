@@ -27,7 +27,7 @@ class Problem(NamedTuple):
     case: Case
     standards: tuple[str, ...]
     operation: Operation
-    given: Inputs
+    inputs: Inputs
 
 
 def prepare(case: Case, *, standard: str = ALL) -> Problem:
@@ -41,20 +41,20 @@ def prepare(case: Case, *, standard: str = ALL) -> Problem:
 
 def answer(problem: Problem, _: Run) -> Rated:
     """Rate the gearset of a case, and find what moves the least safety."""
-    case, standards, operation, given = problem
+    case, standards, operation, inputs = problem
     with naming_source(case):
-        rated = rated_of(given, operation, standards, case.folder, case.get(Tolerances))
+        rated = rated_of(inputs, operation, standards, case.folder, case.get(Tolerances))
     first = rated.verdict.first
     if first is None:
         return rated
-    judge = judge_of(first.demand, given.options, rated.tables_bs721)
+    judge = judge_of(first.demand, inputs.options, rated.tables_bs721)
     return dataclasses.replace(
         rated,
-        levers=levers(judge, given.gearset, given.operation),
+        levers=levers(judge, inputs.gearset, inputs.operation),
         alternatives=alternatives(
             judge,
-            given.gearset,
-            given.operation,
+            inputs.gearset,
+            inputs.operation,
             lambda other: _with_changes(rated, other, standards, case.folder),
         ),
     )
@@ -67,11 +67,11 @@ def _with_changes(
 
     None if a standard says less of it than of the gearset: that is no best.
     """
-    given, (table, _, key) = rated.given, other.key.partition(".")
+    inputs, (table, _, key) = rated.rating_inputs, other.key.partition(".")
     thing = find(Lubricant if key == "lubricant" else WheelMaterial, other.value)
-    tables: dict[str, Any] = {"gearset": given.gearset, "operation": given.operation}
+    tables: dict[str, Any] = {"gearset": inputs.gearset, "operation": inputs.operation}
     tables[table] = tables[table].model_copy(update={key: thing})
-    changed = rate(tables["gearset"], tables["operation"], given.options, standards, folder=folder)
+    changed = rate(tables["gearset"], tables["operation"], inputs.options, standards, folder=folder)
     if says_less(rated, changed):
         return None
     return other._replace(changes=changed_words(rated, changed))

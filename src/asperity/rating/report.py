@@ -59,7 +59,7 @@ def sections(rated: Reported) -> Iterator[Section]:
         yield Section("Power", pictures=(flow,), tables=(_power(rated.iso14521),))
         if rated.duty_cycle:
             yield _duty(rated)
-        elif rated.given.operation.housing is not None:
+        elif rated.rating_inputs.operation.housing is not None:
             yield Section("Heat", tuple(rated.of_duty))
         said = f"The worm's hand is {rated.gearset.hand}. {_FRAME}"
         by = "Forces on shafts and bearings, by ISO/TR 14521"
@@ -84,7 +84,7 @@ def sections(rated: Reported) -> Iterator[Section]:
 
 def _duty(rated: Reported) -> Section:
     """Return what each load has in wear and heat, and how warm the housing gets."""
-    iso, given = rated.iso14521, rated.given
+    iso, inputs = rated.iso14521, rated.rating_inputs
     tables = [duty_table(rated.duty_cycle)]
     from asperity.rating.duty_plots import plot_duty
     from asperity.rating.warming import warming
@@ -92,7 +92,7 @@ def _duty(rated: Reported) -> Section:
     if rated.endurance:
         tables.append(endurance_table(rated.endurance))
     tables += [starting_table(rated.starting)] if rated.starting else []
-    figure = plot_duty(rated.duty_cycle, float(iso["theta_S_lim_degC"]), warming(given, iso))
+    figure = plot_duty(rated.duty_cycle, float(iso["theta_S_lim_degC"]), warming(inputs, iso))
     caption = (
         "Losses over the running time of the loads, and the oil's temperature: by the heat balance "
         "under the greatest loss where the housing's heat capacity is known, else by ISO/TR 14521."
@@ -152,7 +152,7 @@ def _verdict(rated: Reported) -> Iterator[Table]:
         Column("asked", right=True), Column(""), Column(""),
     )  # fmt: skip
     said = "Bars end at three times what is asked; the mark is what is asked."
-    told = rated.given.operation.wear_told("iso14521" if rated.iso14521 is not None else "")
+    told = rated.rating_inputs.operation.wear_told("iso14521" if rated.iso14521 is not None else "")
     wear = (told,) if rated.verdict.wear_assumed else ()
     unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
     heat = (rated.verdict.heat_assumed,) if rated.verdict.heat_assumed else ()

@@ -34,7 +34,7 @@ class Variants:
     ----------
     shape : tuple of int
         Of all arrays.
-    given : Inputs
+    rating_inputs : Inputs
         What the formulas started from, in the units of the standards; stand-ins where a variant
         is impossible.
     notes : tuple of str
@@ -42,7 +42,7 @@ class Variants:
     """
 
     shape: tuple[int, ...]
-    given: Inputs
+    rating_inputs: Inputs
     notes: tuple[str, ...]
     _impossible: npt.NDArray[np.bool_]
     _values: Mapping[str, Any]
@@ -151,7 +151,7 @@ def variants(
     """
     options = options or RatingOptions()
     operation = driven(gearset, operation, options)
-    given, impossible, shape = varied(gearset, operation, options, values)
+    inputs, impossible, shape = varied(gearset, operation, options, values)
     wanted = known_standards(standards)
     found: dict[str, Any] = {}
     masks, notes = {}, []
@@ -159,7 +159,7 @@ def variants(
     for name in wanted:
         mask = impossible.copy()
         try:
-            numbers = _calculate(name, given, mask, capacity, tables)
+            numbers = _calculate(name, inputs, mask, capacity, tables)
         except InputError as error:
             if len(wanted) == 1:
                 raise
@@ -167,7 +167,7 @@ def variants(
             continue
         masks[name] = mask
         found |= {f"{name}.{key}": value for key, value in numbers.items()}
-    return Variants(shape, given, tuple(notes), impossible.reason != 0, found, masks)
+    return Variants(shape, inputs, tuple(notes), impossible.reason != 0, found, masks)
 
 
 def _calculate(

@@ -88,7 +88,7 @@ def deflection(
     bearings: tuple[float, float],
     modulus: float,
     *,
-    yielding: tuple[float, float] = (0.0, 0.0),
+    radial_compliance: tuple[float, float] = (0.0, 0.0),
     between: int = 0,
     carried: Reactions | None = None,
 ) -> Deflection:
@@ -136,7 +136,7 @@ def deflection(
     first, second = (int(np.argmin(np.abs(at - place))) for place in bearings)
     along = ((at - at[first]) / (at[second] - at[first]))[:, None]
     rest = [np.array(force) * give for force, give in
-            zip((found.first, found.second), yielding, strict=True)]  # fmt: skip
+            zip((found.first, found.second), radial_compliance, strict=True)]  # fmt: skip
 
     def seated(values: FloatArray, ends: Sequence[FloatArray]) -> FloatArray:
         a, b = values[first] - ends[0], values[second] - ends[1]

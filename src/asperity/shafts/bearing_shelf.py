@@ -20,7 +20,7 @@ from asperity.shafts.study import Prepared, asked_life, found_of
 _SAME = 1e-9
 
 
-class Place(NamedTuple):
+class BearingPlace(NamedTuple):
     """A place of a bearing: the table of its shaft, and which of the table's list it is."""
 
     table: str
@@ -29,7 +29,7 @@ class Place(NamedTuple):
 
 def from_shelf(
     problem: Prepared, shelf: Sequence[RollingBearing], factor: float = 1.0
-) -> tuple[Prepared, dict[Place, str]]:
+) -> tuple[Prepared, dict[BearingPlace, str]]:
     """Return a problem with a bearing of a shelf at each place that names none.
 
     Parameters
@@ -56,16 +56,18 @@ def from_shelf(
     models = {"worm_shaft": problem.worm, "wheel_shaft": problem.wheel}
     if all(m is None or all(place.bearing for place in m.places) for m in models.values()):
         return problem, {}
-    loads = loads_of(problem.given, rate_by("iso14521", problem.given, problem.tables))
+    loads = loads_of(
+        problem.rating_inputs, rate_by("iso14521", problem.rating_inputs, problem.tables)
+    )
     life = asked_life(problem, loads)
-    chosen: dict[Place, str] = {}
+    chosen: dict[BearingPlace, str] = {}
     for key, found in found_of(problem, loads).items():
         bearings = list(found.model.table.bearing)
         for number, place in enumerate(bearings):
             if place.bearing is None:
                 own = _chosen(found, place, shelf, life, factor)
                 assert own.bearing is not None
-                bearings[number], chosen[Place(key, number)] = own, own.bearing.name
+                bearings[number], chosen[BearingPlace(key, number)] = own, own.bearing.name
         table = found.model.table.model_copy(update={"bearing": tuple(bearings)})
         models[key] = found.model._replace(table=table)
     return problem._replace(worm=models["worm_shaft"], wheel=models["wheel_shaft"]), chosen
@@ -73,15 +75,15 @@ def from_shelf(
 
 def _chosen(
     shaft: LoadedShaft,
-    place: ShaftBearing,
+    bearing: ShaftBearing,
     shelf: Sequence[RollingBearing],
     life: float,
     factor: float,
 ) -> ShaftBearing:
     model = shaft.model
-    number = 0 if place is model.places[0] else 1
+    number = 0 if bearing is model.places[0] else 1
     best: tuple[float, ShaftBearing] | None = None
-    for candidate in _fitting(model, place, shelf):
+    for candidate in _fitting(model, bearing, shelf):
         assert candidate.bearing is not None
         asked = shaft.options.at_rest(candidate.bearing.elements)
         margin = min(

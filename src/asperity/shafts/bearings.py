@@ -82,7 +82,7 @@ class Life(NamedTuple):
 
 
 def life_of(
-    place: ShaftBearing, loads: Sequence[Carried], options: BearingOptions, peak: float = 1.0
+    bearing: ShaftBearing, loads: Sequence[Carried], options: BearingOptions, peak: float = 1.0
 ) -> Life:
     """Return what a bearing comes to under loads.
 
@@ -91,14 +91,14 @@ def life_of(
     InputError
         No bearing is named there.
     """
-    rolling = place.bearing
+    rolling = bearing.bearing
     if rolling is None:
         raise InputError("bearing.bearing is missing; name one of a data file")
-    c, c0 = rolling.ratings(pair=place.pair)
+    c, c0 = rolling.ratings(pair=bearing.pair)
     p, lives, modified, kappas, factors, statics = rolling.exponent, [], [], [], [], []
     equivalents = []
     for each in loads:
-        of = rolling.factors(each.axial, opposed=place.opposed)
+        of = rolling.factors(each.axial, opposed=bearing.opposed)
         rest = static_load(of, peak * each.radial, peak * each.axial)
         statics.append(number(life.static_safety(c0, np.maximum(rest, _LEAST * c0))))
         if not each.lasts:
@@ -109,7 +109,7 @@ def life_of(
         if options.e_c is not None:
             reference = life.reference_viscosity(each.speed, rolling.pitch_diameter)
             kappa = number(life.viscosity_ratio(each.viscosity, reference))
-            limit = rolling.endless_below * (2.0 if place.pair else 1.0)
+            limit = rolling.endless_below * (2.0 if bearing.pair else 1.0)
             factor = number(
                 life.life_modification(kappa, options.e_c, limit, load, rolling.elements)
             )

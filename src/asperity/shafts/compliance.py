@@ -59,5 +59,5 @@ def plain_shaft(
         long = max(min(stretch.end, model.mesh) - stretch.start, 0.0)
         twists += 32.0 * long / (math.pi * stretch.diameter**4 * shear)  # rad/(N mm)
     share = (second - model.mesh) / (second - first)
-    ends = share**2 * model.yielding[0] + (1.0 - share) ** 2 * model.yielding[1]
+    ends = share**2 * model.radial_compliance[0] + (1.0 - share) ** 2 * model.radial_compliance[1]
     return PlainShaft(diameter, length, 1e-3 / twists, 1e3 / (2.0 * ends) if ends > 0.0 else None)

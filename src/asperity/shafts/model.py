@@ -97,7 +97,7 @@ class Model(NamedTuple):
         return self.stretches[-1].end
 
     @property
-    def yielding(self) -> tuple[float, float]:
+    def radial_compliance(self) -> tuple[float, float]:
         """Radial compliance of the bearings, mm/N."""
         first, second = (
             0.0 if each.stiffness is None else 1e3 / each.stiffness for each in self.places

@@ -36,7 +36,7 @@ class ShaftStudy(Drawn):
         Of the life.
     life : float
         That the bearings must reach, h.
-    given : Inputs, optional
+    rating_inputs : Inputs, optional
         The gearset that they belong to.
     blanks : Blanks, optional
         What the wheel is beside its teeth, for drawings.
@@ -79,7 +79,7 @@ class ShaftStudy(Drawn):
         "S_F", "", "yield safety of the weakest section by DIN 743", optional=True
     )
 
-    given: "Inputs | None" = None
+    rating_inputs: "Inputs | None" = None
     blanks: "Blanks | None" = None
 
     @classmethod
@@ -154,7 +154,7 @@ class ShaftStudy(Drawn):
                     )
         return cls(
             name=inputs.gearset.name,
-            given=inputs,
+            rating_inputs=inputs,
             blanks=blanks,
             found=shafts,
             loads=loads,
@@ -201,19 +201,21 @@ class ShaftStudy(Drawn):
     @property
     def application_factor(self) -> float:
         """K_A, which the forces of the teeth have."""
-        return 1.0 if self.given is None else self.given.operation.application_factor
+        return (
+            1.0 if self.rating_inputs is None else self.rating_inputs.operation.application_factor
+        )
 
     @property
     def geometry(self) -> "Geometry":
         """What follows from the gearset's numbers."""
-        assert self.given is not None
-        return self.given.gearset.geometry
+        assert self.rating_inputs is not None
+        return self.rating_inputs.gearset.geometry
 
     @property
     def hand(self) -> str:
         """Of the worm."""
-        assert self.given is not None
-        return self.given.gearset.hand
+        assert self.rating_inputs is not None
+        return self.rating_inputs.gearset.hand
 
     def seen(self) -> "Views":
         """Return both views of the gearset with its shafts, each as SVG with its caption.
@@ -303,9 +305,11 @@ class ShaftStudy(Drawn):
         from asperity.shafts.workbook import write_shafts
 
         names = super().write(folder, pictures=pictures)
-        assert self.given is not None
+        assert self.rating_inputs is not None
         options = next(iter(self.found.values())).options
-        file = write_shafts(self.found, self.loads, self.given, options, folder / "shafts.xlsx")
+        file = write_shafts(
+            self.found, self.loads, self.rating_inputs, options, folder / "shafts.xlsx"
+        )
         return names if file is None else [*names, file.name]
 
     def to_dataset(self) -> "xr.Dataset":

@@ -67,7 +67,7 @@ class Loaded:
             self.loads,
             self.model.bearings,
             self.model.modulus,
-            yielding=self.model.yielding,
+            radial_compliance=self.model.radial_compliance,
             between=between,
         )
 
@@ -86,7 +86,7 @@ class Loaded:
     def _mesh(self) -> tuple[tuple[float, float], tuple[float, float]]:
         found = deflection(
             self.model.stretches, self.loads, self.model.bearings, self.model.modulus,
-            yielding=self.model.yielding, carried=self.carried,
+            radial_compliance=self.model.radial_compliance, carried=self.carried,
         )  # fmt: skip
         bent, sheared, _ = at_place(found, self.model.mesh)
         y, z = (1e3 * bent).tolist()
@@ -210,7 +210,7 @@ class LoadedShaft:
             for number, place in enumerate(self.model.places)
         )
 
-    def lives_of(self, number: int, place: ShaftBearing) -> Mapping[Condition, Life]:
+    def lives_of(self, number: int, bearing: ShaftBearing) -> Mapping[Condition, Life]:
         """Return what a bearing comes to by case where another stands, or none, of its kind."""
         own = {}
         for condition, case in zip(self.cases, self.every, strict=True):
@@ -225,7 +225,7 @@ class LoadedShaft:
                 )
                 for each, speed in zip(case, self.speeds, strict=True)
             ]
-            own[condition] = life_of(place, loads, self.options, self.model.table.peak)
+            own[condition] = life_of(bearing, loads, self.options, self.model.table.peak)
         return own
 
 

@@ -287,26 +287,26 @@ def _keyways(
     return tuple(made), tuple(notes)
 
 
-def _seat(place: ShaftBearing, number: int) -> Seat:
-    rolling = place.bearing
+def _seat(bearing: ShaftBearing, number: int) -> Seat:
+    rolling = bearing.bearing
     assert rolling is not None
     angle = rolling.contact_angle or 0.0
     if rolling.kind == "taper" and rolling.e is not None:
         angle = math.atan(rolling.e / 1.5)
     # Back to back the contact lines of a pair part outwards, face to face they meet.
-    outer = -angle if "face-to-face" in place.arrangement else angle
+    outer = -angle if "face-to-face" in bearing.arrangement else angle
     # What pushes the shaft towards its end leans on the outer ring's shoulder there.
-    angles: tuple[float, ...] = (-angle if place.takes == "towards end" else angle,)
-    if place.opposed:
+    angles: tuple[float, ...] = (-angle if bearing.takes == "towards end" else angle,)
+    if bearing.opposed:
         angles = (outer, -outer)
-    elif place.pair:
+    elif bearing.pair:
         angles = (angles[0], angles[0])
-    elif place.adjusted:
+    elif bearing.adjusted:
         angles = (outer if number == 0 else -outer,)
     bore, outside, width = (
         scaled(each, 1e3) for each in (rolling.bore, rolling.outside_diameter, rolling.width)
     )
-    return Seat(scaled(place.at, 1e3), bore, outside, width, rolling.kind, angles)
+    return Seat(scaled(bearing.at, 1e3), bore, outside, width, rolling.kind, angles)
 
 
 def on_shaft(blanks: Blanks | None, shape: Shape) -> Blanks:

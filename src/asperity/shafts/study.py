@@ -42,7 +42,7 @@ _DEFLECTION = "safety_deflection", "delta_m_mm"
 class Prepared(NamedTuple):
     """What is solved."""
 
-    given: Inputs
+    rating_inputs: Inputs
     tables: Tables
     worm: Model | None
     wheel: Model | None
@@ -100,7 +100,7 @@ def prepared(
     operation: Operation,
     options: RatingOptions,
     shafts: tuple[WormShaft | None, WheelShaft | None],
-    asked: BearingOptions,
+    bearing_options: BearingOptions,
     folder: Path | None = None,
 ) -> Prepared:
     """Return the shafts of a gearset: the worm's and the wheel's, None where there is none.
@@ -113,8 +113,8 @@ def prepared(
     operation = driven(gearset, operation, options)
     gearset.require_consistent()
     worm, wheel = (None if one is None else model_of(one, gearset.geometry) for one in shafts)
-    given = inputs(gearset, operation, options)
-    return Prepared(given, tables_of(options, folder), worm, wheel, asked)
+    rating_inputs = inputs(gearset, operation, options)
+    return Prepared(rating_inputs, tables_of(options, folder), worm, wheel, bearing_options)
 
 
 def answer(problem: Prepared, _: Run) -> ShaftStudy:
@@ -140,14 +140,14 @@ def answer(problem: Prepared, _: Run) -> ShaftStudy:
 
 def studied(problem: Prepared, rating: Rating | None = None) -> ShaftStudy:
     """Return what both shafts come to, by a rating by ISO/TR 14521 where there is one."""
-    iso = rating or rate_by("iso14521", problem.given, problem.tables)
-    return study(problem, loads_of(problem.given, iso), iso)
+    iso = rating or rate_by("iso14521", problem.rating_inputs, problem.tables)
+    return study(problem, loads_of(problem.rating_inputs, iso), iso)
 
 
 def study(problem: Prepared, loads: tuple[Load, ...], iso: Rating) -> ShaftStudy:
     """Return what both shafts come to under given loads, beside a rating by ISO/TR 14521."""
     return ShaftStudy.of(
-        problem.given,
+        problem.rating_inputs,
         found_of(problem, loads),
         loads,
         asked_life(problem, loads),
@@ -165,19 +165,19 @@ def asked_life(problem: Prepared, loads: tuple[Load, ...]) -> float:
 
 def found_of(problem: Prepared, loads: tuple[Load, ...]) -> dict[str, LoadedShaft]:
     """Return both shafts under loads, by table."""
-    given, options = problem.given, problem.options
-    hand = 1.0 if given.gearset.hand == "right" else -1.0
+    inputs, options = problem.rating_inputs, problem.options
+    hand = 1.0 if inputs.gearset.hand == "right" else -1.0
     cases = cases_of(loads, options.raises)
 
     def on_worm(load: Load, case: Condition) -> PointLoad:
         assert problem.worm is not None
         force = load.on_worm(case, hand)
-        return on_worm_shaft(problem.worm.mesh, force, float(given.worm_pitch_diameter))
+        return on_worm_shaft(problem.worm.mesh, force, float(inputs.worm_pitch_diameter))
 
     def on_wheel(load: Load, case: Condition) -> PointLoad:
         assert problem.wheel is not None
         force = load.on_worm(case, hand)
-        return on_wheel_shaft(problem.wheel.mesh, force, float(given.wheel_mean_diameter))
+        return on_wheel_shaft(problem.wheel.mesh, force, float(inputs.wheel_mean_diameter))
 
     found: dict[str, LoadedShaft] = {}
     if problem.worm is not None:

@@ -10,7 +10,7 @@ from asperity.gearset.library import every
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.shafts.bearing import RollingBearing
-from asperity.shafts.bearing_shelf import Place, from_shelf
+from asperity.shafts.bearing_shelf import BearingPlace, from_shelf
 from asperity.shafts.options import BearingOptions
 from asperity.shafts.parameters import WheelShaft, WormShaft
 from asperity.shafts.study import prepared, studied
@@ -26,7 +26,7 @@ def borne_by(
     kept: Mapping[str, Any],
     operation: Operation,
     options: RatingOptions,
-    asked: Requirements,
+    requirements: Requirements,
 ) -> Callable[[Mapping[str, Any]], Borne] | None:
     """Return what says of a gearset, by its keys, what its shafts come to; None without shafts.
 
@@ -38,7 +38,7 @@ def borne_by(
         What the gearset has beside its macro-geometry.
     operation, options : Operation, RatingOptions
         How it is run and rated.
-    asked : Requirements
+    requirements : Requirements
         What is kept beside the safeties.
 
     Raises
@@ -47,8 +47,8 @@ def borne_by(
         A table that cannot be read, or bearings are to be taken from data files that have none.
     """
     worm, wheel, own = (_read(model, values) for model in (WormShaft, WheelShaft, BearingOptions))
-    shelf = every(RollingBearing) if asked.bearings == "own" else ()
-    if asked.bearings == "own" and not shelf:
+    shelf = every(RollingBearing) if requirements.bearings == "own" else ()
+    if requirements.bearings == "own" and not shelf:
         raise InputError(
             'requirements.bearings is "own", but no data file has a bearing: name one, as asperity '
             "--materials FILE size (asperity new bearing begins one)"
@@ -59,9 +59,9 @@ def borne_by(
     def borne(keys: Mapping[str, Any]) -> Borne:
         gearset = Gearset.model_validate({**kept, **keys}, context={"text_only": True})
         problem = prepared(gearset, operation, options, (worm, wheel), own or BearingOptions())
-        chosen: dict[Place, str] = {}
+        chosen: dict[BearingPlace, str] = {}
         if shelf:
-            problem, chosen = from_shelf(problem, shelf, asked.safety)
+            problem, chosen = from_shelf(problem, shelf, requirements.safety)
         names = {f"{at.table}.bearing.{at.number + 1}": name for at, name in chosen.items()}
         found = studied(problem)
         return Borne(found.rows, names, found.lacking)

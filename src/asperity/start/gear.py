@@ -114,16 +114,16 @@ def proposals(
     )
 
 
-def _ratio(given: float | None, asked: Requirements, held: Mapping[str, float]) -> float:
+def _ratio(given: float | None, requirements: Requirements, held: Mapping[str, float]) -> float:
     if given is None:
-        if asked.ratio is None and {"starts", "wheel_teeth"} <= held.keys():
+        if requirements.ratio is None and {"starts", "wheel_teeth"} <= held.keys():
             return held["wheel_teeth"] / held["starts"]
-        if asked.ratio is None:
+        if requirements.ratio is None:
             raise InputError("ratio is missing: give --ratio 40, or --set requirements.ratio=40")
-        return asked.ratio
-    if asked.ratio is not None and not math.isclose(given, asked.ratio):
+        return requirements.ratio
+    if requirements.ratio is not None and not math.isclose(given, requirements.ratio):
         raise InputError(
-            f"ratio is {given:g}, and requirements.ratio {asked.ratio:g}; keep one of them"
+            f"ratio is {given:g}, and requirements.ratio {requirements.ratio:g}; keep one of them"
         )
     return given
 
@@ -179,14 +179,16 @@ def _details(kept: Mapping[str, Any], values: Values, keys: Mapping[str, Any]) -
     whole, rim = masses(gearset)
     told: dict[str, Any] = {"mass_kg": whole, "rim_kg": rim}
     if Tolerances.table in values:
-        from asperity.flanks.study.rated_play import Made, exact_backlash
+        from asperity.flanks.study.rated_play import Manufacture, exact_backlash
 
         tables = (
             _table(model, values[model.table]) if model.table in values else None
             for model in (Hob, Mount, Modification, Disc)
         )
         try:
-            play = exact_backlash(gearset, Made(*tables), _table(Tolerances, values["tolerances"]))
+            play = exact_backlash(
+                gearset, Manufacture(*tables), _table(Tolerances, values["tolerances"])
+            )
         except ConvergenceError:
             return told
         at_wheel = play.states["new"].times(play.measures[2].factor)

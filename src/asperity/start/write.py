@@ -67,13 +67,13 @@ def _left_out(key: Key, *, other: bool) -> Iterator[str]:
         meaning = f"{meaning.rstrip()} For example:"
     yield from comment(meaning)
     if value:
-        yield f"#{key.name} = {_tidy(value)}"
+        yield f"#{key.name} = {_toml_value(value)}"
     else:
         yield f"#{key.name} ="
     yield ""
 
 
-def _tidy(value: str) -> str:
+def _toml_value(value: str) -> str:
     if value[:1] in '"[{' or value in ("true", "false"):
         return value
     if value[:1] == "(":

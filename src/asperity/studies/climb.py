@@ -102,13 +102,15 @@ def climb_together(worth: Rows, hills: Sequence[Hill]) -> list[Top | None]:
     if not hills:
         return []
     climbers = [(merit, start) for merit, starts in hills for start in starts]
-    rope = _Rope(worth, len(climbers))
+    together = _JointClimb(worth, len(climbers))
     with ThreadPoolExecutor(len(climbers)) as pool:
         try:
-            ends = iter([*pool.map(rope.climb, range(len(climbers)), *zip(*climbers, strict=True))])
+            ends = iter(
+                [*pool.map(together.climb, range(len(climbers)), *zip(*climbers, strict=True))]
+            )
         except BaseException as failure:
             # Interrupted here, some may not have set out, for whom the others would wait for ever.
-            rope.cut(failure)
+            together.cut(failure)
             raise
     return [_highest([next(ends) for _ in starts], starts[0]) for _, starts in hills]
 
@@ -124,7 +126,7 @@ def _highest(ends: Sequence[tuple[float, FloatArray] | None], start: FloatArray)
     return Top(point, height, sum(height - other <= _SAME for other, _ in tops))
 
 
-class _Rope:
+class _JointClimb:
     """Climbers that go step by step together, so that one call answers what all of them ask.
 
     A call costs about the same for ten points as for a hundred. Each climber waits in a thread of
@@ -133,8 +135,8 @@ class _Rope:
 
     def __init__(self, worth: Rows, climbers: int) -> None:
         self._worth, self._climbing = worth, climbers
-        self._all_asked = threading.Condition()
-        self._asked: dict[int, FloatArray] = {}
+        self._all_waiting = threading.Condition()
+        self._waiting: dict[int, FloatArray] = {}
         self._answers: dict[int, FloatArray] = {}
         self._failure: BaseException | None = None
 
@@ -143,33 +145,33 @@ class _Rope:
     ) -> tuple[float, FloatArray] | None:
         """Climb from a start, together with the others."""
         try:
-            return _allowed(lambda points: merit(self._ask(climber, points)), start)
+            return _allowed(lambda points: merit(self._evaluated(climber, points)), start)
         finally:
-            with self._all_asked:
+            with self._all_waiting:
                 self._climbing -= 1
                 self._answer_together()
 
     def cut(self, failure: BaseException) -> None:
         """Let every climber end with a failure."""
-        with self._all_asked:
+        with self._all_waiting:
             self._failure = failure
-            self._all_asked.notify_all()
+            self._all_waiting.notify_all()
 
-    def _ask(self, climber: int, points: FloatArray) -> FloatArray:
-        with self._all_asked:
-            self._asked[climber] = points
+    def _evaluated(self, climber: int, points: FloatArray) -> FloatArray:
+        with self._all_waiting:
+            self._waiting[climber] = points
             self._answer_together()
-            self._all_asked.wait_for(lambda: climber in self._answers or self._failure)
+            self._all_waiting.wait_for(lambda: climber in self._answers or self._failure)
             if self._failure is not None:
                 raise self._failure
             return self._answers.pop(climber)
 
     def _answer_together(self) -> None:
-        if not self._asked or len(self._asked) < self._climbing or self._failure is not None:
+        if not self._waiting or len(self._waiting) < self._climbing or self._failure is not None:
             return
         # In the order of the starts, whoever came first, so that an answer can be repeated.
-        asked = dict(sorted(self._asked.items()))
-        self._asked.clear()
+        asked = dict(sorted(self._waiting.items()))
+        self._waiting.clear()
         try:
             rows = self._worth(np.concatenate(list(asked.values())))
         except BaseException as failure:
@@ -177,7 +179,7 @@ class _Rope:
         else:
             ends = np.cumsum([len(points) for points in asked.values()])
             self._answers.update(zip(asked, np.split(rows, ends[:-1]), strict=True))
-        self._all_asked.notify_all()
+        self._all_waiting.notify_all()
 
 
 def _allowed(merit: Rows, start: FloatArray) -> tuple[float, FloatArray] | None:
@@ -235,12 +237,12 @@ class _Slope:
         self._merit = merit
         self._at: bytes = b""
         self._answer: tuple[FloatArray, FloatArray] = (np.empty(0), np.empty((0, 0)))
-        self._asked: deque[FloatArray] = deque(maxlen=_PATIENCE)
+        self._points: deque[FloatArray] = deque(maxlen=_PATIENCE)
 
     def __call__(self, point: FloatArray) -> tuple[FloatArray, FloatArray]:
         if point.tobytes() != self._at:
-            self._asked.append(point.copy())
-            if len(self._asked) == _PATIENCE and np.ptp(self._asked, axis=0).max() < _STILL:
+            self._points.append(point.copy())
+            if len(self._points) == _PATIENCE and np.ptp(self._points, axis=0).max() < _STILL:
                 raise _ThereError(point)
             # Backwards at the far side, to stay inside.
             steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)

@@ -241,15 +241,15 @@ class Space:
             folder=self.folder,
             **self.values(points),
         )
-        shift = np.broadcast_to(found.given.profile_shift, found.shape)
+        shift = np.broadcast_to(found.rating_inputs.profile_shift, found.shape)
         locking = [path for path in self.least if path.startswith("locking.")]
         paths = _NUMBERS | {path: path for path in self.least if path not in locking}
         numbers = {key: found[path] for key, path in paths.items()} | {"profile_shift": shift}
         if locking or self._required:
             with masking(found.shape):
-                margins = locking_margins(found.given, found, self._tables)
+                margins = locking_margins(found.rating_inputs, found, self._tables)
             at_rest = {name: m for (name, state), m in margins.items() if state == "static"}
-            room = self.requirements.room(found.given, at_rest)
+            room = self.requirements.room(found.rating_inputs, at_rest)
             for name in self._required:
                 left = np.asarray(room[name.removeprefix(_REQUIRED)], dtype=float) - _ABOVE
                 numbers[name] = np.broadcast_to(left, found.shape)
@@ -257,7 +257,7 @@ class Space:
                 over = np.broadcast_to(np.asarray(margin, dtype=float) + 1.0, found.shape)
                 numbers[f"locking.{standard}.{state}"] = over
         if self.least_threads is not None:
-            q, alpha = found.given.diameter_factor, self.values(points)["pressure_angle"]
+            q, alpha = found.rating_inputs.diameter_factor, self.values(points)["pressure_angle"]
             numbers[THREADS] = np.broadcast_to(self.threads_of(q, alpha), found.shape)
         return numbers | {"M_permissible_Nm": np.minimum(numbers["M_w_Nm"], numbers["M_s_Nm"])}
 

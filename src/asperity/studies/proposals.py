@@ -261,7 +261,7 @@ def _locking(rated: Variants, tables: Tables) -> dict[str, dict[str, FloatArray]
     """Return by state and standard by how much friction is above what locks; NaN without one."""
     found: dict[str, dict[str, FloatArray]] = {"rest": {}, "motion": {}}
     with masking(rated.shape):
-        margins = locking_margins(rated.given, rated, tables)
+        margins = locking_margins(rated.rating_inputs, rated, tables)
     for (standard, state), margin in margins.items():
         everywhere = np.broadcast_to(np.asarray(margin, dtype=float), rated.shape)
         # A standard without an answer has no say.

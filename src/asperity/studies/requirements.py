@@ -123,7 +123,7 @@ class Requirements(Table):
     def kept(self, rated: "Variants", at_rest: Mapping[str, FloatArray]) -> Any:
         """Return which designs keep what is asked beside their safeties, as `room` has it."""
         kept = np.ones(rated.shape, dtype=bool)
-        for room in self.room(rated.given, at_rest).values():
+        for room in self.room(rated.rating_inputs, at_rest).values():
             kept &= room >= 0.0
         return kept
 
@@ -173,13 +173,13 @@ def _below(size: Any, most: float) -> Any:
 
 
 def broken_by(
-    asked: Requirements, variants: "Variants", tables: "Tables | None"
+    requirements: Requirements, variants: "Variants", tables: "Tables | None"
 ) -> dict[str, npt.NDArray[np.bool_]]:
     """Return by what is asked which designs do not keep it; no answer breaks nothing.
 
     Parameters
     ----------
-    asked : Requirements
+    requirements : Requirements
         What is asked.
     variants : Variants
         The designs, rated with their load capacity.
@@ -187,7 +187,7 @@ def broken_by(
         Of BS 721.
     """
     with masking(variants.shape):
-        margins = locking_margins(variants.given, variants, tables)
+        margins = locking_margins(variants.rating_inputs, variants, tables)
     at_rest = {
         name: np.where(variants.reason(name) == 0, margin, math.inf)
         for (name, state), margin in margins.items()
@@ -195,10 +195,10 @@ def broken_by(
     }
     broken = {
         name: np.broadcast_to(np.asarray(room) < 0.0, variants.shape)
-        for name, room in asked.room(variants.given, at_rest).items()
+        for name, room in requirements.room(variants.rating_inputs, at_rest).items()
     }
-    if asked.safety > 1.0:
+    if requirements.safety > 1.0:
         safeties = [variants[d.path] / d.asked for d in DEMANDS if d.path in variants]
         least = np.min(np.nan_to_num(safeties, nan=math.inf), axis=0)
-        broken["safety"] = least < asked.safety
+        broken["safety"] = least < requirements.safety
     return broken

@@ -44,11 +44,13 @@ def versions(subject: str = "") -> dict[str, str]:
     return {"asperity": sources, "numba": numba, "numpy": numpy}
 
 
-def solve_remote(problems: Sequence[Any], asked: Mapping[str, str], subject: str = "") -> list[Row]:
+def solve_remote(
+    problems: Sequence[Any], wanted_versions: Mapping[str, str], subject: str = ""
+) -> list[Row]:
     """Solve a task on a worker, which must have the `versions` of who asked."""
     # Otherwise results of other code would be kept as results of this one.
     own = versions(subject)
-    if different := [name for name in asked if own.get(name) != asked[name]]:
+    if different := [name for name in wanted_versions if own.get(name) != wanted_versions[name]]:
         raise InputError(
             f"a worker runs another version of {' and '.join(different)}; install the same "
             "everywhere"

@@ -54,7 +54,7 @@ _BESIDE, _FINE, _GAIN, _TURNS = 1.0 / 64.0, 1e-4, 1e-5, 8
 _Found = TypeVar("_Found")
 
 
-class Place(NamedTuple):
+class Offset(NamedTuple):
     """How far the worm stands off: along centre distance and wheel's axis, mm, and its angle, rad.
 
     In the gearset's own frame, as ``[mount]`` has them.
@@ -74,7 +74,7 @@ class Place(NamedTuple):
         )
         return ", ".join(signs) or "nominal"
 
-    def further(self, apart: float) -> "Place":
+    def further(self, apart: float) -> "Offset":
         """Return the place with axes so much further apart, mm."""
         return self._replace(centre_distance=self.centre_distance + apart)
 
@@ -104,7 +104,7 @@ class Corner(NamedTuple):
 
     Attributes
     ----------
-    place : Place
+    offset : Offset
         Where the worm stands.
     sides : mapping of int to Side
         By flank, 1 and -1.
@@ -112,7 +112,7 @@ class Corner(NamedTuple):
         Of the flank s = +1 on the grid of the maps, mm.
     """
 
-    place: Place
+    offset: Offset
     sides: dict[int, Side]
     gap: FloatArray
 
@@ -127,10 +127,10 @@ class Corner(NamedTuple):
             for side, own in self.sides.items()
         }
         return {
-            "name": self.place.name,
-            "centre_distance_mm": self.place.centre_distance,
-            "axial_offset_mm": self.place.axial_offset,
-            "shaft_angle_deg": math.degrees(self.place.shaft_angle),
+            "name": self.offset.name,
+            "centre_distance_mm": self.offset.centre_distance,
+            "axial_offset_mm": self.offset.axial_offset,
+            "shaft_angle_deg": math.degrees(self.offset.shaft_angle),
             "flanks": flanks,
         }
 
@@ -144,17 +144,17 @@ class Mounted:
 
     pair: Pair
     wheel: Wheel
-    deviations: Place
-    known: dict[Place, float] = dataclasses.field(default_factory=dict, repr=False)
+    deviations: Offset
+    known: dict[Offset, float] = dataclasses.field(default_factory=dict, repr=False)
 
     @classmethod
     def of(cls, pair: Pair, wheel: Wheel, tolerances: Tolerances) -> "Mounted":
         """Return it of the tolerances of a case."""
         allowed = Allowances.of(pair.geometry, tolerances)
         offset = tolerances.axial_offset * _MILLIMETRES
-        return cls(pair, wheel, Place(allowed.centre_distance, offset, tolerances.shaft_angle))
+        return cls(pair, wheel, Offset(allowed.centre_distance, offset, tolerances.shaft_angle))
 
-    def meshes(self, place: Place) -> dict[int, Transmission]:
+    def meshes(self, offset: Offset) -> dict[int, Transmission]:
         """Return the transmission on both flanks with the worm at a place.
 
         Raises
@@ -162,27 +162,27 @@ class Mounted:
         ConvergenceError
             The worm does not reach the wheel all over the pitch.
         """
-        return self._at(place, transmission)
+        return self._at(offset, transmission)
 
-    def _at(self, place: Place, found: Callable[[Pair, WheelFlank], _Found]) -> dict[int, _Found]:
+    def _at(self, offset: Offset, found: Callable[[Pair, WheelFlank], _Found]) -> dict[int, _Found]:
         """Return what is found on both flanks with the worm at a place; raises as `meshes`."""
-        pair = place.of(self.pair)
+        pair = offset.of(self.pair)
         try:
             return both(lambda side: found(pair, self.wheel.flank(side)))
         except ConvergenceError as error:
             raise ConvergenceError(
-                f"at {place.name} of the tolerances {error}", reached=error.reached
+                f"at {offset.name} of the tolerances {error}", reached=error.reached
             ) from None
 
-    def play(self, place: Place) -> float:
+    def play(self, offset: Offset) -> float:
         """Return the backlash on the mean circle with the worm at a place, um."""
-        if place not in self.known:
-            found = self._at(place, lambda pair, flank: touching(pair, flank, _SAMPLES))
+        if offset not in self.known:
+            found = self._at(offset, lambda pair, flank: touching(pair, flank, _SAMPLES))
             turn = worm_turn(found) / self.pair.ratio
-            self.known[place] = 0.5 * _MICROMETRES * self.pair.geometry.wheel_mean_diameter * turn
-        return self.known[place]
+            self.known[offset] = 0.5 * _MICROMETRES * self.pair.geometry.wheel_mean_diameter * turn
+        return self.known[offset]
 
-    def places(self, steps: tuple[int, ...], *more: Place) -> Iterator[Place]:
+    def places(self, steps: tuple[int, ...], *more: Offset) -> Iterator[Offset]:
         """Yield the places so many deviations off, along all that may be off.
 
         And as far off as places that are given besides, along what they lie within.
@@ -192,19 +192,19 @@ class Mounted:
             ends = [step * value for step in steps] if value else [0.0]
             own.append([*ends, *(at[axis] for at in more if abs(at[axis]) < value)])
         for off in itertools.product(*(dict.fromkeys(steps) for steps in own)):
-            yield Place(*off)
+            yield Offset(*off)
 
     @property
-    def home(self) -> Place:
+    def home(self) -> Offset:
         """Where the worm stands as its hob stood, along the wheel's axis and in its angle."""
         cut, stands, mirror = self.pair.cutting, self.pair.mounting, self.pair.mirror
-        return Place(
+        return Offset(
             0.0,
             mirror * (cut.axial_offset - stands.axial_offset),
             mirror * (cut.tilt - stands.tilt),
         )
 
-    def plays(self, apart: float = 0.0) -> dict[Place, float]:
+    def plays(self, apart: float = 0.0) -> dict[Offset, float]:
         """Return the backlash, um, where it may be least and greatest, with axes so far apart, mm.
 
         The places are those of the tolerances, before their axes move apart.
@@ -214,10 +214,10 @@ class Mounted:
         found[top] = self._apart(top, apart)
         return found
 
-    def _apart(self, place: Place, apart: float) -> float:
-        return self.play(place.further(apart))
+    def _apart(self, offset: Offset, apart: float) -> float:
+        return self.play(offset.further(apart))
 
-    def _climbed(self, start: Place, axes: tuple[int, ...], apart: float = 0.0) -> Place:
+    def _climbed(self, start: Offset, axes: tuple[int, ...], apart: float = 0.0) -> Offset:
         """Return where the play is greatest, climbing along axes by turns."""
         top = start
         for _ in range(_TURNS):
@@ -228,14 +228,14 @@ class Mounted:
                 break
         return top
 
-    def _top(self, start: Place, axis: int, apart: float) -> Place:
+    def _top(self, start: Offset, axis: int, apart: float) -> Offset:
         """Return where the play is greatest along one axis, of which the start is a place."""
         off = self.deviations[axis]
         if not off:
             return start
 
-        def at(value: float) -> Place:
-            return Place(*(value if k == axis else own for k, own in enumerate(start)))
+        def at(value: float) -> Offset:
+            return Offset(*(value if k == axis else own for k, own in enumerate(start)))
 
         least = self._apart(start, apart) + _GAIN
         for sign in (-1.0, 1.0):
@@ -262,8 +262,8 @@ class Mounted:
             return ()
         return tuple(self._corner(place) for place in self.places((-1, 1)))
 
-    def _corner(self, place: Place) -> Corner:
-        meshes = self.meshes(place)
+    def _corner(self, offset: Offset) -> Corner:
+        meshes = self.meshes(offset)
         patterns = both(
             lambda side: pattern(meshes[side], self.wheel.flank(side).grid(ROWS, COLUMNS))
         )
@@ -272,7 +272,7 @@ class Mounted:
             face, radial = found.centre
             error = meshes[side].peak_to_peak
             sides[side] = Side(found.area_fraction, self.pair.mirror * face, radial, error)
-        return Corner(place, sides, patterns[1].gap)
+        return Corner(offset, sides, patterns[1].gap)
 
     def backlash(
         self, gearset: Gearset, tolerances: Tolerances, nominal: float, wear: float | None = None
@@ -295,7 +295,7 @@ class Mounted:
         if abs(middle) < _MICROMETRES * RESOLVED:
             # An identical hob leaves none.
             middle = 0.0
-        self.known[Place()] = middle
+        self.known[Offset()] = middle
         found = self.plays()
         alone = [self._alone(n, found) for n, value in enumerate(self.deviations) if value]
         # What a thread is thinner by turns the worm by itself over the lead, and the wheel with it.
@@ -321,16 +321,16 @@ class Mounted:
         if tolerances.temperatures is not None:
             apart = Warmth.of(gearset, tolerances.temperatures, tolerances.housing).apart
             shifted = self.plays(apart)
-            warmth = shifted[Place()] - middle
+            warmth = shifted[Offset()] - middle
             warm = between(shifted.values(), warmth), warmth
         return assembled(
             gearset, tolerances, allowed, parts, between(found.values(), 0.0), wear,
             by=EXACT, exact=True, warm=warm,
         )  # fmt: skip
 
-    def _alone(self, axis: int, plays: dict[Place, float]) -> Part:
+    def _alone(self, axis: int, plays: dict[Offset, float]) -> Part:
         """Return what one deviation brings, nothing else off; what is found may be more."""
-        middle = plays[Place()]
+        middle = plays[Offset()]
         own = {
             place: value
             for place, value in plays.items()
@@ -361,7 +361,7 @@ def corner_table(corners: tuple[Corner, ...], nominal: Corner, resolution: float
                 text_of(value, below, f"{within}.{key}" if within else "")
                 for value, below, key in numbers
             )
-            rows.append((corner.place.name, f"{side:+d}", *texts))
+            rows.append((corner.offset.name, f"{side:+d}", *texts))
     heads = (
         "mounted", "flank", "share that bears", "centre: face (mm)", "radial (mm)",
         "transmission error (rad)",

@@ -31,7 +31,7 @@ _KEPT = 32
 
 
 @dataclasses.dataclass(frozen=True)
-class Made:
+class Manufacture:
     """How worm and wheel of a gearset are made and mounted; equal to another by what is asked.
 
     Attributes
@@ -46,7 +46,7 @@ class Made:
     disc: Disc | None = None
 
     @classmethod
-    def of(cls, case: Case) -> "Made":
+    def of(cls, case: Case) -> "Manufacture":
         """Return it of a case."""
         return cls(case.get(Hob), case.get(Mount), case.get(Modification), case.get(Disc))
 
@@ -61,7 +61,7 @@ class Made:
 
 
 @dataclasses.dataclass(frozen=True)
-class _Asked:
+class _MountingKey:
     key: tuple[object, ...]
     pair: Pair = dataclasses.field(compare=False)
     given: Tolerances = dataclasses.field(compare=False)
@@ -69,23 +69,23 @@ class _Asked:
 
 
 @functools.lru_cache(maxsize=_KEPT)
-def _mounted(asked: _Asked) -> tuple[Mounted, float]:
+def _mounted(mounting: _MountingKey) -> tuple[Mounted, float]:
     """Return how a pair may be mounted, and the worm's turn with nothing off, rad."""
-    pair = asked.pair
+    pair = mounting.pair
     wheel = Wheel.cut(pair)
-    if asked.fits:
-        return Mounted.of(pair, wheel, asked.given), 0.0
+    if mounting.fits:
+        return Mounted.of(pair, wheel, mounting.given), 0.0
     if pair.backlash is None:
         turn = worm_turn(both(lambda side: touching(pair, wheel.flank(side))))
-        return Mounted.of(pair, wheel, asked.given), turn
+        return Mounted.of(pair, wheel, mounting.given), turn
     meshes = both(lambda side: transmission(pair, wheel.flank(side)))
     meshes = set_backlash(meshes, pair.backlash)
     thinned = meshes[1].search.pair
-    return Mounted.of(thinned, Wheel(thinned), asked.given), worm_turn(meshes)
+    return Mounted.of(thinned, Wheel(thinned), mounting.given), worm_turn(meshes)
 
 
 def exact_backlash(
-    gearset: Gearset, made: Made, tolerances: Tolerances, wear: float | None = None
+    gearset: Gearset, manufacture: Manufacture, tolerances: Tolerances, wear: float | None = None
 ) -> Backlash:
     """Return the backlash by the exact flanks that tolerances leave of a gearset.
 
@@ -93,7 +93,7 @@ def exact_backlash(
     ----------
     gearset : Gearset
         Whose it is.
-    made : Made
+    manufacture : Manufacture
         How its flanks are made and mounted.
     tolerances : Tolerances
         What is allowed.
@@ -112,10 +112,12 @@ def exact_backlash(
     ConvergenceError
         Somewhere within the tolerances the worm does not reach the wheel.
     """
-    tables: tuple[Table | None, ...] = (*vars(made).values(), tolerances)
+    tables: tuple[Table | None, ...] = (*vars(manufacture).values(), tolerances)
     texts = tuple(None if table is None else table.model_dump_json() for table in tables)
     key = gearset.geometry, gearset.flank, gearset.hand, texts
-    mounted, turn = _mounted(_Asked(key, made.pair(gearset), tolerances, made.fits))
+    mounted, turn = _mounted(
+        _MountingKey(key, manufacture.pair(gearset), tolerances, manufacture.fits)
+    )
     return mounted.backlash(gearset, tolerances, turn, wear)
 
 
@@ -130,7 +132,7 @@ def beside_rating(case: Case) -> Callable[[Rated, Run], Rated]:
     InputError
         A thickness is given twice.
     """
-    gearset, given, made = case.require(Gearset), case.require(Tolerances), Made.of(case)
+    gearset, given, made = case.require(Gearset), case.require(Tolerances), Manufacture.of(case)
     with naming_source(case):
         require_once(given, made.mount, case.get(MeasuringOptions))
 

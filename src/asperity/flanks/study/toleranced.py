@@ -4,7 +4,7 @@ import dataclasses
 from typing import TYPE_CHECKING, Any
 
 from asperity.errors import InputError
-from asperity.flanks.measuring.corners import Corner, Mounted, Place, Side, corner_table
+from asperity.flanks.measuring.corners import Corner, Mounted, Offset, Side, corner_table
 from asperity.flanks.meshing.analysis import Analysis
 from asperity.flanks.parameters import MeasuringOptions, Mount
 from asperity.flanks.wheel.enveloped import Wheel
@@ -68,7 +68,7 @@ class Toleranced:
         }
         return cls(
             backlash,
-            Corner(Place(), sides, analysis.flanks[1].pattern.gap),
+            Corner(Offset(), sides, analysis.flanks[1].pattern.gap),
             mounted.corners(),
             () if tolerances.grade is None else graded(analysis.pair.geometry, tolerances.grade),
             analysis.flanks[1].transmission.resolution("peak_to_peak"),
@@ -111,7 +111,7 @@ class Toleranced:
 
         rows = dataset["gap"].dims[1:]
         gaps = np.stack([corner.gap for corner in self.corners])
-        names = [corner.place.name for corner in self.corners]
+        names = [corner.offset.name for corner in self.corners]
         said = {"units": "mm", "long_name": "smallest gap of the flank s = +1 at a corner"}
         corner = xr.Variable(
             "corner", np.array(names, dtype=object),

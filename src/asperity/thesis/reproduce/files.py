@@ -23,7 +23,7 @@ _LEDGER = "claims.json"
 
 
 @dataclasses.dataclass(frozen=True)
-class Made:
+class MadeExhibit:
     """What making an exhibit gave."""
 
     name: str  # kind and number
@@ -63,7 +63,7 @@ def key_of(exhibit: Exhibit, *, full: bool = False) -> str:
     return key(code_key(exhibit.module), name, repr(listed(exhibit.name)), *cases)
 
 
-def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> Made:
+def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> MadeExhibit:
     """Make an exhibit and write its files; they are found again under the key."""
     began = time.perf_counter()
     words = exhibit.maker.words
@@ -71,7 +71,7 @@ def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> Mad
     files = {path.name: _sha256(path) for path in paths}
     # As it will be read again.
     plain = json.loads(_text({**words, **found}))
-    return Made(exhibit.name, key, plain, files, time.perf_counter() - began)
+    return MadeExhibit(exhibit.name, key, plain, files, time.perf_counter() - began)
 
 
 class Collection:
@@ -81,11 +81,11 @@ class Collection:
         self.folder = folder
         self._made = {made.name: made for made in _read(folder)}
 
-    def add(self, made: Made) -> None:
+    def add(self, exhibit: MadeExhibit) -> None:
         """Take note of what was made, on disk too."""
-        self._made[made.name] = made
-        kept = [vars(made) for made in self._made.values()]
-        if made.name.startswith(CLAIM):
+        self._made[exhibit.name] = exhibit
+        kept = [vars(exhibit) for exhibit in self._made.values()]
+        if exhibit.name.startswith(CLAIM):
             claims = [one["plain"] for one in kept if one["name"].startswith(CLAIM)]
             write_text(self.folder / _LEDGER, _text({"claims": claims}))
         write_text(self.folder / _MADE, _text(kept))
@@ -100,7 +100,7 @@ class Collection:
             return None
         return self.show(exhibit, made, reused=True)
 
-    def show(self, exhibit: Exhibit, made: Made, *, reused: bool) -> Shown | None:
+    def show(self, exhibit: Exhibit, made: MadeExhibit, *, reused: bool) -> Shown | None:
         """Return an exhibit as it stands on disk, None if its files are not what was written."""
         paths = {Path(name).suffix: self.folder / name for name in made.files}
         try:
@@ -111,9 +111,9 @@ class Collection:
         return Shown(exhibit, made.plain, paths, reused)
 
 
-def _read(folder: Path) -> list[Made]:
+def _read(folder: Path) -> list[MadeExhibit]:
     try:
-        return [Made(**plain) for plain in json.loads((folder / _MADE).read_text("utf-8"))]
+        return [MadeExhibit(**plain) for plain in json.loads((folder / _MADE).read_text("utf-8"))]
     except (OSError, ValueError, TypeError):
         return []
 

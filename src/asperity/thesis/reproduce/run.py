@@ -17,7 +17,7 @@ from asperity.runs import Interrupted
 from asperity.runs.workers import Task, cores, done
 from asperity.thesis import contents
 from asperity.thesis.exhibits import CLAIM, FIGURE, TABLE, Exhibit
-from asperity.thesis.reproduce.files import Collection, Made, Shown, key_of, make
+from asperity.thesis.reproduce.files import Collection, MadeExhibit, Shown, key_of, make
 from asperity.thesis.reproduce.page import render
 
 Say = Callable[[str], None]
@@ -205,7 +205,7 @@ class _Reproduction:
         after = tuple(part.task.name for part in exhibit.parts(self._full))
         return Task(exhibit.name, do, exhibit.room, exhibit.seconds, after)
 
-    def _take(self, name: str, made_by: Callable[[], Made]) -> None:
+    def _take(self, name: str, made_by: Callable[[], MadeExhibit]) -> None:
         exhibit = self.missing.pop(name)
         self._is_behind = True
         try:

@@ -74,7 +74,7 @@ class Measurements:
 
 @dataclasses.dataclass(frozen=True)
 class _Column:
-    place: int
+    index: int
     deviation: bool  # of the key, rather than the key itself
     key: str
     unit: str
@@ -107,7 +107,7 @@ def read_measurements(path: Path, case: Case) -> Measurements:
         With the row or the column: an unknown key, a cell that is no number, sd not above zero.
     """
     name, lines = read_rows(path, "measurements")
-    columns = [_column(place, cell, case, name) for place, cell in enumerate(lines[0][1])]
+    columns = [_column(index, cell, case, name) for index, cell in enumerate(lines[0][1])]
     seen = [(one.key, one.deviation) for one in columns]
     if again := next((one for one in seen if seen.count(one) > 1), None):
         raise InputError(f"{name}: the column {again[0]} is there twice; keep one of them")
@@ -189,7 +189,7 @@ def _as(measured: _Column, deviation: _Column) -> _Column:
 def _row(
     columns: list[_Column], cells: list[str], name: str, number: int
 ) -> dict[tuple[str, bool], Value]:
-    row = {(one.key, one.deviation): one.read(cells[one.place], name, number) for one in columns}
+    row = {(one.key, one.deviation): one.read(cells[one.index], name, number) for one in columns}
     for (key, deviation), value in row.items():
         if key == DEVIATION and not (isinstance(value, float) and value > 0.0):
             raise InputError(f"{name}: row {number}: sd is {value:g}; it must be above zero")
@@ -205,7 +205,7 @@ def _row(
     return row
 
 
-def _column(place: int, text: str, case: Case, name: str) -> _Column:
+def _column(index: int, text: str, case: Case, name: str) -> _Column:
     head = _HEAD.fullmatch(text)
     if head is None or ("." not in head[2] and head[2] not in (RATIO, FORCE, DEVIATION)):
         what = "ratio', 'force [N]', 'sd' or a key of the case such as 'vibration.frequency [Hz]"
@@ -218,7 +218,7 @@ def _column(place: int, text: str, case: Case, name: str) -> _Column:
         wanted = "N" if key == FORCE else ""
         if unit and key == RATIO:
             raise InputError(f"{name}: the column ratio has a unit, {unit!r}; leave it out")
-        return _Column(place, False, key, unit or wanted, Quantity(wanted, "a number", "1 N"))
+        return _Column(index, False, key, unit or wanted, Quantity(wanted, "a number", "1 N"))
     table, _, own = key.partition(".")
     with naming_source(case):
         if table not in case.known:
@@ -234,7 +234,7 @@ def _column(place: int, text: str, case: Case, name: str) -> _Column:
         )
     if quantity is None and (unit or deviation):
         raise InputError(f"{name}: {key} is a word; its column has neither unit nor sd")
-    return _Column(place, deviation, key, unit, quantity)
+    return _Column(index, deviation, key, unit, quantity)
 
 
 def numeric(measurements: Measurements) -> list[str]:

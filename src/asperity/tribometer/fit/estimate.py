@@ -130,17 +130,17 @@ class Fit:
     def slopes(self, point: FloatArray, here: FloatArray) -> FloatArray:
         """Return the residuals' slopes, by differences away from a bound."""
         columns = []
-        for place in range(point.size):
-            step = _DIFFERENCE if point[place] + _DIFFERENCE <= self._upper[place] else -_DIFFERENCE
+        for index in range(point.size):
+            step = _DIFFERENCE if point[index] + _DIFFERENCE <= self._upper[index] else -_DIFFERENCE
             try:
-                columns.append(self._slope(point, here, place, step))
+                columns.append(self._slope(point, here, index, step))
             except ConvergenceError:
-                columns.append(self._slope(point, here, place, -step))
+                columns.append(self._slope(point, here, index, -step))
         return np.column_stack(columns)
 
-    def _slope(self, point: FloatArray, here: FloatArray, place: int, step: float) -> FloatArray:
+    def _slope(self, point: FloatArray, here: FloatArray, index: int, step: float) -> FloatArray:
         moved = point.copy()
-        moved[place] += step
+        moved[index] += step
         found: FloatArray = (self.residuals(moved) - here) / step
         return found
 
@@ -220,16 +220,16 @@ class Fit:
                 break
         return point, here, damping
 
-    def along(self, best: Estimate, place: int, value: float, near: Estimate) -> Estimate:
+    def along(self, best: Estimate, index: int, value: float, near: Estimate) -> Estimate:
         """Fit all parameters but one, which has a value, from a point nearby.
 
         The slopes of the nearby point go on being used, kept true by what each step finds.
         """
         covariance = best.covariance
-        move = covariance[place] / covariance[place, place] * (value - near.point[place])
+        move = covariance[index] / covariance[index, index] * (value - near.point[index])
         # What the data say nothing of may go anywhere; not at once.
         point = np.clip(near.point + np.clip(move, -1.0, 1.0), self._lower, self._upper)
-        point[place] = value
+        point[index] = value
         slopes, last, seen = near.slopes.copy(), near.point, near.residuals
         here = self.residuals(point)
         damping = 1e-6
@@ -238,30 +238,30 @@ class Fit:
             if size := float(move @ move):
                 slopes += np.outer(here - seen - slopes @ move, move) / size
             last, seen = point, here
-            point, here, damping = self._step(point, here, slopes, damping, place)
+            point, here, damping = self._step(point, here, slopes, damping, index)
             if float(seen @ seen - here @ here) < 0.01 * max(1.0, 0.1 * best.chi2):
                 break
         return self._seen(Estimate(point, here, slopes))
 
-    def settled(self, best: Estimate, place: int, near: Estimate) -> Estimate:
+    def settled(self, best: Estimate, index: int, near: Estimate) -> Estimate:
         """Fit all parameters but one, which stays, by slopes of their own, until nothing falls."""
-        found = self._settled(best, place, near.point)
+        found = self._settled(best, index, near.point)
         for _ in range(_INNER):
             lost = _lost(found, self._start)
-            lost[place] = False
+            lost[index] = False
             if not lost.any():
                 break
-            again = self._settled(best, place, np.where(lost, self._start, found.point))
+            again = self._settled(best, index, np.where(lost, self._start, found.point))
             if again.chi2 >= found.chi2 - _STILL:
                 break
             found = again
         return self._seen(found)
 
-    def _settled(self, best: Estimate, place: int, start: FloatArray) -> Estimate:
+    def _settled(self, best: Estimate, index: int, start: FloatArray) -> Estimate:
         point, here, damping = start, self.residuals(start), 1e-6
         for _ in range(_REFITS):
             slopes = self.slopes(point, here)
-            moved, found, damping = self._step(point, here, slopes, damping, place)
+            moved, found, damping = self._step(point, here, slopes, damping, index)
             fall = float(here @ here - found @ found)
             point, here = moved, found
             if fall < _FALL * max(1.0, 0.1 * best.chi2):
@@ -273,15 +273,15 @@ class Fit:
             self.lowest = estimate
         return estimate
 
-    def end(self, best: Estimate, place: int, side: int) -> float | None:
+    def end(self, best: Estimate, index: int, side: int) -> float | None:
         """Return an end of a parameter's interval, None where it is open; side is 1 or -1."""
-        bound = (self._upper if side > 0 else self._lower)[place]
-        furthest = best.point[place] + side * WIDEST
-        last = abs((min(bound, furthest) if side > 0 else max(bound, furthest)) - best.point[place])
-        if float(np.abs(best.slopes[:, place]).max()) <= _NO_SLOPE:
+        bound = (self._upper if side > 0 else self._lower)[index]
+        furthest = best.point[index] + side * WIDEST
+        last = abs((min(bound, furthest) if side > 0 else max(bound, furthest)) - best.point[index])
+        if float(np.abs(best.slopes[:, index]).max()) <= _NO_SLOPE:
             return None
         wanted = math.sqrt(self.rise)
-        step = min(wanted * math.sqrt(best.covariance[place, place]), 1.0)
+        step = min(wanted * math.sqrt(best.covariance[index, index]), 1.0)
         inside, outside = (0.0, 0.0), None
         wall = ""
         near = best
@@ -289,13 +289,13 @@ class Fit:
             step = min(step, last)
             if step <= 0.0:
                 return None
-            value = best.point[place] + side * step
+            value = best.point[index] + side * step
             try:
-                found = self.along(best, place, value, near)
+                found = self.along(best, index, value, near)
                 root = _root(found, best)
                 if root > (1.0 - _NEAR) * wanted or step >= last:
                     # What was carried along may not be the least there: look again by slopes.
-                    found = self.settled(best, place, found)
+                    found = self.settled(best, index, found)
                     root = _root(found, best)
             except ConvergenceError as error:
                 # No end can be told beyond where the model answers.
@@ -305,7 +305,7 @@ class Fit:
                 step = 0.5 * (inside[0] + step)
                 continue
             if abs(root - wanted) < _NEAR * wanted:
-                left = _left(found, place, root, wanted)
+                left = _left(found, index, root, wanted)
                 if abs(left) < _SMALL * step:
                     return float(value + left)
             if root < wanted:
@@ -318,9 +318,9 @@ class Fit:
                 break
             step = _between(inside, outside, wanted, turn)
         if outside is not None and outside[0] - inside[0] < _NARROW * outside[0]:
-            return float(best.point[place] + side * _between(inside, outside, wanted))
-        reached = best.point[place] + side * inside[0]
-        self.walls[place, side] = float(reached), wall or "no end is found of the profile"
+            return float(best.point[index] + side * _between(inside, outside, wanted))
+        reached = best.point[index] + side * inside[0]
+        self.walls[index, side] = float(reached), wall or "no end is found of the profile"
         return None
 
 
@@ -354,10 +354,10 @@ def _root(estimate: Estimate, best: Estimate) -> float:
     return math.sqrt(max(estimate.chi2 - best.chi2, 0.0))
 
 
-def _left(estimate: Estimate, place: int, root: float, wanted: float) -> float:
+def _left(estimate: Estimate, index: int, root: float, wanted: float) -> float:
     """Return what is left to an end that is near, by the slope of a least chi-square."""
     # The others are at their best, so that chi-square changes by this one's own slope alone.
-    slope = 2.0 * float(estimate.slopes[:, place] @ estimate.residuals)
+    slope = 2.0 * float(estimate.slopes[:, index] @ estimate.residuals)
     return (wanted * wanted - root * root) / slope if slope else math.inf
 
 

@@ -49,11 +49,11 @@ class Predictor:
     rigid: int = 0
 
     def __call__(
-        self, conditions: Sequence[Mapping[str, Value]], given: Mapping[str, Value]
+        self, conditions: Sequence[Mapping[str, Value]], parameters: Mapping[str, Value]
     ) -> tuple[FloatArray, dict[int, str]]:
         """Return what is predicted of each row, not a number where there is no answer, and why."""
         self.between()
-        cases = [self.case.replace_values({**one, **given}) for one in conditions]
+        cases = [self.case.replace_values({**one, **parameters}) for one in conditions]
         self.solves += len(cases)
         limits: list[Limit | None] = [None] * len(cases)
         if self.by == SLIDE:

@@ -29,7 +29,7 @@ class Outlier(NamedTuple):
         That, over its own deviation: of the row and of the parameters.
     """
 
-    place: int
+    measurement: int
     by_others: float
     residual: float
 
@@ -112,10 +112,10 @@ def _without(
     scale = 1.0 if weighed else max(math.sqrt(rest.chi2 / freedom), _LEAST)
     size = left[far] / (scale * np.sqrt(1.0 + known))
     found = tuple(
-        Outlier(int(place), float(by), float(one))
-        for place, by, one in zip(np.flatnonzero(far), left[far], size, strict=True)
+        Outlier(int(index), float(by), float(one))
+        for index, by, one in zip(np.flatnonzero(far), left[far], size, strict=True)
     )
-    true = [one.place for one in found if abs(one.residual) >= limit]
+    true = [one.measurement for one in found if abs(one.residual) >= limit]
     if len(true) == len(found):
         return Spoilt(found, rest.chi2, freedom, rest.point)
     if not true:

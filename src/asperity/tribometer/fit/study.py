@@ -128,8 +128,8 @@ class _Data:
         self.answered: BoolArray = np.isfinite(values)
         self.left_out = tuple(why.items())
         self.failed = tuple(
-            {"row": problem.data.rows[place], "law": law, "why": reason}
-            for place, reason in why.items()
+            {"row": problem.data.rows[index], "law": law, "why": reason}
+            for index, reason in why.items()
         )
         if self.answered.sum() < len(problem.free):
             raise ConvergenceError(
@@ -249,10 +249,10 @@ def answer(problem: FitProblem, run: Run) -> FitResult:
         for _ in range(_DEEPER):
             ends = []
             done = len(problem.laws)
-            for place in range(len(problem.free)):
+            for index in range(len(problem.free)):
                 both = []
                 for side in (-1, 1):
-                    both.append(fitted[law].fit.end(fitted[law].best, place, side))
+                    both.append(fitted[law].fit.end(fitted[law].best, index, side))
                     done += 1
                 ends.append((both[0], both[1]))
             if not _deeper(fitted, law):
@@ -362,8 +362,8 @@ def _result(
         )  # fmt: skip
     return FitResult(
         parameters=tuple(
-            parameter_of(problem, best, correlation, ends, chosen.fit.walls, place)
-            for place in range(len(ends))
+            parameter_of(problem, best, correlation, ends, chosen.fit.walls, index)
+            for index in range(len(ends))
         ),
         correlation=correlation,
         laws=tuple(
@@ -375,7 +375,8 @@ def _result(
         law=law, points=len(values), chi2=best.chi2, dof=_freedom(chosen), solves=predict.solves,
         evaluations=evaluations, marched=predict.marched, measured=values, deviation=deviations,
         predicted=values - best.residuals * deviations, residuals=best.residuals,
-        outliers=tuple(told_of(problem, answered[one.place], one, deviations) for one in outliers),
+        outliers=tuple(told_of(problem, answered[far.measurement], far, deviations)
+                       for far in outliers),
         deviation_known=problem.data.weighed,
         notes=tuple(notes(problem, predict, best, answered, data.left_out, ruined, deviations)),
     )  # fmt: skip

@@ -24,23 +24,23 @@ Walls = dict[tuple[int, int], tuple[float, str]]
 
 def parameter_of(
     problem: FitProblem, best: Estimate, correlation: FloatArray, ends: Ends, walls: Walls,
-    place: int,
+    index: int,
 ) -> Parameter:  # fmt: skip
     """Return a parameter with its interval, and what the data do not tell of it."""
-    one = problem.free[place]
-    found = interval.Interval(float(best.point[place]), *ends[place]).mapped(math.exp)
-    others = np.abs(correlation[place])
-    others[place] = 0.0
-    partner = int(np.argmax(others)) if len(others) > 1 else place
-    with_it = float(correlation[place, partner]) if partner != place else 0.0
+    one = problem.free[index]
+    found = interval.Interval(float(best.point[index]), *ends[index]).mapped(math.exp)
+    others = np.abs(correlation[index])
+    others[index] = 0.0
+    partner = int(np.argmax(others)) if len(others) > 1 else index
+    with_it = float(correlation[index, partner]) if partner != index else 0.0
     why = ""
-    if float(np.abs(best.slopes[:, place]).max()) <= 1e-9:
+    if float(np.abs(best.slopes[:, index]).max()) <= 1e-9:
         why = "the data do not depend on it at all"
         if one.key == "friction.mu" and not problem.data.forces:
             why += ": a ratio of a rigid drive has no mu in it, forces have"
     elif abs(with_it) > _AS_ONE:
         why = f"only together with {problem.free[partner].key}: the data see one number of both"
-    elif stopped := [walls[place, side] for side in (-1, 1) if (place, side) in walls]:
+    elif stopped := [walls[index, side] for side in (-1, 1) if (index, side) in walls]:
         (reached, reason), *_ = stopped
         why = f"the model answers no further than {one.told(math.exp(reached))}: {reason}"
     elif found.ends == (None, None):
@@ -57,11 +57,11 @@ def parameter_of(
     )  # fmt: skip
 
 
-def row_of(problem: FitProblem, place: int) -> str:
+def row_of(problem: FitProblem, index: int) -> str:
     """Return what a measurement is called."""
-    count = place + 1
+    count = index + 1
     end = {1: "st", 2: "nd", 3: "rd"}.get(count % 10 if count % 100 not in (11, 12, 13) else 0)
-    return f"the {count}{end or 'th'} measurement (row {problem.data.rows[place]})"
+    return f"the {count}{end or 'th'} measurement (row {problem.data.rows[index]})"
 
 
 def notes(
@@ -80,7 +80,7 @@ def notes(
         Where the fit ended.
     answered : sequence of int
         Places of the measurements that are fitted.
-    left_out : sequence of (place, why)
+    left_out : sequence of (index, why)
         Those that are not.
     ruined : Spoilt, optional
         Those that spoil it.
@@ -91,11 +91,11 @@ def notes(
     found = []
     what, unit = ("force", " N") if data.forces else ("ratio", "")
     for one in ruined.outliers if ruined is not None else ():
-        place = answered[one.place]
-        value = data.values[place]
-        by = value - one.by_others * deviations[one.place]
+        index = answered[one.measurement]
+        value = data.values[index]
+        by = value - one.by_others * deviations[one.measurement]
         found.append(
-            f"{row_of(problem, place)} spoils the fit: by the others its {what} is {by:.4g}{unit}, "
+            f"{row_of(problem, index)} spoils the fit: by the others its {what} is {by:.4g}{unit}, "
             f"measured {value:.4g}{unit}, {one.residual:+.3g} deviations off; look at it, or leave "
             "it out"
         )
@@ -111,8 +111,8 @@ def notes(
         )
     found += _beyond(problem, answered, deviations)
     found += _improbable(problem, best, ruined)
-    for place, why in left_out[:_MANY]:
-        found.append(f"{row_of(problem, place)} has no answer and is left out: {why}")
+    for index, why in left_out[:_MANY]:
+        found.append(f"{row_of(problem, index)} has no answer and is left out: {why}")
     if len(left_out) > _MANY:
         found.append(f"{len(left_out)} measurements have no answer and are left out")
     if predict.marched:
@@ -128,15 +128,15 @@ def notes(
 
 
 def told_of(
-    problem: FitProblem, place: int, outlier: Outlier, deviations: FloatArray
+    problem: FitProblem, index: int, outlier: Outlier, deviations: FloatArray
 ) -> dict[str, float | int]:
     """Return a row that spoils a fit, as JSON has it."""
-    value = float(problem.data.values[place])
+    value = float(problem.data.values[index])
     return {
-        "row": problem.data.rows[place],
-        "measurement": place + 1,
+        "row": problem.data.rows[index],
+        "measurement": index + 1,
         "measured": value,
-        "by_the_others": value - outlier.by_others * float(deviations[outlier.place]),
+        "by_the_others": value - outlier.by_others * float(deviations[outlier.measurement]),
         "standardised_residual": outlier.residual,
     }
 
@@ -201,12 +201,12 @@ def _beyond(problem: FitProblem, answered: Sequence[int], deviations: FloatArray
     if any(key.startswith("normal.") for key in keys):
         return []
     above = [
-        place for n, place in enumerate(answered)
-        if data.values[place] - 1.0 > _ABOVE * deviations[n]
+        index for n, index in enumerate(answered)
+        if data.values[index] - 1.0 > _ABOVE * deviations[n]
     ]  # fmt: skip
     if not above:
         return []
-    names = ", ".join(str(data.rows[place]) for place in above[:_MANY])
+    names = ", ".join(str(data.rows[index]) for index in above[:_MANY])
     more = f" and {len(above) - _MANY} more" if len(above) > _MANY else ""
     one, lie = ("ratios of rows", "lie") if len(above) > 1 else ("ratio of row", "lies")
     return [

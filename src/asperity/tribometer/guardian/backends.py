@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from asperity.casefile import Case
 from asperity.errors import AsperityError
-from asperity.tribometer.guardian import asked
+from asperity.tribometer.guardian import remote
 from asperity.tribometer.guardian.casing import packed
 from asperity.tribometer.guardian.devices import DRIVE, EAR, OUTPUTS, owned_by
 from asperity.tribometer.guardian.guard import Guard
@@ -49,7 +49,7 @@ BACKENDS = "sim", REPLAY, "hardware", "manual"
 person for the rest."""
 
 
-class _Vibration(asked.AskedVibration):
+class _Vibration(remote.RemoteVibration):
     """A drive that the guardian owns; what keeps it alive is the heartbeat."""
 
     def __init__(self, guard: Guard) -> None:
@@ -182,7 +182,7 @@ def open_bench(case: Case, backend: str, folder: Path | None = None) -> GuardedB
         _Vibration(guard) if "vibration" in owned else _ByHand(person, guard)
     )
     outputs: dict[str, Supply] = {
-        key: asked.AskedSupply(guard, key, name) if key in owned else ManualSupply(person, name)
+        key: remote.RemoteSupply(guard, key, name) if key in owned else ManualSupply(person, name)
         for key, name in OUTPUTS.items()
     }
     amplifier = outputs.pop("amplifier")
@@ -213,21 +213,21 @@ def _simulated(case: Case, inputs: tuple[Input, ...], folder: Path | None) -> Gu
     except BaseException:
         line.close()
         raise
-    clock = asked.AskedClock(line)
+    clock = remote.RemoteClock(line)
     name = "simulated oscilloscope"
-    scope = asked.AskedScope(line, "scope", name, inputs)
+    scope = remote.RemoteScope(line, "scope", name, inputs)
     due = case.get(Table, Table()).due(simulated=True)
-    outputs = {key: asked.AskedSupply(guard, key, name) for key, name in OUTPUTS.items()}
+    outputs = {key: remote.RemoteSupply(guard, key, name) for key, name in OUTPUTS.items()}
     return GuardedBench(
         scope=ScopeInTime(name, inputs, lambda: scope, due, beat=guard.here),
         vibration=_Vibration(guard),
         motors={key: outputs[key] for key in ("steel", "bronze")},
-        tachometer=asked.AskedTachometer(line, "tachometer", "simulated tachometer"),
-        person=asked.AskedPerson(line),
+        tachometer=remote.RemoteTachometer(line, "tachometer", "simulated tachometer"),
+        person=remote.RemotePerson(line),
         clock=clock,
         amplifier=outputs["amplifier"],
-        listener=asked.AskedListener(line, LISTENER, EAR),
-        memory=asked.AskedMemory(line, clock),
+        listener=remote.RemoteListener(line, LISTENER, EAR),
+        memory=remote.RemoteMemory(line, clock),
         simulated=True,
         guard=guard,
         rig=line,

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from asperity.casefile import Case
-from asperity.tribometer.guardian.asked import AskedListener, AskedSupply, AskedVibration
 from asperity.tribometer.guardian.owned import LISTENER, Device
+from asperity.tribometer.guardian.remote import RemoteListener, RemoteSupply, RemoteVibration
 from asperity.tribometer.guardian.rig import Address, RigLine
 from asperity.tribometer.guardian.scopes import opened_scope
 from asperity.tribometer.instruments.acquisition import Acquisition, inputs_for
@@ -36,8 +36,8 @@ def owned_by(case: Case, backend: str) -> tuple[dict[str, str], tuple[str, ...]]
     if backend == "hardware" and Supplies.table in case:
         table = case.require(Supplies)
         owned |= {key: OUTPUTS[key] for key in OUTPUTS if getattr(table, key)}
-    asked = (name for key, name in every.items() if key not in owned and key != "amplifier")
-    return owned, tuple(asked)
+    remote = (name for key, name in every.items() if key not in owned and key != "amplifier")
+    return owned, tuple(remote)
 
 
 def deadline_of(case: Case, *, simulated: bool) -> float:
@@ -73,8 +73,8 @@ def devices_of(case: Case, backend: str, rig: Address | None) -> list[Device]:
 
 
 def _simulated(key: str, name: str, rig: Address) -> Device:
-    kinds: Mapping[str, Any] = {"vibration": AskedVibration, LISTENER: AskedListener}
-    made = kinds.get(key, AskedSupply)
+    kinds: Mapping[str, Any] = {"vibration": RemoteVibration, LISTENER: RemoteListener}
+    made = kinds.get(key, RemoteSupply)
 
     def opened() -> dict[str, Any]:
         one = made(RigLine(rig), key, name)

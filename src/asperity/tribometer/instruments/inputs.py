@@ -79,6 +79,6 @@ def lines_of(channels: Channels, inputs: tuple[Input, ...]) -> tuple[Line, ...]:
     return tuple(mapped[one.signal].line() for one in inputs)
 
 
-def volts_a_count(given: Input) -> float:
+def volts_a_count(channel: Input) -> float:
     """Return what a count of an input is worth, V."""
-    return given.range / FULL_SCALE
+    return channel.range / FULL_SCALE

@@ -94,19 +94,19 @@ def warnings(case: Case) -> list[str]:
     return found
 
 
-def _too_brief(plan: Plan, given: Reduction) -> list[str]:
+def _too_brief(plan: Plan, options: Reduction) -> list[str]:
     """Return what a plan's own reduction will refuse or doubt, for windows that are too short."""
     found = []
-    least, counted = given.settling + given.least_window, given.speed_settling + _OF_SPEED
+    least, counted = options.settling + options.least_window, options.speed_settling + _OF_SPEED
     if short := _shorter(plan, _EDGES + least):
         found.append(
-            f"{short}: when reduction.settling = {given.settling:g} s is left out, rig reduce "
-            f"refuses what is shorter than reduction.least_window = {given.least_window:g} s"
+            f"{short}: when reduction.settling = {options.settling:g} s is left out, rig reduce "
+            f"refuses what is shorter than reduction.least_window = {options.least_window:g} s"
         )
     elif short := _shorter(plan, _EDGES + counted):
         found.append(
-            f"{short}: speeds need reduction.speed_settling = {given.speed_settling:g} s, and rig "
-            "reduce takes them before that"
+            f"{short}: speeds need reduction.speed_settling = {options.speed_settling:g} s, and "
+            "rig reduce takes them before that"
         )
     return found
 

@@ -28,9 +28,9 @@ class Approach:
         self,
         bench: Bench,
         listener: Callable[[None, None], Logger],
-        told: Callable[[Mapping[str, str]], None],
+        on_switched: Callable[[Mapping[str, str]], None],
     ) -> None:
-        self._bench, self._listener, self._told = bench, listener, told
+        self._bench, self._listener, self._told = bench, listener, on_switched
         self._ran = False
 
     def ran(self) -> None:

@@ -91,19 +91,19 @@ def check_speeds(running: Levels, measured: Levels, quantum: float) -> None:
             )
 
 
-def check_map(running: Levels, given: Mapping[str, Reading], wanted: float) -> None:
+def check_map(running: Levels, channels: Mapping[str, Reading], wanted: float) -> None:
     """See that currents and torques are on their own channels.
 
     Parameters
     ----------
     running : mapping
         Levels of the signals.
-    given : mapping of str to Reading
+    channels : mapping of str to Reading
         What the supplies of the motors tell.
     wanted : float
         Torque of the steel side over that of the bronze side: of discs that of their radii.
     """
-    for disc, reading in given.items():
+    for disc, reading in channels.items():
         told = running[f"current_{disc}"]
         if reading.current is None:
             raise InstrumentError(

@@ -30,10 +30,10 @@ class Driving:
         bench: Bench,
         plan: Plan,
         ran: Callable[[], None],
-        told: Callable[[Mapping[str, str]], None],
+        on_switched: Callable[[Mapping[str, str]], None],
     ) -> None:
         self._bench, self._plan = bench, plan
-        self._ran, self._told = ran, told
+        self._ran, self._told = ran, on_switched
 
     def energise(self, logger: Logger, planned: PlannedFile) -> None:
         """Switch the motors on."""

@@ -219,8 +219,8 @@ class Machine:
             "preload": self._preload,
             "waveform": self._waveform,
             "trial": self._trial,
-            "rest": self._rest,
-            "cell": self._cell,
+            "rest": self._record_at_rest,
+            "cell": self._record_cell,
             "save": self._save,
         }
         with self._approach.safe() if action.asks else contextlib.nullcontext():
@@ -308,13 +308,13 @@ class Machine:
             return told
         raise AssertionError
 
-    def _rest(self, action: Action) -> dict[str, Any]:
+    def _record_at_rest(self, action: Action) -> dict[str, Any]:
         one = file_of(action)
         logger = self._recording(one)
         logger.watch(_REST)
         return {"recording": _name(logger)}
 
-    def _cell(self, action: Action) -> dict[str, Any]:
+    def _record_cell(self, action: Action) -> dict[str, Any]:
         """Steps 17 to 20 of one frequency: discs alone, with vibration, and at rest."""
         one, cell = file_of(action), action.cell
         if cell is None:
@@ -377,10 +377,10 @@ class Machine:
     def _new_logger(self, path: Path | None, planned: PlannedFile | None) -> Logger:
         return Logger(
             self._bench, self._interlock, self._interval, path,
-            configuration_of(self._case, planned), self._beat, self._preview,
+            configuration_of(self._case, planned), self._checkpoint, self._preview,
         )  # fmt: skip
 
-    def _beat(self) -> None:
+    def _checkpoint(self) -> None:
         self._run.checkpoint(self._done_cells, self._cells, what="cells")
         self._signals.check(self._how_far())
 

@@ -91,20 +91,24 @@ class _Fit:
         made: FloatArray = found * (self.there[:, :, None] & self.there[:, None, :])
         return made
 
-    def noise(self, given: FloatArray) -> tuple[float, float, float]:
+    def noise(self, parameters: FloatArray) -> tuple[float, float, float]:
         """Return noise's variance in a block, for how long it lasts, s, and how it is shaken."""
         most = math.log(_MOST_MEMORY)
-        memory = self.length * math.exp(min(max(given[1], -most), most))
-        return math.exp(max(given[0], self.least)), memory, math.exp(min(max(given[2], -6.0), 6.0))
+        memory = self.length * math.exp(min(max(parameters[1], -most), most))
+        return (
+            math.exp(max(parameters[0], self.least)),
+            memory,
+            math.exp(min(max(parameters[2], -6.0), 6.0)),
+        )
 
     def with_swings(self, swings: FloatArray) -> "_Fit":
         """Take swings that the signal gives way to."""
         self.columns[1] = swings
         return self
 
-    def unlikely(self, given: FloatArray) -> float:
+    def unlikely(self, parameters: FloatArray) -> float:
         """Return twice the restricted likelihood's negative; fills what is white."""
-        variance, memory, ratio = self.noise(given)
+        variance, memory, ratio = self.noise(parameters)
         lasts = np.exp(self.rates / memory)
         lasts[1:] *= share_of_state(memory, self.length)
         sizes = np.where(self.shaken, variance * ratio**2, variance)
@@ -125,12 +129,12 @@ class _Fit:
             - float(of_levels @ (of_levels / ones)) - bend * self.gives**2
             + float(np.log(ones).sum()) + math.log(bend)
             + unexpected(memory, math.log(ratio))
-            + max(self.least - given[0], 0.0)
+            + max(self.least - parameters[0], 0.0)
         )  # fmt: skip
 
-    def solve(self, given: FloatArray) -> tuple[float, FloatArray, FloatArray]:
+    def solve(self, parameters: FloatArray) -> tuple[float, FloatArray, FloatArray]:
         """Return twice the restricted likelihood's negative, the estimates, their information."""
-        likelihood = self.unlikely(given)
+        likelihood = self.unlikely(parameters)
         ones, across, of_levels, swings, _, _ = self.sums.T
         estimate = np.append((of_levels - across * self.gives) / ones, self.gives)
         information = np.diag(np.append(ones, float(swings.sum()) + self.give[1] ** -2.0))
@@ -138,7 +142,7 @@ class _Fit:
         return likelihood, estimate, information
 
     def told(
-        self, given: FloatArray
+        self, parameters: FloatArray
     ) -> tuple[float, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return what the signal says, and where from.
 
@@ -153,7 +157,7 @@ class _Fit:
         white : ndarray, shape (windows, blocks)
             What is left of the signal, made white.
         """
-        likelihood, estimate, information = self.solve(given)
+        likelihood, estimate, information = self.solve(parameters)
         covariance: FloatArray = np.asarray(np.linalg.inv(information), dtype=np.float64)
         root, (ones, swings, rest) = self.factors, self.whitened.copy()
         weights = covariance[:-1, :-1, None] * ones + covariance[:-1, -1, None, None] * swings
@@ -259,13 +263,13 @@ def estimate_counted(
 
 
 def _at_all_delays(
-    fit: _Fit, given: FloatArray, shown: Sequence[FloatArray]
+    fit: _Fit, parameters: FloatArray, shown: Sequence[FloatArray]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
     """Return what the signal says and where from, as `_Fit.told` does, over all delays.
 
     The likeliest delay alone would be that of the largest give, wherever little tells of it.
     """
-    found = [fit.with_swings(one).told(given) for one in shown]
+    found = [fit.with_swings(one).told(parameters) for one in shown]
     likelihoods = np.array([one[0] for one in found])
     likely = np.exp(0.5 * (likelihoods.min() - likelihoods))
     likely /= likely.sum()

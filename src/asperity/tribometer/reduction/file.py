@@ -50,14 +50,14 @@ def reduce_file(
     case: Case,
     heard: Listened,
     segments: Sequence[Segment],
-    given: Reduction,
+    options: Reduction,
     sonotrode: Sonotrode | None,
 ) -> tuple[FileResult, list[SegmentResult]]:
     """Reduce a recording whose segments are found, by what was heard without its zeros."""
     pair, blocks = pair_of(case), heard.blocks
     usable = [one for one in segments if not one.refused]
-    windows = Windows.of(blocks, usable, given) if usable else None
-    joint = _joint(blocks, windows, pair, given) if windows else None
+    windows = Windows.of(blocks, usable, options) if usable else None
+    joint = _joint(blocks, windows, pair, options) if windows else None
     zeros, left = windows.zeros(heard) if windows else ({}, {})
     found: list[SegmentResult] = []
     asked: list[Any] = []
@@ -71,8 +71,8 @@ def reduce_file(
             continue
         place = usable.index(segment)
         following = Following(
-            pair, common["motor_voltage"], joint, place, given.confidence, blocks.lines,
-            windows.seconds[place], given.speed_settling if windows.hurried[place] else 0.0,
+            pair, common["motor_voltage"], joint, place, options.confidence, blocks.lines,
+            windows.seconds[place], options.speed_settling if windows.hurried[place] else 0.0,
             powered=not any(windows.unpowered[2 * place : 2 * place + 2]),
             zeros=of_segment(zeros, place), left=of_segment(left, place),
         )  # fmt: skip
@@ -94,7 +94,7 @@ def reduce_file(
     return dataclasses.replace(whole, findings=heard.told(segments)), found
 
 
-def _joint(blocks: Blocks, windows: Windows, pair: Pair, given: Reduction) -> Joint:
+def _joint(blocks: Blocks, windows: Windows, pair: Pair, options: Reduction) -> Joint:
     """Estimate torque, speeds and current of all windows of a file together."""
     # Of a short window there are still as many as tell its noise.
     least = min(part.count for part in windows.parts) // FEWEST
@@ -133,10 +133,10 @@ def _joint(blocks: Blocks, windows: Windows, pair: Pair, given: Reduction) -> Jo
         left_out[CURRENT] = unpowered & (np.diff(of_window, prepend=-1) == 0)
     return estimate_jointly(
         times, signals, (steel, bronze), of_window,
-        [place % 2 == 1 for place in range(len(windows.parts))], drift=given.drift,
+        [place % 2 == 1 for place in range(len(windows.parts))], drift=options.drift,
         left_out=left_out,
         pulses=dict.fromkeys((STEEL, BRONZE), 2.0 * math.pi / pair.drives.encoder_pulses),
-        count_time=given.speed_settling / _COUNTS,
+        count_time=options.speed_settling / _COUNTS,
     )  # fmt: skip
 
 

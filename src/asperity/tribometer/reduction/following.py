@@ -55,7 +55,7 @@ class Following:
     pair: Pair
     voltage: float
     joint: Joint
-    place: int
+    index: int
     confidence: float
     lines: Mapping[str, Line]
     seconds: tuple[float, float]
@@ -67,7 +67,7 @@ class Following:
     @property
     def levels(self) -> Pairs:
         """The levels of the segment's two windows."""
-        return self.joint.pairs(2 * self.place, 2 * self.place + 1)
+        return self.joint.pairs(2 * self.index, 2 * self.index + 1)
 
     def torque_change(self) -> Budgeted:
         """Return (73), %."""
@@ -75,9 +75,9 @@ class Following:
             lambda of: float(quantities.torque_change(of[TORQUE][_WITH], of[TORQUE][_BEFORE]))
         )
 
-    def torque(self, place: int) -> Budgeted:
+    def torque(self, index: int) -> Budgeted:
         """Return it before (0) or with vibration (1), N m."""
-        return self._interval(lambda of: float(of[TORQUE][place]))
+        return self._interval(lambda of: float(of[TORQUE][index]))
 
     def power_change(self) -> Budgeted:
         """Return (74), %."""
@@ -90,25 +90,25 @@ class Following:
 
     def efficiency_change(self) -> Budgeted | None:
         """Return the change of (75), points; None where no current was measured."""
-        return self._of_power(lambda of, place: float(
+        return self._of_power(lambda of, index: float(
             quantities.thesis_efficiency(
-                of[TORQUE][place], of[STEEL][place], self.voltage, of[CURRENT][place],
+                of[TORQUE][index], of[STEEL][index], self.voltage, of[CURRENT][index],
                 self.pair.drives.gear_ratio,
             )
         ))  # fmt: skip
 
     def full_efficiency_change(self) -> Budgeted | None:
         """Return the change of an efficiency in which motor and gear lose, points."""
-        return self._of_power(lambda of, place: float(
+        return self._of_power(lambda of, index: float(
             quantities.drive_efficiency(
-                of[TORQUE][place], of[STEEL][place], self.voltage, of[CURRENT][place],
-                self.pair.drives.gear_ratio, *self.rims(of, place),
+                of[TORQUE][index], of[STEEL][index], self.voltage, of[CURRENT][index],
+                self.pair.drives.gear_ratio, *self.rims(of, index),
             )
         ))  # fmt: skip
 
-    def sliding_velocity(self, place: int) -> Budgeted:
+    def sliding_velocity(self, index: int) -> Budgeted:
         """Return it before (0) or with vibration (1), m/s."""
-        return self._interval(lambda of: float(discs.sliding_velocity(*self.rims(of, place))))
+        return self._interval(lambda of: float(discs.sliding_velocity(*self.rims(of, index))))
 
     def slide_roll_ratio(self) -> float:
         """Return the mean of before and with."""
@@ -128,9 +128,9 @@ class Following:
         beside = Contribution.of(amplitude, ("peak velocity of the vibration",), (1.0 / middle,))
         return self._interval(lambda of: peak / mean(of), (beside,) if beside.variance else ())
 
-    def rims(self, of: Pairs, place: int) -> tuple[float, float]:
+    def rims(self, of: Pairs, index: int) -> tuple[float, float]:
         """Return the velocities of both rims, m/s."""
-        steel, bronze = self.pair.rims(float(of[STEEL][place]), float(of[BRONZE][place]))
+        steel, bronze = self.pair.rims(float(of[STEEL][index]), float(of[BRONZE][index]))
         return float(steel), float(bronze)
 
     def _of_power(self, efficiency: Efficiency) -> Budgeted | None:
@@ -141,7 +141,7 @@ class Following:
         return self._interval(lambda of: 100.0 * (efficiency(of, _WITH) - efficiency(of, _BEFORE)))
 
     def _interval(self, of: Number, beside: Sequence[Contribution] = ()) -> Budgeted:
-        before = 2 * self.place
+        before = 2 * self.index
         return self.joint.interval(of, before, before + 1, self.confidence, self._added, beside)
 
     @functools.cached_property
@@ -166,7 +166,7 @@ class Following:
         for what, most in line.limits:
             yield Cause(f"{name}: {what}", "B", np.diag([most**2 / 3.0] * 2))
         if (told := self.joint.levels[name].steps) is not None:
-            here = slice(2 * self.place, 2 * self.place + 2)
+            here = slice(2 * self.index, 2 * self.index + 2)
             yield Cause(f"{name}: steps of the encoder", "B", told[here, here])
         elif name in (STEEL, BRONZE):
             # A window begins and ends between two pulses: each end is off by a part of one.

@@ -57,26 +57,26 @@ class Segment:
 
 
 def running_of(
-    blocks: Blocks, given: Reduction, at_rest: FloatArray | float = 0.0
+    blocks: Blocks, options: Reduction, at_rest: FloatArray | float = 0.0
 ) -> list[Stretch]:
     """Return where the steel disc's motor turns, that shows ``at_rest`` where it does not."""
     speed = np.abs(blocks.means["speed_steel"] - at_rest)
     speed = np.where(blocks.lost["speed_steel"], 0.0, speed)
-    return drive_signal.switched(speed, given.running_speed, 0.5 * given.running_speed)
+    return drive_signal.switched(speed, options.running_speed, 0.5 * options.running_speed)
 
 
 def segments_of(
     recording: Recording,
     blocks: Blocks,
     plan: Plan,
-    given: Reduction,
+    options: Reduction,
     running: Sequence[Stretch],
 ) -> list[Segment]:
     """Find the segments of a recording, in time's order, whose motor turns in some stretches."""
     deviation = np.where(blocks.lost["drive_voltage"], np.nan, blocks.drive_deviation)
-    shaking = drive_signal.vibrating(deviation, given.threshold, given.least_drive)
+    shaking = drive_signal.vibrating(deviation, options.threshold, options.least_drive)
     return [
-        _segment(recording, blocks, plan, given, shaking[:place], one, running)
+        _segment(recording, blocks, plan, options, shaking[:place], one, running)
         for place, one in enumerate(shaking)
     ]
 
@@ -85,12 +85,12 @@ def _segment(
     recording: Recording,
     blocks: Blocks,
     plan: Plan,
-    given: Reduction,
+    options: Reduction,
     earlier: Sequence[Stretch],
     shaking: Stretch,
     running: Sequence[Stretch],
 ) -> Segment:
-    settling, least = (blocks.at_least(one) for one in (given.settling, given.least_window))
+    settling, least = (blocks.at_least(one) for one in (options.settling, options.least_window))
     on = next((one for one in running if one.first <= shaking.first < one.last), None)
     if on is None:
         on = next((one for one in running if shaking.first < one.first < shaking.last), None)
@@ -102,16 +102,16 @@ def _segment(
     end = min(shaking.last, on.last) if on else shaking.first
     shaken = Stretch(max(shaking.first, on.first if on else 0) + settling, end - 1)
     tone = _tone(recording, blocks, shaking)
-    frequency, waveform, flags = _asked(recording.events, blocks, shaking, tone, plan, given)
+    frequency, waveform, flags = _asked(recording.events, blocks, shaking, tone, plan, options)
     refused = ""
     if on is None:
         refused = "the motor stands still"
     elif shaken.count < least:
-        refused = _short(f"{_seconds(shaken, blocks)} with vibration", given)
+        refused = _short(f"{_seconds(shaken, blocks)} with vibration", options)
     elif not before.count:
         refused = "no sliding before it"
     elif before.count < least:
-        refused = _short(f"{_seconds(before, blocks)} of sliding before it", given)
+        refused = _short(f"{_seconds(before, blocks)} of sliding before it", options)
     elif tone is None:
         refused = "its drive signal has no tone"
     elif frequency is None:
@@ -174,10 +174,10 @@ def _torn(blocks: Blocks, shaking: Stretch) -> bool:
                 or lost[shaking.last - 1 : shaking.last + 1].any())  # fmt: skip
 
 
-def _short(what: str, given: Reduction) -> str:
+def _short(what: str, options: Reduction) -> str:
     return (
-        f"{what}, {given.settling:g} s of settling left out: less than reduction.least_window = "
-        f"{given.least_window:g} s"
+        f"{what}, {options.settling:g} s of settling left out: less than reduction.least_window = "
+        f"{options.least_window:g} s"
     )
 
 
@@ -206,20 +206,20 @@ def _asked(
     shaking: Stretch,
     tone: Tone | None,
     plan: Plan,
-    given: Reduction,
+    options: Reduction,
 ) -> tuple[float | None, str, list[str]]:
     """Return the commanded frequency and waveform, and what is odd about them."""
     flags: list[str] = []
     measured = tone.frequency if tone else math.nan
     shape = tone.waveform if tone else "unknown"
     near = [
-        one for one in plan.frequencies if abs(measured - one) <= given.frequency_tolerance * one
+        one for one in plan.frequencies if abs(measured - one) <= options.frequency_tolerance * one
     ]
     frequency = near[0] if near else None if plan.frequencies else measured
     told = _command(events, 0.5 * (shaking.first + shaking.last) * blocks.length)
     if told is not None:
         commanded, wave = told
-        if abs(measured - commanded) > given.frequency_tolerance * commanded:
+        if abs(measured - commanded) > options.frequency_tolerance * commanded:
             flags.append(f"commanded {commanded:g} Hz, measured {measured:.5g} Hz")
         frequency = commanded if plan.frequencies == () or commanded in plan.frequencies else None
         if wave and shape not in (wave, "unknown"):

@@ -43,10 +43,10 @@ class Windows:
     unpowered: Sequence[bool]
 
     @classmethod
-    def of(cls, blocks: Blocks, segments: Sequence[Segment], given: Reduction) -> "Windows":
+    def of(cls, blocks: Blocks, segments: Sequence[Segment], options: Reduction) -> "Windows":
         """Lay out the windows of segments."""
         parts = [part for one in segments for part in (one.before, one.shaken)]
-        late = blocks.at_least(max(given.speed_settling - given.settling, 0.0))
+        late = blocks.at_least(max(options.speed_settling - options.settling, 0.0))
         least = max(blocks.at_least(_LEAST_OF_SPEED), FEWEST)
         unsettled = [late if part.count - late >= least else 0 for part in parts]
         lasts = [(one.count - n) * blocks.length for one, n in zip(parts, unsettled, strict=True)]

@@ -63,14 +63,18 @@ class Listened:
 # A scale that is no sensor's may be in a file.
 @np.errstate(all="ignore")
 def listen(
-    recording: Recording, case: Case, blocks: Blocks, segments: Sequence[Segment], given: Reduction
+    recording: Recording,
+    case: Case,
+    blocks: Blocks,
+    segments: Sequence[Segment],
+    options: Reduction,
 ) -> Listened:
     """Find what is wrong with what was heard."""
     if not all(
         np.isfinite(one).all() for one in (*blocks.means.values(), *blocks.deviations.values())
     ):
         return Listened(blocks, Tare({}), (), {}, at_rest=False)
-    of = Material(recording, case, pair_of(case), blocks, segments, given)
+    of = Material(recording, case, pair_of(case), blocks, segments, options)
     rest = resting(of)
     taken, found = tare(of, zeros_of(of, rest))
     of = dataclasses.replace(of, blocks=taken.off(blocks))

@@ -124,23 +124,23 @@ class _Ways:
     lines: FloatArray
     rests: FloatArray
 
-    def _across(self, asked: FloatArray) -> FloatArray:
-        found: FloatArray = self.sizes[:, None, None] * (_wiener(asked, self.seen) @ self.inverses)
+    def _across(self, times: FloatArray) -> FloatArray:
+        found: FloatArray = self.sizes[:, None, None] * (_wiener(times, self.seen) @ self.inverses)
         return found
 
-    def _means(self, asked: FloatArray) -> FloatArray:
-        beside = self._across(asked) @ self.rests[:, :, None]
-        found: FloatArray = self.lines @ _straight(asked).T + beside[..., 0]
+    def _means(self, times: FloatArray) -> FloatArray:
+        beside = self._across(times) @ self.rests[:, :, None]
+        found: FloatArray = self.lines @ _straight(times).T + beside[..., 0]
         return found
 
-    def mean(self, asked: FloatArray) -> FloatArray:
-        found: FloatArray = self.weights @ self._means(asked)
+    def mean(self, times: FloatArray) -> FloatArray:
+        found: FloatArray = self.weights @ self._means(times)
         return found
 
-    def covariance(self, asked: FloatArray) -> FloatArray:
-        across, means = self._across(asked), self._means(asked)
-        left = _straight(asked) - across @ _straight(self.seen)
-        own = _wiener(asked, asked) - across @ _wiener(self.seen, asked)
+    def covariance(self, times: FloatArray) -> FloatArray:
+        across, means = self._across(times), self._means(times)
+        left = _straight(times) - across @ _straight(self.seen)
+        own = _wiener(times, times) - across @ _wiener(self.seen, times)
         each = self.sizes[:, None, None] * own + left @ self.informations @ left.swapaxes(1, 2)
         apart = means - self.weights @ means
         found: FloatArray = np.tensordot(self.weights, each, 1)

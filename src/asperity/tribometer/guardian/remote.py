@@ -10,14 +10,14 @@ from asperity.tribometer.instruments.protocols import Input, Instrument, Poll, R
 class Line(Protocol):
     """Somebody who can be asked."""
 
-    def ask(self, to: str, do: str, *given: Any) -> Any:
+    def ask(self, to: str, do: str, *arguments: Any) -> Any:
         """Return what an object gives; raises what it raises."""
 
-    def ask_bytes(self, to: str, do: str, *given: Any) -> tuple[Any, bytes]:
+    def ask_bytes(self, to: str, do: str, *arguments: Any) -> tuple[Any, bytes]:
         """Return what an object gives, with its bytes."""
 
 
-class _Asked(Instrument):
+class _Remote(Instrument):
     """What they share.
 
     Parameters
@@ -34,8 +34,8 @@ class _Asked(Instrument):
         self.name = name
         self._line, self._key = line, key
 
-    def _ask(self, do: str, *given: Any) -> Any:
-        return self._line.ask(self._key, do, *given)
+    def _ask(self, do: str, *arguments: Any) -> Any:
+        return self._line.ask(self._key, do, *arguments)
 
     def identify(self) -> str:
         """Return what the device says it is."""
@@ -49,7 +49,7 @@ class _Asked(Instrument):
         """Let go of it: who has it does."""
 
 
-class _AskedSwitch(_Asked):
+class _RemoteSwitch(_Remote):
     """What is switched on and off."""
 
     def on(self) -> None:
@@ -61,7 +61,7 @@ class _AskedSwitch(_Asked):
         self._ask("off")
 
 
-class AskedVibration(_AskedSwitch):
+class RemoteVibration(_RemoteSwitch):
     """A vibration controller."""
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
@@ -78,7 +78,7 @@ class AskedVibration(_AskedSwitch):
         return on
 
 
-class AskedSupply(_AskedSwitch):
+class RemoteSupply(_RemoteSwitch):
     """An output of a supply."""
 
     def set(self, voltage: float) -> None:
@@ -95,7 +95,7 @@ class AskedSupply(_AskedSwitch):
         return on
 
 
-class AskedListener(_Asked):
+class RemoteListener(_Remote):
     """What hears the drive signal."""
 
     def moves(self) -> bool:
@@ -103,7 +103,7 @@ class AskedListener(_Asked):
         return bool(self._ask("moves"))
 
 
-class AskedTachometer(_Asked):
+class RemoteTachometer(_Remote):
     """A tachometer."""
 
     def speed(self, motor: str) -> float:
@@ -111,7 +111,7 @@ class AskedTachometer(_Asked):
         return float(self._ask("speed", motor))
 
 
-class AskedScope(_Asked):
+class RemoteScope(_Remote):
     """An oscilloscope.
 
     Parameters
@@ -142,7 +142,7 @@ class AskedScope(_Asked):
         self._ask("stop")
 
 
-class AskedClock:
+class RemoteClock:
     """The time of a simulated rig, which passes only in sleep."""
 
     def __init__(self, line: Line) -> None:
@@ -158,7 +158,7 @@ class AskedClock:
         self._now = float(self._line.ask("clock", "sleep", seconds))
 
 
-class AskedPerson:
+class RemotePerson:
     """A simulated person."""
 
     def __init__(self, line: Line) -> None:
@@ -177,10 +177,10 @@ class AskedPerson:
         return float(self._line.ask("person", "read", text, unit))
 
 
-class AskedMemory:
+class RemoteMemory:
     """Where a simulated rig stands."""
 
-    def __init__(self, line: Line, clock: AskedClock) -> None:
+    def __init__(self, line: Line, clock: RemoteClock) -> None:
         self._line, self._clock = line, clock
 
     def state(self) -> dict[str, Any]:
