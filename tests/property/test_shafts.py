@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asperity.drive.shafts import beam_with_ends
-from asperity.shafts.beam import Stretch, at_place, deflection, mesh_compliance
+from asperity.shafts.beam import Stretch, at_position, deflection, mesh_compliance
 from asperity.shafts.rolling.equivalent import shared_axial
 from asperity.shafts.rolling.life import rating_life_hours, spectrum_life
 from asperity.shafts.statics import PointLoad, mesh_load, moments, reactions
@@ -142,15 +142,15 @@ def test_a_stepped_shaft_bends_as_by_finite_elements(shaft):
     found = deflection(stretches, loads, bearings, E)
     size = max(max(map(abs, wanted.values())), 1e-9)
     for place, value in wanted.items():
-        assert abs(at_place(found, place)[0][0] - value) <= 1e-6 * size
+        assert abs(at_position(found, place)[0][0] - value) <= 1e-6 * size
 
 
 def test_a_bearing_that_yields_lets_its_end_go_by_its_force():
     load = PointLoad(30.0, (0.0, 900.0, 0.0))
     stretches = [Stretch(0.0, 90.0, 40.0)]
     found = deflection(stretches, [load], (0.0, 90.0), E, radial_compliance=(1e-5, 2e-5))
-    assert at_place(found, 0.0)[0][0] == pytest.approx(600.0 * 1e-5)
-    assert at_place(found, 90.0)[0][0] == pytest.approx(300.0 * 2e-5)
+    assert at_position(found, 0.0)[0][0] == pytest.approx(600.0 * 1e-5)
+    assert at_position(found, 90.0)[0][0] == pytest.approx(300.0 * 2e-5)
 
 
 @given(st.floats(-1e4, 1e4), st.floats(0.0, 1e4), st.floats(0.0, 1e4))

@@ -7,8 +7,8 @@ import pytest
 
 from asperity.block.problem import BlockProblem
 from asperity.block.solution import march as block_march
-from asperity.block.solution.course import _frame_steps
 from asperity.block.solution.march import BlockMarch, solve_block
+from asperity.block.solution.schedule import _frame_steps
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.runs import Run

@@ -322,7 +322,7 @@ def test_an_increment_that_fails_however_small_says_where_and_keeps_what_was_don
             raise ConvergenceError("no equilibrium", reached={"residual": 0.5, "active": 16.0})
         return solve(*arguments)
 
-    monkeypatch.setattr(IncrementSolver, "kept_tangent", lambda *_: None)
+    monkeypatch.setattr(IncrementSolver, "saved_tangent", lambda *_: None)
     monkeypatch.setattr(IncrementSolver, "solve", fails)
     with pytest.raises(ConvergenceError, match=r"at 0\.000\d+ s.*cut in half 8 times") as failure:
         march.run()

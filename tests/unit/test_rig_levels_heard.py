@@ -98,7 +98,7 @@ def test_an_encoder_that_slips_in_one_cell_spoils_that():
     rig = Rig()
     rig.of["speed_steel"][1, 1] *= 0.8
     (found,) = level.findings(rig)
-    assert (found.place, found.spoils) == (1, True)
+    assert (found.index, found.spoils) == (1, True)
 
 
 def test_a_bronze_torque_that_is_told_of_spoils_nothing_anew():

@@ -67,8 +67,8 @@ def test_a_folder_that_takes_no_file_ends_no_run(tmp_path):
 
 def test_what_is_off_and_how_it_ended_is_the_journals_word(shown):
     preview, _, folder = shown
-    preview.told({"vibration": "on, sine 750 Hz"})
-    preview.told({"steel": "on, 1 V"})
+    preview.show_outputs({"vibration": "on, sine 750 Hz"})
+    preview.show_outputs({"steel": "on, 1 V"})
     book = Journal(folder)
     book.write("off", why="start", took_s=0.1, read_back={"steel": "off"})
     book.write("started")
@@ -200,7 +200,7 @@ def test_a_disk_that_answers_with_an_error_ends_no_stop_button(tmp_path, monkeyp
 
 def test_journal_lines_stay_json(shown):
     preview, _, folder = shown
-    preview.told({"a\nb": "on"})
+    preview.show_outputs({"a\nb": "on"})
     preview.write()
     assert json.loads((folder / PREVIEW).read_text())["outputs"] == [
         {"output": "a\nb", "told": "on"}

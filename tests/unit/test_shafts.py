@@ -195,7 +195,7 @@ def test_a_bearing_lasts_longer_in_cleaner_and_thicker_oil():
 
     def life(contamination, viscosity):
         load = Carried(2000.0, 0.0, 100.0, 1000.0, viscosity)
-        return life_of(place, [load], BearingOptions(contamination=contamination)).told
+        return life_of(place, [load], BearingOptions(contamination=contamination)).judged_hours
 
     dirt = [life(word, 30.0) for word in ("severe", "typical", "slight", "normal", "high")]
     assert dirt == sorted(dirt)
@@ -209,7 +209,7 @@ def test_a_higher_reliability_costs_life():
     )
     load = [Carried(2000.0, 0.0, 100.0, 1000.0, 30.0)]
     found = life_of(place, load, BearingOptions(reliability="95 %"))
-    assert found.told == pytest.approx(0.64 * found.rating_life)
+    assert found.judged_hours == pytest.approx(0.64 * found.rating_life)
     assert life_of(place, load, BearingOptions()).modified is None
 
 

@@ -94,7 +94,7 @@ def new(
     if as_json:
         show.print_json({"file": str(path), "tables": list(case.tables)})
     else:
-        show.print_text(_told(path, kind))
+        show.print_text(_what_next(path, kind))
         operation = case.get(Operation)
         if operation and operation.wear_assumed:
             show.print_text(f"\n{operation.wear_assumed}")
@@ -223,7 +223,7 @@ def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:
     ]
 
 
-def _told(path: Path, kind: Kind) -> str:
+def _what_next(path: Path, kind: Kind) -> str:
     first, *others = kind.then
     name = plain(str(path))
     more = f" (or {', '.join(others)})" if others else ""

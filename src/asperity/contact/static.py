@@ -44,13 +44,13 @@ class Guide:
             raise InputError(f"the axis is {self.axis}; give a direction")
         object.__setattr__(self, "axis", np.asarray(self.axis, dtype=float) / length)
 
-    def at(self, place: float) -> Pose:
+    def at(self, position: float) -> Pose:
         """Pose at a place, m or rad."""
         if self.centre is None:
             return dataclasses.replace(
-                self.pose, translation=self.pose.translation + place * self.axis
+                self.pose, translation=self.pose.translation + position * self.axis
             )
-        turn = Rotation.from_rotvec(place * self.axis).as_matrix()
+        turn = Rotation.from_rotvec(position * self.axis).as_matrix()
         return Pose(
             turn @ self.pose.rotation,
             self.centre + turn @ (self.pose.translation - self.centre),
@@ -95,7 +95,7 @@ def _friction_work(
 def move_to(
     solver: IncrementSolver,
     guide: Guide,
-    place: float,
+    position: float,
     *,
     start: StaticState | float = 0.0,
     increments: int = 1,
@@ -123,14 +123,14 @@ def move_to(
         # The last part must not be left over by rounding.
         if 1.0 - ahead < 1e-9 * share:
             ahead = 1.0
-        to = begin + ahead * (place - begin)
+        to = begin + ahead * (position - begin)
         try:
             result = solver.solve(_unloaded(problem), _motion(guide, at, to), state)
         except ConvergenceError as error:
             share *= 0.5
             if share * increments < 0.5**_MOST_CUTS:
                 raise ConvergenceError(
-                    f"static contact stops at {at:.6g} on the way to {place:.6g}: {error}",
+                    f"static contact stops at {at:.6g} on the way to {position:.6g}: {error}",
                     reached={"place": at, **error.reached},
                 ) from error
             continue

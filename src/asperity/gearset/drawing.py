@@ -204,10 +204,10 @@ def _worm_thread(g: Geometry, low: float, high: float, ahead: float = 0.0) -> It
         corners += [(middle - at_root, root), (middle - at_tip, tip),
                     (middle + at_tip, tip), (middle + at_root, root)]  # fmt: skip
 
-    def at(place: float) -> float:
+    def at(position: float) -> float:
         for (x0, y0), (x1, y1) in itertools.pairwise(corners):
-            if x0 <= place <= x1:
-                return y0 if x1 == x0 else y0 + (y1 - y0) * (place - x0) / (x1 - x0)
+            if x0 <= position <= x1:
+                return y0 if x1 == x0 else y0 + (y1 - y0) * (position - x0) / (x1 - x0)
         return root
 
     yield low, at(low)

@@ -106,7 +106,7 @@ def _require_more(
 _WITHOUT = {"through_travel_torque": None, "duty_cycle": None, "spectrum": None}
 
 
-def told_of(operation: Operation, driven_by: Operation) -> tuple[str, ...]:
+def torque_notes(operation: Operation, driven_by: Operation) -> tuple[str, ...]:
     """Return what is to be said of a torque that follows."""
     key = operation.driven_by
     followed = f"T_R = {driven_by.output_torque:.4g} N m follows from operation.{key}"

@@ -42,7 +42,7 @@ class Lever(NamedTuple):
     keys: tuple[str, ...]
     exponent: float
 
-    def told(self, key: str = "") -> Sentence:
+    def sentence(self, key: str = "") -> Sentence:
         """In words: what to do for more safety, and what a percent of it brings."""
         word, times = ("more", 1.0) if self.exponent > 0 else ("less", -1.0)
         brings = Number.of(self.exponent, ".1f", key and f"{key}.exponent", times)
@@ -187,7 +187,7 @@ class Alternative(NamedTuple):
     safety: float
     changes: tuple[str, ...] = ()
 
-    def told(self, asked: float, key: str = "") -> Sentence:
+    def sentence(self, asked: float, key: str = "") -> Sentence:
         """In words, beside what is asked: beyond ten times that, how far says nothing."""
         much, near = 10.0 * asked, Number.of(self.safety, ".3g", key and f"{key}.safety")
         safety = near if self.safety < much else f"over {much:g}"

@@ -284,9 +284,9 @@ class Operation(Table):
     @property
     def wear_assumed(self) -> str:
         """What is to be said of the torque that wear is judged by; empty where it is given."""
-        return self.wear_told()
+        return self.wear_sentence()
 
-    def wear_told(self, within: str = "") -> Sentence | str:
+    def wear_sentence(self, within: str = "") -> Sentence | str:
         """As `wear_assumed`, its numbers by where they stand ``within`` an answer's JSON."""
         given = self.through_travel_torque is not None or self.steps is not None
         if given or self.service != "valve":

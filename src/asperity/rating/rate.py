@@ -15,7 +15,7 @@ from asperity.gearset.tolerancing.table import Tolerances
 from asperity.rating import own_table
 from asperity.rating.backlash import play_of
 from asperity.rating.bs721.tables import Tables
-from asperity.rating.driven import given_of, told_of
+from asperity.rating.driven import given_of, torque_notes
 from asperity.rating.duty import DutyPart, duty_mean, duty_parts, duty_table
 from asperity.rating.duty_words import duty_lines, loads_line
 from asperity.rating.endurance import Endurance, endurance, endurance_table
@@ -366,7 +366,7 @@ def rated_of(
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
         self_locking=self_locking(inputs, found, tables),
-        notes=(*told_of(as_run, inputs.operation), *told, *notes),
+        notes=(*torque_notes(as_run, inputs.operation), *told, *notes),
         rows=rows,
         assumed=assumptions(inputs),
     )

@@ -152,7 +152,9 @@ def _verdict(rated: Reported) -> Iterator[Table]:
         Column("asked", right=True), Column(""), Column(""),
     )  # fmt: skip
     said = "Bars end at three times what is asked; the mark is what is asked."
-    told = rated.rating_inputs.operation.wear_told("iso14521" if rated.iso14521 is not None else "")
+    told = rated.rating_inputs.operation.wear_sentence(
+        "iso14521" if rated.iso14521 is not None else ""
+    )
     wear = (told,) if rated.verdict.wear_assumed else ()
     unrated = tuple(f"no answer: {path}" for path in rated.verdict.unrated)
     heat = (rated.verdict.heat_assumed,) if rated.verdict.heat_assumed else ()

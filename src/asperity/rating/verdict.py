@@ -237,7 +237,7 @@ class Verdict(NamedTuple):
         ]
         if self.levers:
             strongest = (
-                lever.told(f"verdict.moved_by.{place}")
+                lever.sentence(f"verdict.moved_by.{place}")
                 for place, lever in enumerate(self.levers[:_MOST_LEVERS])
             )
             said += ["; a percent of it brings most: ", Sentence.joined(strongest)]
@@ -248,7 +248,7 @@ class Verdict(NamedTuple):
         first = self.first
         if self.alternatives and first is not None:
             better = (
-                other.told(first.demand.asked, f"verdict.alternatives.{place}")
+                other.sentence(first.demand.asked, f"verdict.alternatives.{place}")
                 for place, other in enumerate(self.alternatives)
             )
             yield Sentence("best listed: ", Sentence.joined(better))

@@ -197,28 +197,28 @@ def _table_in_units(table: Table, headings: Sequence[str]) -> Table:
 def _row(
     row: Sequence[str],
     columns: Sequence[Column],
-    place: int | None,
+    unit_column: int | None,
     own: Sequence[str],
     stays: Sequence[bool],
 ) -> tuple[str, ...]:
-    unit = "" if place is None else row[place]
+    unit = "" if unit_column is None else row[unit_column]
     pitch = unit == "mm" and any(_MODULE in text.lower() for text in row)
     cells, changed = [], False
     for n, (text, column) in enumerate(zip(row, columns, strict=True)):
         to = unit or own[n]
-        numbers = _numbers(text) if to in US and n != place and column.right else None
+        numbers = _numbers(text) if to in US and n != unit_column and column.right else None
         if numbers is not None:
             cells.append(_pitch(numbers) if pitch else _all(numbers, to))
             changed = True
         elif pitch and _MODULE in text.lower():
             cells.append(f"{text}, {said('as')} {_PITCH}")
-        elif n == place or stays[n]:
+        elif n == unit_column or stays[n]:
             cells.append(text)
         else:
             cells.append(_in_units(text))
     # A unit whose row has no number that is known stays, and so does the number.
-    if place is not None and changed:
-        cells[place] = _PER_INCH if pitch else US[unit].unit
+    if unit_column is not None and changed:
+        cells[unit_column] = _PER_INCH if pitch else US[unit].unit
     return tuple(cells)
 
 

@@ -146,14 +146,16 @@ def deflection(
     return Deflection(at, seated(bent, rest), seated(sheared, [np.zeros(2)] * 2), slope - tilt)
 
 
-def at_place(deflection: Deflection, place: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+def at_position(
+    deflection: Deflection, position: float
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return bending, shear and slope at a place where something changes, by y and z.
 
     Parameters
     ----------
     deflection : Deflection
         Of the shaft.
-    place : float
+    position : float
         One of its positions, mm.
 
     Returns
@@ -161,7 +163,7 @@ def at_place(deflection: Deflection, place: float) -> tuple[FloatArray, FloatArr
     bent, sheared, slope : ndarray, shape (2,)
         By y and z; mm, mm and rad.
     """
-    index = int(np.argmin(np.abs(deflection.at - place)))
+    index = int(np.argmin(np.abs(deflection.at - position)))
     return deflection.bent[index], deflection.sheared[index], deflection.slope[index]
 
 
@@ -197,6 +199,6 @@ def mesh_compliance(
         PointLoad(mesh, (0.0, 1.0, 0.0)),
         PointLoad(mesh, (0.0, 0.0, 0.0), (0.0, 0.0, -1.0)),
     ):
-        bent, sheared, slope = at_place(deflection(stretches, [load], bearings, modulus), mesh)
+        bent, sheared, slope = at_position(deflection(stretches, [load], bearings, modulus), mesh)
         columns.append((bent[0] + (0.0 if columns else sheared[0]), slope[0]))
     return np.array(columns).T

@@ -87,7 +87,7 @@ def _chosen(
         assert candidate.bearing is not None
         asked = shaft.options.at_rest(candidate.bearing.elements)
         margin = min(
-            min(own.told / life, own.static_safety / asked)
+            min(own.judged_hours / life, own.static_safety / asked)
             for own in shaft.lives_of(number, candidate).values()
         )
         if best is None or margin > best[0]:

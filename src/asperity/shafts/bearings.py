@@ -76,7 +76,7 @@ class Life(NamedTuple):
     outside: bool
 
     @property
-    def told(self) -> float:
+    def judged_hours(self) -> float:
         """The life that is judged, h."""
         return self.rating_life if self.modified is None else self.modified
 

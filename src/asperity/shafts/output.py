@@ -210,9 +210,9 @@ def _deflection(study: Study) -> Table:
     )
 
 
-def _keyed(path: str, told: Mapping[str, Any], keys: Iterable[str]) -> list[str]:
+def _keyed(path: str, values: Mapping[str, Any], keys: Iterable[str]) -> list[str]:
     """Return some numbers of an object of JSON, which know where they stand in it."""
-    return [text_of(told[key], key=f"{path}.{key}") for key in keys]
+    return [text_of(values[key], key=f"{path}.{key}") for key in keys]
 
 
 def _shown(value: float, key: str, unit: str) -> str:

@@ -78,18 +78,18 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
     reach = 0.35 * (half - 0.5 * widest)
     gap = 0.1 * (half - 0.5 * widest)
 
-    def arrow(place: float, size: float, upwards: bool, colour: str, words: str) -> None:
+    def arrow(position: float, size: float, upwards: bool, colour: str, words: str) -> None:
         length = reach * size / most
         side = -1.0 if upwards else 1.0
         edge = side * 0.5 * widest
         axes.annotate(
             "",
-            (place, edge),
-            (place, edge + side * (length + gap)),
+            (position, edge),
+            (position, edge + side * (length + gap)),
             arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8},
         )
         axes.text(
-            place,
+            position,
             edge + side * (length + 1.3 * gap),
             words,
             color=colour,
@@ -120,9 +120,9 @@ def _loads(axes: "Axes", dataset: "xr.Dataset", name: str) -> None:
     axes.set_title(f"{name.capitalize()}'s shaft, {case}", loc="left")
 
 
-def _bore(stretches: Any, diameters: Any, place: float) -> float:
+def _bore(stretches: Any, diameters: Any, position: float) -> float:
     for (start, end), diameter in zip(stretches, diameters, strict=True):
-        if start <= place <= end:
+        if start <= position <= end:
             return float(diameter)
     return float(diameters[-1])
 

@@ -165,7 +165,7 @@ class ShaftStudy(Drawn):
                 None if iso is None or worm is None or worm.model.overhang else 1e3 * iso[0]
             ),
             deflection_limit=None if iso is None or worm is None else 1e3 * iso[1],
-            least_life=min((each.told for each in lives), default=None),
+            least_life=min((each.judged_hours for each in lives), default=None),
             least_static_safety=min((each.static_safety for each in lives), default=None),
             least_fatigue_safety=_finite(min((e.fatigue_2 for e in sections), default=None)),
             least_yield_safety=_finite(min((e.yielding for e in sections), default=None)),

@@ -9,7 +9,7 @@ import numpy as np
 
 from asperity.arrays import EQUAL, first_least
 from asperity.errors import InputError
-from asperity.shafts.beam import Deflection, at_place, deflection, places_of
+from asperity.shafts.beam import Deflection, at_position, deflection, places_of
 from asperity.shafts.bearings import Carried, Life, life_of
 from asperity.shafts.loads import Condition, Load
 from asperity.shafts.model import Axial, Model
@@ -88,7 +88,7 @@ class Loaded:
             self.model.stretches, self.loads, self.model.bearings, self.model.modulus,
             radial_compliance=self.model.radial_compliance, carried=self.carried,
         )  # fmt: skip
-        bent, sheared, _ = at_place(found, self.model.mesh)
+        bent, sheared, _ = at_position(found, self.model.mesh)
         y, z = (1e3 * bent).tolist()
         all_y, all_z = (1e3 * (bent + sheared)).tolist()
         return (y, z), (all_y, all_z)

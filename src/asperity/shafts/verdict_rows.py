@@ -40,13 +40,13 @@ def _bearings(name: str, shaft: LoadedShaft, asked: float) -> Iterator[Row]:
     for end, lives in zip(_ENDS, shaft.lives, strict=True):
         if lives is None:
             continue
-        condition, worst = first_least(lives.items(), lambda pair: pair[1].told)
+        condition, worst = first_least(lives.items(), lambda pair: pair[1].judged_hours)
         by = [condition.short]
         if len(worst.damage) > 1:
             most = max(range(len(worst.damage)), key=worst.damage.__getitem__)
             torque = shaft.every[0][most].load.torque
             by.append(f"{torque:g} N m {100.0 * worst.damage[most]:.0f} %")
-        life = worst.told
+        life = worst.judged_hours
         if any(one.end == end for one in shaft.model.misseated):
             by = ["cannot sit there", *by]
             # What cannot be mounted lives for no time.

@@ -212,7 +212,7 @@ def propose(
     notes += special_hob(gearset.pressure_angle)
     if operation.wear_assumed:
         notes.append(operation.wear_assumed)
-    notes += _told_of_shafts(chosen)
+    notes += _shaft_notes(chosen)
     notes += chosen.borne.get(int(shown[0]), Borne()).lacking
     if holds:
         if not rated_by_all[shown].all():
@@ -299,7 +299,7 @@ def _none_left(chosen: Chosen) -> str:
     )
 
 
-def _told_of_shafts(chosen: Chosen) -> Iterator[str]:
+def _shaft_notes(chosen: Chosen) -> Iterator[str]:
     """Yield how many were left out for their shafts and bearings, and why."""
     if chosen.weak:
         nearest = max(chosen.weak, key=lambda row: row.margin)

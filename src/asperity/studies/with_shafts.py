@@ -127,7 +127,7 @@ def with_shafts(
     """
     found = _judged(best, rows_of)
     if _holds(found, safety):
-        return _told(found)
+        return _with_notes(found)
     margins = [row.margin for row in found.before.rows]
     asked = [(safety,) * len(margins)]
     if safety <= 1.0 and min(margins) < 1.0:
@@ -138,9 +138,9 @@ def with_shafts(
         except InputError:
             # No design has so much.
             continue
-        return _told(_kept(kept, found, safety))
+        return _with_notes(_under_shafts(kept, found, safety))
     if safety <= 1.0:
-        return _told(found)
+        return _with_notes(found)
     designs = [found.after, *([found.made] if found.made else [])]
     row = min((row for one in designs for row in one.rows), key=lambda row: row.margin)
     raise InputError(
@@ -149,7 +149,7 @@ def with_shafts(
     )
 
 
-def _kept(kept: Optimum, optimum: Optimum, safety: float) -> Optimum:
+def _under_shafts(borne: Optimum, bare: Optimum, safety: float) -> Optimum:
     """Return an optimum under its shafts, with them among its limits and what they cost."""
     limits = [
         Limit(
@@ -157,13 +157,13 @@ def _kept(kept: Optimum, optimum: Optimum, safety: float) -> Optimum:
             abs(row.margin / min(safety, before.margin) - 1.0) < _ACTIVE
             or abs(row.margin / safety - 1.0) < _ACTIVE,
         )
-        for row, before in zip(kept.after.rows, kept.before.rows, strict=True)
+        for row, before in zip(borne.after.rows, borne.before.rows, strict=True)
     ]  # fmt: skip
     note = (
         "shafts and bearings are kept; without them the efficiency of the teeth were "
-        f"{100.0 * optimum.after.iso14521['eta_z1_2']:.1f} %"
+        f"{100.0 * bare.after.iso14521['eta_z1_2']:.1f} %"
     )
-    return dataclasses.replace(kept, limits=(*kept.limits, *limits), notes=(*kept.notes, note))
+    return dataclasses.replace(borne, limits=(*borne.limits, *limits), notes=(*borne.notes, note))
 
 
 def _judged(best: Optimum, rows_of: RowsOf) -> Optimum:
@@ -181,7 +181,7 @@ def _holds(best: Optimum, safety: float) -> bool:
     return all(row.margin >= safety for rated in designs for row in rated.rows)
 
 
-def _told(best: Optimum) -> Optimum:
+def _with_notes(best: Optimum) -> Optimum:
     """Return an optimum with a note for each part that does not hold."""
     notes = [
         f"{row.name} by {row.standard} does not hold: {row.stands}; no design within the bounds "

@@ -90,8 +90,8 @@ def answer(problem: Problem, doing: Run) -> SweepResult:
     grid = Grid(problem.case, problem.axes)
     first = next(grid.points([0])).model
     doing.forecast(_seconds(grid, first, bool(problem.cluster)), f"{grid.size} points")
-    kept = Rows.of_this_user("sweep", doing.notify) if problem.cache else None
-    sweep = _Sweep(grid, kept, doing)
+    row_cache = Rows.of_this_user("sweep", doing.notify) if problem.cache else None
+    sweep = _Sweep(grid, row_cache, doing)
     varied = {axis.path for axis in grid.axes}
     inputs = grid.subject.inputs(first)
 
@@ -116,24 +116,24 @@ def answer(problem: Problem, doing: Run) -> SweepResult:
             doing.watch(found)
             sweep.solve(problem.cluster, lambda: doing.watch(found))
     except KeyboardInterrupt:
-        count = sweep.done if kept is not None and kept.usable else 0
+        count = sweep.done if row_cache is not None and row_cache.usable else 0
         raise Interrupted(
             f"interrupted: {count} of {grid.size} points are kept; the same command goes on from "
             "there",
             count,
         ) from None
     finally:
-        if kept is not None:
-            kept.close()
+        if row_cache is not None:
+            row_cache.close()
     return found()
 
 
 class _Sweep:
     """A grid on its way to being solved."""
 
-    def __init__(self, grid: Grid, kept: Rows | None, doing: Run) -> None:
+    def __init__(self, grid: Grid, row_cache: Rows | None, doing: Run) -> None:
         self.grid = grid
-        self.kept = kept
+        self.row_cache = row_cache
         self.doing = doing
         self.answers = Answers(grid.size, grid.subject.name)
         self.missing: list[int] = []
@@ -155,7 +155,7 @@ class _Sweep:
                 keys[point.index] = point.key
                 kind = self._kinds.setdefault(point.kind, len(self._kinds))
                 self._kind_of[point.index] = kind
-            rows = self.kept.get(list(keys.values())) if self.kept else {}
+            rows = self.row_cache.get(list(keys.values())) if self.row_cache else {}
             for index, key in keys.items():
                 if key in rows:
                     self._fill(index, rows[key])
@@ -173,7 +173,7 @@ class _Sweep:
             workers.stop()
             for future, points in waiting.items():
                 if future.done() and not future.cancelled() and future.exception() is None:
-                    self._keep(points, future.result())
+                    self._save(points, future.result())
             raise
         finally:
             workers.close()
@@ -219,15 +219,15 @@ class _Sweep:
             for first in range(0, len(group), size):
                 yield group[first : first + size].tolist()
 
-    def _keep(self, points: Sequence[Point], rows: Sequence[Row]) -> None:
+    def _save(self, points: Sequence[Point], rows: Sequence[Row]) -> None:
         solved = [pair for pair in zip(points, rows, strict=True) if REFUSED not in pair[1]]
-        if self.kept is not None:
-            self.kept.put({point.key: row for point, row in solved})
+        if self.row_cache is not None:
+            self.row_cache.put({point.key: row for point, row in solved})
         for point, row in solved:
             self._fill(point.index, row)
 
     def _accept(self, points: Sequence[Point], rows: Sequence[Row]) -> None:
-        self._keep(points, rows)
+        self._save(points, rows)
         for point, row in zip(points, rows, strict=True):
             if REFUSED in row:
                 raise InputError(f"{self.grid.describe(point.index)}: {row[REFUSED]}")

@@ -12,7 +12,7 @@ from asperity.results import Result, quantity
 from asperity.results.table import Columns, Table, table_of, table_of_rows
 from asperity.runs import Run
 from asperity.tribometer.reduction import study as reduction
-from asperity.tribometer.reduction.heard.finding import Course
+from asperity.tribometer.reduction.heard.finding import Curve
 from asperity.tribometer.reduction.study import Series
 
 
@@ -48,7 +48,7 @@ class DrawnFinding:
         return "all of it" if self.start is None else f"{self.start:.0f} s"
 
     @property
-    def told(self) -> str:
+    def caption(self) -> str:
         """What stands above its picture."""
         return f"{self.file}, {self.where}: {self.name}"
 
@@ -139,12 +139,12 @@ def answer(series: Series, run: Run) -> Checked:
             if part.refused
         ]
         for finding in listened.findings:
-            start = None if finding.place is None else parts[finding.place].start
+            start = None if finding.index is None else parts[finding.index].start
             found.append(
                 DrawnFinding(name, start, finding.name, finding.evidence, finding.remedy,
                       finding.signals, finding.spoils)
             )  # fmt: skip
-            courses.append(finding.course)
+            courses.append(finding.curve)
     return Checked(
         found=tuple(found), recordings=len(problem), segments=segments, refused=refused,
         findings=len(found), spoiling=sum(one.spoils for one in found), notes=tuple(notes),
@@ -152,7 +152,7 @@ def answer(series: Series, run: Run) -> Checked:
     )  # fmt: skip
 
 
-def _drawn(findings: Sequence[DrawnFinding], courses: Sequence[Course]) -> dict[str, Any]:
+def _drawn(findings: Sequence[DrawnFinding], courses: Sequence[Curve]) -> dict[str, Any]:
     """Return the courses of the findings, each in so many points."""
     shape = len(courses), _POINTS
     x, y, marks = np.zeros(shape), np.zeros(shape), np.zeros((len(courses), 2))
@@ -164,7 +164,7 @@ def _drawn(findings: Sequence[DrawnFinding], courses: Sequence[Course]) -> dict[
         "x": x, "y": y, "marks": marks,
         "across": np.array([one.across for one in courses], dtype=object),
         "up": np.array([one.up for one in courses], dtype=object),
-        "told": np.array([one.told for one in findings], dtype=object),
+        "told": np.array([one.caption for one in findings], dtype=object),
     }  # fmt: skip
 
 

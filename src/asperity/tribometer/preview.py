@@ -74,7 +74,7 @@ class Preview:
         }  # fmt: skip
         self.write()
 
-    def told(self, outputs: Mapping[str, str]) -> None:
+    def show_outputs(self, outputs: Mapping[str, str]) -> None:
         """Say what outputs were told to do; of others it is as it was."""
         now = self._outputs | dict(outputs)
         if self._outputs != now:

@@ -12,8 +12,8 @@ from asperity.arrays import FloatArray
 from asperity.block.problem import BlockProblem
 from asperity.block.result import BlockResult, inputs
 from asperity.block.series import Frame
-from asperity.block.solution.course import Course, Kept, Progress
 from asperity.block.solution.notes import block_notes
+from asperity.block.solution.schedule import Progress, SavedMarch, Schedule
 from asperity.block.solution.stability import Flutter
 from asperity.contact.motion.ledger import energies, power_ledger
 from asperity.contact.motion.rest import rest_under_load
@@ -60,7 +60,7 @@ class BlockMarch:
         self.problem = problem
         self._run = run or Run()
         self._history = history
-        self._course = Course.of(problem, (), history=history)
+        self._course = Schedule.of(problem, (), history=history)
         self._stepper: Stepper | None = None
         self._progress: Progress | None = None
         self._first = 0
@@ -82,17 +82,17 @@ class BlockMarch:
         return self._progress
 
     @property
-    def course(self) -> Course:
+    def schedule(self) -> Schedule:
         """How long the block is marched, and what is due on the way."""
         gone_on = self._progress.durations if self._progress is not None else ()
         if self._course.durations != gone_on:
-            self._course = Course.of(self.problem, gone_on, history=self._history)
+            self._course = Schedule.of(self.problem, gone_on, history=self._history)
         return self._course
 
     @property
     def duration(self) -> float:
         """Time it is marched for, s."""
-        return self.course.problem.model.duration
+        return self.schedule.problem.model.duration
 
     @property
     def done(self) -> int:
@@ -102,7 +102,7 @@ class BlockMarch:
     @property
     def flutter(self) -> Flutter | None:
         """What grows as the block slides; known before the first increment."""
-        return self.course.flutter
+        return self.schedule.flutter
 
     def state(self) -> Tree:
         """Return where the march stands, to be kept: to the last bit, and with what it has learnt.
@@ -112,12 +112,12 @@ class BlockMarch:
         progress = self.progress
         rows, nodes = np.array(progress.rows), np.array(progress.nodes)
         progress = dataclasses.replace(progress, rows=rows, nodes=nodes)
-        tree: Tree = to_tree(Kept(progress, self.stepper.memories()))
+        tree: Tree = to_tree(SavedMarch(progress, self.stepper.memories()))
         return tree
 
     def restore(self, tree: Tree) -> None:
         """Go on from where a march of the same problem stood."""
-        kept = from_tree(Kept, tree)
+        kept = from_tree(SavedMarch, tree)
         self._progress = kept.progress
         self._stepper = Stepper(self.problem.system, kept.progress.snapshot.state)
         self._stepper.restore(kept.progress.snapshot)
@@ -160,7 +160,7 @@ class BlockMarch:
     def to_the_end(self) -> tuple[BlockResult, float | None]:
         """March to the end, and say what duration would do, in s."""
         told = time.perf_counter()
-        table = self.course.table
+        table = self.schedule.table
         try:
             while self.done < table.steps:
                 self._begin_part()
@@ -188,7 +188,7 @@ class BlockMarch:
 
     def _begin_part(self) -> None:
         """Sum anew where the window opens and in its middle, and keep the sums of its quarters."""
-        table, stepper = self.course.table, self.stepper
+        table, stepper = self.schedule.table, self.stepper
         first, middle, third = table.whole_quarters
         if self.done == table.window_start and self.progress.window_energies is None:
             opened = energies(stepper.system, stepper.state)
@@ -206,14 +206,14 @@ class BlockMarch:
     def _until(self, report: float) -> int:
         """Increments up to the next at which something is due, as far as they end by a time."""
         progress = self.progress
-        left = min(number for number in self.course.due if number > progress.done) - progress.done
+        left = min(number for number in self.schedule.due if number > progress.done) - progress.done
         if not progress.timed:
             return 1
         each = progress.march_seconds / progress.timed
         return max(1, min(left, int((report - time.perf_counter()) / each)))
 
     def _increments(self, most: int, *, timed: bool) -> None:
-        began, progress, step = time.perf_counter(), self.progress, self.course.table.step
+        began, progress, step = time.perf_counter(), self.progress, self.schedule.table.step
         ends = step * np.arange(progress.done + 1, progress.done + most + 1, dtype=np.float64)
         rows = self.stepper.steps_to(ends, step)
         solved = time.perf_counter()
@@ -230,22 +230,22 @@ class BlockMarch:
     def _recorded(self, progress: Progress, taken: FloatArray) -> dict[str, Any]:
         """What is recorded of increments, by the rows of their ends."""
         rows, nodes, frames = [*progress.rows], [*progress.nodes], progress.frames
-        course = self.course
-        if course.ends is not None:
+        schedule = self.schedule
+        if schedule.ends is not None:
             for number, node in enumerate(taken, start=progress.done + 1):
                 nodes.append(node)
-                if number == course.ends[len(rows)]:
+                if number == schedule.ends[len(rows)]:
                     rows.append(_condensed(nodes))
                     nodes = []
-        if progress.done + len(taken) in course.frame_steps:
+        if progress.done + len(taken) in schedule.frame_steps:
             frames = (*frames, _frame(self.stepper.state))
         return {"rows": tuple(rows), "nodes": tuple(nodes), "frames": frames}
 
     @property
     def history(self) -> History:
         """Motion and forces up to now."""
-        progress, step = self.progress, self.course.table.step
-        ends = self.course.ends
+        progress, step = self.progress, self.schedule.table.step
+        ends = self.schedule.ends
         if ends is None or not progress.done:
             raise ValueError("nothing is recorded")
         ends, rows = ends[: len(progress.rows)], [*progress.rows]
@@ -256,8 +256,8 @@ class BlockMarch:
         return of_stretches(step, at, span, *np.stack(rows, axis=1))
 
     def _result(self) -> tuple[BlockResult, float | None]:
-        problem, stepper, course = self.problem, self.stepper, self.course
-        model, table, progress = course.problem.model, course.table, self.progress
+        problem, stepper, schedule = self.problem, self.stepper, self.schedule
+        model, table, progress = schedule.problem.model, schedule.table, self.progress
         first, start = progress.first_half, progress.window_energies
         if first is None or start is None or progress.first_pressure is None:
             raise ConvergenceError(f"the march is at {self.done} of {table.steps} increments")
@@ -298,7 +298,7 @@ class BlockMarch:
             cycles=table.cycles,
             seconds=progress.seconds,
             history=self.history if self._history else None,
-            notes=block_notes(course.problem, stepper, powers, window, self.flutter),
+            notes=block_notes(schedule.problem, stepper, powers, window, self.flutter),
             normal_force=sums.normal_force / span,
             iterations_mean=sums.iterations / sums.increments,
             iterations_max=int(sums.iterations_max),

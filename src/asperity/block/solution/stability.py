@@ -133,7 +133,7 @@ def flutter_note(problem: BlockProblem, flutter: Flutter) -> str:
     turn = math.degrees(math.atan2(flutter.direction[1], flutter.direction[0])) + 0.0
     way = "along the drive" if abs(turn) < 1.0 else f"at {turn:.0f} degrees to the drive"
     given, step = problem.block.damping_ratio, problem.timetable.step
-    text = f"the block flutters as it slides {way}: {_told(growth)}, which "
+    text = f"the block flutters as it slides {way}: {_note(growth)}, which "
     if problem.block.modes:
         text += f"a block.damping_ratio of {given:g} does not hold"
     else:
@@ -152,7 +152,7 @@ def flutter_note(problem: BlockProblem, flutter: Flutter) -> str:
     return text
 
 
-def _told(growth: Growth) -> str:
+def _note(growth: Growth) -> str:
     if growth.frequency == 0.0:
         return f"a motion that does not oscillate grows by {growth.rate:.4g}/s"
     return f"an oscillation of {1e-3 * growth.frequency:.4g} kHz grows by {growth.rate:.4g}/s"

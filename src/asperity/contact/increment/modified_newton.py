@@ -36,7 +36,7 @@ _MOST_SETS = 64
 
 
 @dataclass(eq=False)
-class KeptTangent:
+class SavedTangent:
     """A tangent and what it was made for."""
 
     active: bytes  #: The points in contact
@@ -67,10 +67,10 @@ Key = tuple[bytes, int, int, int]
 class TangentCache:
     """Tangents of one problem. They change the time taken and, in the last digits, the answer."""
 
-    kept: dict[Key, KeptTangent] = field(default_factory=dict)  #: The latest used at the end
+    tangents: dict[Key, SavedTangent] = field(default_factory=dict)  #: The latest used at the end
     #: How many increments ended with a set of points in contact, and its mean flexibility
     seen: dict[bytes, tuple[int, float]] = field(default_factory=dict)
-    last: KeptTangent | None = None  #: Used last
+    last: SavedTangent | None = None  #: Used last
 
     def ended_with(self, active: bytes, times: int = 1) -> None:
         """Count increments that ended with these points in contact."""
@@ -79,22 +79,22 @@ class TangentCache:
             del self.seen[next(iter(self.seen))]
         self.seen[active] = (count + times, flexibility)
 
-    def marched(self, kept: KeptTangent, steps: int, iterations: int, active: bytes) -> None:
+    def marched(self, tangent: SavedTangent, steps: int, iterations: int, active: bytes) -> None:
         """Count increments that one tangent solved, and with what points the last one ended."""
-        kept.stale = iterations > MANY
-        if active != kept.active:
-            self.ended_with(kept.active, steps - 1)
+        tangent.stale = iterations > MANY
+        if active != tangent.active:
+            self.ended_with(tangent.active, steps - 1)
             steps = 1
         self.ended_with(active, steps)
 
-    def fitting(self, active: bytes) -> KeptTangent | None:
+    def fitting(self, active: bytes) -> SavedTangent | None:
         """Tangent used last, if it is for these points and converged fast."""
         last = self.last
         if last is None or last.stale or last.active != active:
             return None
         return last
 
-    def chosen(self, problem: IncrementProblem, trial: Trial) -> KeptTangent | None:
+    def chosen(self, problem: IncrementProblem, trial: Trial) -> SavedTangent | None:
         """Tangent for the stiffness at a trial; None for a contact seen the first time."""
         touching = trial.touching
         active = touching.tobytes()
@@ -111,7 +111,7 @@ class TangentCache:
         levels = _level(float(mean[1]) * flexibility), _level(float(mean[2]) * flexibility)
         steepness = round(2.0 * math.log2(float(mean[0]))) if mean[0] > 0.0 else 0
         key = (active, steepness, levels[0], levels[1])
-        entry = self.kept.pop(key, None)
+        entry = self.tangents.pop(key, None)
         if entry is None:
             k1, k2 = (_representative(level) / flexibility for level in levels)
             stiffness = -(
@@ -120,9 +120,9 @@ class TangentCache:
                 + k2 * outer(tangents[:, 1])
             )
             stiffness[~touching] = 0.0
-            entry = KeptTangent(active, factored(problem, touching, stiffness))
+            entry = SavedTangent(active, factored(problem, touching, stiffness))
             self._make_room(entry)
-        self.kept[key] = entry
+        self.tangents[key] = entry
         self.last = entry
         entry.stale = False
         return entry
@@ -130,10 +130,10 @@ class TangentCache:
     def memory(self, points: int) -> TangentMemory:
         """Return what was learnt of a contact with so many points."""
         counts = np.array(list(self.seen.values()), dtype=float).reshape(-1, 2)
-        stiffness = [entry.tangent.stiffness for entry in self.kept.values()]
+        stiffness = [entry.tangent.stiffness for entry in self.tangents.values()]
         return TangentMemory(
-            _sets((key[0] for key in self.kept), points),
-            np.array([key[1:] for key in self.kept], dtype=np.int64).reshape(-1, 3),
+            _sets((key[0] for key in self.tangents), points),
+            np.array([key[1:] for key in self.tangents], dtype=np.int64).reshape(-1, 3),
             np.array(stiffness).reshape(-1, points, 3, 3),
             self.last is None or self.last.stale,
             _sets(self.seen, points),
@@ -149,8 +149,8 @@ class TangentCache:
             memory.active, memory.levels.tolist(), memory.stiffness, strict=True
         ):
             active = touching.tobytes()
-            cache.last = KeptTangent(active, factored(problem, touching, stiffness))
-            cache.kept[(active, *levels)] = cache.last
+            cache.last = SavedTangent(active, factored(problem, touching, stiffness))
+            cache.tangents[(active, *levels)] = cache.last
         if cache.last is not None:
             cache.last.stale = memory.stale
         counts = zip(memory.seen_count.tolist(), memory.seen_flexibility.tolist(), strict=True)
@@ -159,11 +159,11 @@ class TangentCache:
         }
         return cache
 
-    def _make_room(self, entry: KeptTangent) -> None:
+    def _make_room(self, entry: SavedTangent) -> None:
         size = entry.tangent.inverse.nbytes
-        used = sum(other.tangent.inverse.nbytes for other in self.kept.values())
-        while self.kept and (len(self.kept) >= _MOST_TANGENTS or used + size > _MOST_BYTES):
-            used -= self.kept.pop(next(iter(self.kept))).tangent.inverse.nbytes
+        used = sum(other.tangent.inverse.nbytes for other in self.tangents.values())
+        while self.tangents and (len(self.tangents) >= _MOST_TANGENTS or used + size > _MOST_BYTES):
+            used -= self.tangents.pop(next(iter(self.tangents))).tangent.inverse.nbytes
 
 
 def _sets(active: Iterable[bytes], points: int) -> npt.NDArray[np.bool_]:
@@ -220,7 +220,7 @@ def solve(
         start = trial.u if displacement is None else displacement
     else:
         start = committed if displacement is None else displacement
-    tried: KeptTangent | None = None
+    tried: SavedTangent | None = None
     for _ in range(2):
         if entry is None:
             trial = increment.evaluate(assumed, start - increment.free)

@@ -90,7 +90,7 @@ class IncrementSolver:
         self.tangents = modified_newton.TangentCache.recalled(self.problem, memory.tangents)
         self.multiplier_tangent = memory.multiplier_tangent
 
-    def kept_tangent(self, state: ContactState) -> modified_newton.KeptTangent | None:
+    def saved_tangent(self, state: ContactState) -> modified_newton.SavedTangent | None:
         """Return the tangent that the next increment begins with, if that is all it may need."""
         past = state.predictor
         if past.mark != self.problem.mark or len(past.forces) < DEPTH:

@@ -165,7 +165,7 @@ class Stepper:
         moving, solver, numbers = self.stepping(step)
         state, contact = self.state, self.state.contact.state
         rows = np.empty((len(ends), len(Row._fields)))
-        kept = solver.kept_tangent(contact)
+        kept = solver.saved_tangent(contact)
         if kept is None:
             return rows[:0]
         sums, pressure, before = np.array(self.sums), self.mean_pressure.copy(), contact.predictor

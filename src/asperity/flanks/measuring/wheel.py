@@ -49,8 +49,8 @@ class Space:
         """
         module = self.wheel.pair.geometry.axial_module
 
-        def off(place: FloatArray) -> FloatArray:
-            face, size = place * module
+        def off(position: FloatArray) -> FloatArray:
+            face, size = position * module
             return self._off(contact, face, size)[0]
 
         face, size = self._solved(off, np.array([0.0, 1.7])) * module
@@ -67,8 +67,8 @@ class Space:
         geometry = self.wheel.pair.geometry
         module = geometry.axial_module
 
-        def off(place: FloatArray) -> FloatArray:
-            radius, face = place * module
+        def off(position: FloatArray) -> FloatArray:
+            radius, face = position * module
             return self._off(radius, face, diameter)[0]
 
         start = np.array([0.5 * geometry.wheel_mean_diameter / module, 0.0])
@@ -98,21 +98,21 @@ class Space:
         around = math.atan2(centre[0], centre[1]) - middle
         return np.array([out * around, centre[2]]), centre, out
 
-    def _solved(self, off: Callable[[FloatArray], FloatArray], place: FloatArray) -> FloatArray:
+    def _solved(self, off: Callable[[FloatArray], FloatArray], position: FloatArray) -> FloatArray:
         """Return the place at which a function of two numbers vanishes, by Newton's method."""
-        here = off(place)
+        here = off(position)
         for _ in range(_STEPS):
             size = float(np.abs(here).max())
             if size <= _TOLERANCE:
-                return place
+                return position
             slope = np.column_stack(
-                [(off(place + step) - here) / _DIFFERENCE for step in _DIFFERENCE * np.eye(2)]
+                [(off(position + step) - here) / _DIFFERENCE for step in _DIFFERENCE * np.eye(2)]
             )
             step = np.linalg.lstsq(slope, -here)[0]
             # Off the flank there is nothing to solve on: a shorter step stays on it.
             for _ in range(_STEPS):
                 try:
-                    there = off(place + step)
+                    there = off(position + step)
                 except InputError:
                     step = 0.5 * step
                     continue
@@ -121,9 +121,9 @@ class Space:
                 step = 0.5 * step
             else:
                 break
-            place, here = place + step, there
+            position, here = position + step, there
         if float(np.abs(here).max()) <= 1e3 * _TOLERANCE:
-            return place
+            return position
         raise ConvergenceError(
             "no place was found where a ball touches the wheel's flanks",
             reached={"off_mm": float(np.abs(here).max())},

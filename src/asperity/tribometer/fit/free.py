@@ -61,7 +61,7 @@ class Free:
             key, quantity, float(start), _written(case.raw.get(table, {}).get(own), quantity)
         )
 
-    def told(self, value: float) -> str:
+    def text(self, value: float) -> str:
         """Return a value in SI as text in the unit of the tables, to four digits."""
         zero, one = (to_si(f"{n} {self.written}".strip(), self.quantity.unit) for n in (0, 1))
         return f"{float(f'{(value - zero) / (one - zero):.4g}'):.12g} {self.written}".rstrip()

@@ -22,7 +22,7 @@ from asperity.tribometer.fit.free import Free
 from asperity.tribometer.fit.outliers import Spoilt, spoilt
 from asperity.tribometer.fit.problem import FitProblem
 from asperity.tribometer.fit.result import FitResult, Law, Proposed
-from asperity.tribometer.fit.words import improbable, notes, parameter_of, told_of
+from asperity.tribometer.fit.words import improbable, notes, outlier_row, parameter_of
 from asperity.tribometer.parameters import Rig
 
 _LAW = "friction.law"
@@ -165,7 +165,7 @@ class _Data:
         try:
             values, why = self._predict(rows, given)
         except InputError as error:
-            came = ", ".join(f"{f.key} = {f.told(float(given[f.key]))}" for f in self.problem.free)
+            came = ", ".join(f"{f.key} = {f.text(float(given[f.key]))}" for f in self.problem.free)
             raise InputError(
                 f"the fit comes to {came}, where {error}; free that too, or give it another value"
             ) from None
@@ -375,7 +375,7 @@ def _result(
         law=law, points=len(values), chi2=best.chi2, dof=_freedom(chosen), solves=predict.solves,
         evaluations=evaluations, marched=predict.marched, measured=values, deviation=deviations,
         predicted=values - best.residuals * deviations, residuals=best.residuals,
-        outliers=tuple(told_of(problem, answered[far.measurement], far, deviations)
+        outliers=tuple(outlier_row(problem, answered[far.measurement], far, deviations)
                        for far in outliers),
         deviation_known=problem.data.weighed,
         notes=tuple(notes(problem, predict, best, answered, data.left_out, ruined, deviations)),

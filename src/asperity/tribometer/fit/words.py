@@ -42,7 +42,7 @@ def parameter_of(
         why = f"only together with {problem.free[partner].key}: the data see one number of both"
     elif stopped := [walls[index, side] for side in (-1, 1) if (index, side) in walls]:
         (reached, reason), *_ = stopped
-        why = f"the model answers no further than {one.told(math.exp(reached))}: {reason}"
+        why = f"the model answers no further than {one.text(math.exp(reached))}: {reason}"
     elif found.ends == (None, None):
         why = "chi-square does not rise by 3.84 on either side"
     elif found.width is None:
@@ -102,7 +102,7 @@ def notes(
     if ruined is not None:
         them = "them" if len(ruined.outliers) > 1 else "it"
         values = ", ".join(
-            f"{one.key} {one.told(math.exp(value))}"
+            f"{one.key} {one.text(math.exp(value))}"
             for one, value in zip(problem.free, ruined.point, strict=True)
         )
         found.append(
@@ -127,7 +127,7 @@ def notes(
     return found
 
 
-def told_of(
+def outlier_row(
     problem: FitProblem, index: int, outlier: Outlier, deviations: FloatArray
 ) -> dict[str, float | int]:
     """Return a row that spoils a fit, as JSON has it."""

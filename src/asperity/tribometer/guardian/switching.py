@@ -111,7 +111,7 @@ class Switching:
                 asked[LISTENER] = self._read(LISTENER, came)
             answered = [key for key, future in asked.items() if future.done()]
             # Of what was asked again, what it answered last.
-            known |= {key: _told(asked[key]) for key in answered}
+            known |= {key: _result_or_error(asked[key]) for key in answered}
             if isinstance(known.get(LISTENER), bool):
                 self._moved = known[LISTENER]
             listening = LISTENER in asked and LISTENER not in known
@@ -226,6 +226,6 @@ class Switching:
 _SILENT = InstrumentError("it has not answered", kind="late")
 
 
-def _told(future: "cf.Future[Any]") -> Any:
+def _result_or_error(future: "cf.Future[Any]") -> Any:
     error = future.exception()
     return error if error is not None else future.result()

@@ -57,7 +57,7 @@ def findings(
         segments, heard = heard_in(Reducible(held, case))
     except InputError:
         return ()
-    return heard.told(segments)
+    return heard.rows(segments)
 
 
 @dataclasses.dataclass(frozen=True)

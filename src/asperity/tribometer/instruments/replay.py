@@ -124,7 +124,7 @@ class ReplayScope(Scope):
         if abs(nearest - now) <= _NEAR:
             self._place = round(nearest / played.sample_interval)
 
-    def told(self, kind: str) -> str:
+    def last_event(self, kind: str) -> str:
         """Return the last event of a kind, empty where there is none."""
         played = self._started()
         now = (self._place - 0.5) * played.sample_interval  # of the last sample handed out
@@ -211,7 +211,7 @@ class ReplaySupply(_Replayed):
 
     def reading(self) -> Reading:
         """Return what the recording says was set; currents are on its channels."""
-        text = self._scope.told(self._kind) if self._scope.plays else ""
+        text = self._scope.last_event(self._kind) if self._scope.plays else ""
         return Reading(0.0 if text in ("", _OFF) else to_si(text, "V"), 0.0)
 
     def output(self) -> bool:

@@ -236,8 +236,8 @@ def _of(identifier: str) -> dict[str, str]:
     return {"@id": identifier}
 
 
-def _id_of(person: Person, place: int) -> str:
-    return _ORCID + person.orcid if person.orcid else f"#author-{place + 1}"
+def _id_of(person: Person, index: int) -> str:
+    return _ORCID + person.orcid if person.orcid else f"#author-{index + 1}"
 
 
 def _institute(person: Person) -> str:

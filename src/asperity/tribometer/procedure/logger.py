@@ -140,7 +140,7 @@ class Logger:
         self.expected = expected
         self._told = self._bench.clock.now()
         vibrates = f"on, {expected.waveform} {expected.frequency:g} Hz"
-        self._preview.told(
+        self._preview.show_outputs(
             {self._bench.vibration.name: vibrates if expected.frequency else "off"}
             | {
                 motor.name: f"on, {expected.volts[key]:g} V" if key in expected.volts else "off"
@@ -237,7 +237,7 @@ class Logger:
         """Return mean signals of a window in SI."""
         return self._interlock.levels(window.means())
 
-    def keep(self) -> None:
+    def flush(self) -> None:
         """Bring what is recorded so far to the disk."""
         if self._recorder is not None:
             self._bench.work(self._recorder.flush)

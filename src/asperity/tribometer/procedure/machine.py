@@ -99,9 +99,9 @@ class Machine:
         self._packer = Packer(run.notify)
         units = units_of([one.signal for one in bench.scope.inputs])
         self._preview = Preview(folder, units, simulated=bench.simulated)
-        self._approach = Approach(bench, self._new_logger, self._preview.told)
+        self._approach = Approach(bench, self._new_logger, self._preview.show_outputs)
         self._slides = Sliding(case, self._plan)
-        self._driving = Driving(bench, self._plan, self._approach.ran, self._preview.told)
+        self._driving = Driving(bench, self._plan, self._approach.ran, self._preview.show_outputs)
 
     def go(self) -> AsperityError | None:
         """Do what is left.
@@ -340,7 +340,7 @@ class Machine:
         if idle := self._slides.idle:
             logger.watch(idle)
         # The journal is not to tell of samples that a kill would still cost.
-        logger.keep()
+        logger.flush()
         return {
             "cell": cell.number,
             "frequency_Hz": cell.frequency,

@@ -43,7 +43,7 @@ _LEAST_SAMPLES_A_CYCLE = 2.5
 _RECORDED = frozenset(("rest", "cell", "save"))
 
 
-def check_kept(journal: Lines) -> None:
+def check_recordings(journal: Lines) -> None:
     """See that the recordings of finished cells are there, can be read and are what they were.
 
     Raises
@@ -285,7 +285,7 @@ def _opened(problem: RunProblem, journal: Lines) -> None:
         raise InputError("--acknowledge is given and nothing has latched; leave it out")
     if latched is not None:
         journal.write("acknowledged", text=problem.acknowledge, of=latched["line"])
-    check_kept(journal)
+    check_recordings(journal)
     journal.write("resumed")
 
 

@@ -141,7 +141,7 @@ class _Fit:
         information[:-1, -1] = information[-1, :-1] = across
         return likelihood, estimate, information
 
-    def told(
+    def in_full(
         self, parameters: FloatArray
     ) -> tuple[float, FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
         """Return what the signal says, and where from.
@@ -269,7 +269,7 @@ def _at_all_delays(
 
     The likeliest delay alone would be that of the largest give, wherever little tells of it.
     """
-    found = [fit.with_swings(one).told(parameters) for one in shown]
+    found = [fit.with_swings(one).in_full(parameters) for one in shown]
     likelihoods = np.array([one[0] for one in found])
     likely = np.exp(0.5 * (likelihoods.min() - likelihoods))
     likely /= likely.sum()

@@ -91,7 +91,7 @@ def reduce_file(
     ]
     levels = None if joint is None else joint.levels[TORQUE]
     whole = _file(recording, pair, blocks, segments, found, levels)
-    return dataclasses.replace(whole, findings=heard.told(segments)), found
+    return dataclasses.replace(whole, findings=heard.rows(segments)), found
 
 
 def _joint(blocks: Blocks, windows: Windows, pair: Pair, options: Reduction) -> Joint:
@@ -240,7 +240,7 @@ def _turned(pair: Pair, before: float, shaken: float) -> Iterator[str]:
 
 def _amplitude(blocks: Blocks, tones: Tones | None, doubt: float) -> Cause:
     """Return what is not known of v_a, by the accelerometer's calibration or as stated."""
-    if tones is None or not tones.told:
+    if tones is None or not tones.has_tone:
         return Cause("v_a: table of [sonotrode]", "B", np.array([[doubt**2]]))
     freedom = blocks.lines["acceleration"].degrees_of_freedom
     kind: Kind = "B" if freedom == math.inf else "A"
@@ -265,7 +265,7 @@ def _velocity(
     frequency = segment.commanded
     if frequency is None:
         return None, 0.0, []
-    if tones is not None and tones.told and segment.tone is not None:
+    if tones is not None and tones.has_tone and segment.tone is not None:
         line = blocks.lines["acceleration"]
         peak = float(quantities.velocity_amplitude(tones.amplitude, segment.tone.frequency))
         return peak, peak * abs(line.gain_deviation / line.gain), []

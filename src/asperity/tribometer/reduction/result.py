@@ -14,7 +14,7 @@ from asperity.results.table import Table
 from asperity.tribometer.parameters import TRANSVERSE
 from asperity.tribometer.reduction import budget_tables
 from asperity.tribometer.reduction.rows import csv_of
-from asperity.tribometer.reduction.wear_result import WearResult, path_told, wear_table
+from asperity.tribometer.reduction.wear_result import WearResult, path_text, wear_table
 from asperity.tribometer.uncertainty import Budget, Budgeted
 
 if TYPE_CHECKING:
@@ -295,7 +295,7 @@ class Reduced(Result):
             )
         remarks = [
             f"{one['disc']} disc{_between(one)}: {one['mass_loss_mg']:.3g} mg lost over "
-            f"{one['distance_m']:.3g} m of sliding, {path_told(one['path_m'])}"
+            f"{one['distance_m']:.3g} m of sliding, {path_text(one['path_m'])}"
             + (f": Archard's K is {one['archard']:.3g}" if one["archard"] is not None else "")
             for one in self.weighed
         ]

@@ -70,7 +70,7 @@ def ratios(rates: Sequence[WearResult]) -> Iterator[str]:
         )
 
 
-def path_told(path: float | None) -> str:
+def path_text(path: float | None) -> str:
     """Return a path in words, m; None where it is not known."""
     if path is None:
         return "on a path that is not known, since k is not of every vibration"

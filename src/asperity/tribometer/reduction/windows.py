@@ -78,7 +78,7 @@ class Windows:
         )
 
 
-def of_segment(of: Mapping[str, FloatArray], place: int) -> dict[str, FloatArray]:
+def of_segment(of: Mapping[str, FloatArray], index: int) -> dict[str, FloatArray]:
     """Return of covariances of all windows the part of a segment's two."""
-    here = slice(2 * place, 2 * place + 2)
+    here = slice(2 * index, 2 * index + 2)
     return {name: covariance[here, here] for name, covariance in of.items()}

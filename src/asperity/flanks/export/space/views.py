@@ -132,10 +132,10 @@ def _surfaces(
         yield from _surfaces(child, at @ _matrix(child.rotation, child.place))
 
 
-def _matrix(rotation: FloatArray, place: FloatArray | None = None) -> FloatArray:
+def _matrix(rotation: FloatArray, position: FloatArray | None = None) -> FloatArray:
     made = np.eye(4)
     made[:3, :3] = rotation
-    made[:3, 3] = 0.0 if place is None else place
+    made[:3, 3] = 0.0 if position is None else position
     return made
 
 

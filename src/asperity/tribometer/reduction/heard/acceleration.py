@@ -44,14 +44,14 @@ class Heard:
     noise: float
 
     @property
-    def told(self) -> bool:
+    def has_tone(self) -> bool:
         """Whether there is a tone at all."""
         return self.amplitude > _ABOVE_NOISE * self.noise
 
 
-def heard(of: Material, place: int) -> Heard | None:
+def heard(of: Material, index: int) -> Heard | None:
     """Return what the accelerometer hears in a segment; None where nothing can be told."""
-    one = of.segments[place]
+    one = of.segments[index]
     if not of.has("acceleration") or one.tone is None:
         return None
     samples = of.blocks.samples
@@ -71,50 +71,50 @@ def heard(of: Material, place: int) -> Heard | None:
     return Heard(amplitude, overtones, beside, at, found.usual)
 
 
-def findings(of: Material, told: Mapping[int, Heard]) -> Iterator[Finding]:
+def findings(of: Material, heard_by_segment: Mapping[int, Heard]) -> Iterator[Finding]:
     """Yield what an accelerometer hears beside the vibration of segments, or does not hear."""
-    for place, one in told.items():
-        yield from _findings(of, place, one)
+    for index, one in heard_by_segment.items():
+        yield from _findings(of, index, one)
 
 
-def _findings(of: Material, place: int, told: Heard) -> Iterator[Finding]:
-    one = of.segments[place]
+def _findings(of: Material, index: int, tones: Heard) -> Iterator[Finding]:
+    one = of.segments[index]
     if one.tone is None:
         return
     frequency = one.tone.frequency
     overtones = ", ".join(
         f"{peak:.3g} at {order * frequency:.0f} Hz"
-        for order, peak in zip(_ORDERS, told.overtones, strict=True) if not math.isnan(peak)
+        for order, peak in zip(_ORDERS, tones.overtones, strict=True) if not math.isnan(peak)
     )  # fmt: skip
-    at_drive = f"{told.amplitude:.3g} m/s2 at {frequency:.0f} Hz"
+    at_drive = f"{tones.amplitude:.3g} m/s2 at {frequency:.0f} Hz"
     name = ""
-    if not told.told:
+    if not tones.has_tone:
         name = "accelerometer does not hear the vibration"
-        evidence = f"{at_drive}, {told.beside:.3g} at {told.at:.0f} Hz"
-    elif (most := max((x for x in told.overtones if not math.isnan(x)), default=0.0)) > (
-        _BESIDE * told.amplitude
+        evidence = f"{at_drive}, {tones.beside:.3g} at {tones.at:.0f} Hz"
+    elif (most := max((x for x in tones.overtones if not math.isnan(x)), default=0.0)) > (
+        _BESIDE * tones.amplitude
     ):
         name = "accelerometer hears overtones"
         evidence = f"{at_drive} is taken alone, beside it {overtones}"
-        evidence += f", {100.0 * most / told.amplitude:.0f} % of it"
-    elif told.beside > _BESIDE * told.amplitude:
+        evidence += f", {100.0 * most / tones.amplitude:.0f} % of it"
+    elif tones.beside > _BESIDE * tones.amplitude:
         name = "accelerometer hears something else"
-        evidence = f"{at_drive} is taken alone, beside it {told.beside:.3g} at {told.at:.0f} Hz"
+        evidence = f"{at_drive} is taken alone, beside it {tones.beside:.3g} at {tones.at:.0f} Hz"
     if name:
         yield Finding(
-            name, evidence, _REMEDY, ("acceleration",), spectrum_of(of, place, "acceleration"),
-            place,
+            name, evidence, _REMEDY, ("acceleration",), spectrum_of(of, index, "acceleration"),
+            index,
         )  # fmt: skip
         return
     level = groups(of, "acceleration", one.shaken)
     middle = float(np.median(level))
     if middle > 0.0 and float(np.ptp(level)) > _STEADY * middle:
-        part = of.around(place)
-        course = of.course("acceleration", [one.shaken], part=part)
+        part = of.around(index)
+        curve = of.curve("acceleration", [one.shaken], part=part)
         yield Finding(
             "accelerometer's level is not steady",
             f"its deviation is between {level.min():.3g} and {level.max():.3g} m/s2 within the "
             "window",
             "see whether the vibration came late, or the sensor is loose", ("acceleration",),
-            course, place,
+            curve, index,
         )  # fmt: skip

@@ -19,7 +19,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.tribometer.reduction.drive_signal import Stretch
-from asperity.tribometer.reduction.heard.finding import Course
+from asperity.tribometer.reduction.heard.finding import Curve
 from asperity.tribometer.reduction.heard.material import Material
 
 _PARTS = 1.0, 0.5  # s over which means are taken: that hang together little, else of short windows
@@ -70,11 +70,11 @@ class Answers:
         x, off = np.maximum(self.x, _LEAST), self.unsure + wanders
         return (self.y - off) / ((1.0 + bent) * x), (self.y + off) / ((1.0 - bent) * x)
 
-    def course(self) -> Course:
+    def curve(self) -> Curve:
         """Return them as a picture, in the torque's order."""
         order = np.argsort(self.x)
         torque, signal = (f"change of {name}" for name in self.names)
-        return Course(self.x[order], self.y[order], torque, signal)
+        return Curve(self.x[order], self.y[order], torque, signal)
 
 
 def answers(of: Material, torque: str, signal: str, names: tuple[str, str]) -> Answers | None:

@@ -9,7 +9,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.tribometer.parameters import Sonotrode
 from asperity.tribometer.reduction.drive_signal import Stretch, Tone
-from asperity.tribometer.reduction.heard.finding import Course, Finding
+from asperity.tribometer.reduction.heard.finding import Curve, Finding
 from asperity.tribometer.reduction.heard.material import Material
 from asperity.tribometer.reduction.heard.spectrum import spectrum_of
 
@@ -32,16 +32,16 @@ def findings(of: Material) -> Iterator[Finding]:
     """Yield what the drive signal of each segment shows."""
     usual = _usual([one.tone for one in of.segments])
     commands = list(of.commands())
-    for place, one in enumerate(of.segments):
+    for index, one in enumerate(of.segments):
         if not one.shaken.count:
             continue
-        yield from _level(of, place, usual)
-        yield from _shape(of, place)
-        yield from _delay(of, place, commands)
-        yield from _breaks(of, place)
+        yield from _level(of, index, usual)
+        yield from _shape(of, index)
+        yield from _delay(of, index, commands)
+        yield from _breaks(of, index)
         if not one.refused:
-            yield from _before(of, place)
-            yield from _late(of, place)
+            yield from _before(of, index)
+            yield from _late(of, index)
 
 
 def groups(of: Material, signal: str, window: Stretch) -> FloatArray:
@@ -63,8 +63,8 @@ def _usual(tones: Sequence[Tone | None]) -> float:
     return float(np.median(found)) if found else 0.0
 
 
-def _level(of: Material, place: int, usual: float) -> Iterator[Finding]:
-    one = of.segments[place]
+def _level(of: Material, index: int, usual: float) -> Iterator[Finding]:
+    one = of.segments[index]
     level = groups(of, "drive_voltage", one.shaken)
     middle = float(np.median(level))
     if middle > 0.0 and float(np.ptp(level)) > _STEADY * middle:
@@ -72,7 +72,7 @@ def _level(of: Material, place: int, usual: float) -> Iterator[Finding]:
             "drive signal is not steady",
             f"its level goes from {level[0]:.3g} to {level[-1]:.3g} V, between {level.min():.3g} "
             f"and {level.max():.3g} V, within the window",
-            _LOOK, ("drive_voltage",), _of_deviation(of, place), place,
+            _LOOK, ("drive_voltage",), _of_deviation(of, index), index,
         )  # fmt: skip
         return
     if one.tone is None:
@@ -82,7 +82,7 @@ def _level(of: Material, place: int, usual: float) -> Iterator[Finding]:
         yield Finding(
             "drive signal differs from the file's others",
             f"its peak is {peak:.3g} V, theirs {usual:.3g} V", _LOOK, ("drive_voltage",),
-            _of_deviation(of, place), place,
+            _of_deviation(of, index), index,
         )  # fmt: skip
     sonotrode = of.case.get(Sonotrode)
     if sonotrode is None or of.has("acceleration"):
@@ -93,20 +93,20 @@ def _level(of: Material, place: int, usual: float) -> Iterator[Finding]:
             "drive signal is not the table's",
             f"its peak is {peak:.3g} V, [sonotrode] tells velocities at {full:.3g} V", _LOOK +
             ", or give the channel's calibration points", ("drive_voltage",),
-            _of_deviation(of, place), place,
+            _of_deviation(of, index), index,
         )  # fmt: skip
 
 
-def _of_deviation(of: Material, place: int) -> Course:
-    part = of.around(place)
-    course = of.course("drive_voltage", [of.segments[place].shaken], part=part)
+def _of_deviation(of: Material, index: int) -> Curve:
+    part = of.around(index)
+    curve = of.curve("drive_voltage", [of.segments[index].shaken], part=part)
     values = of.blocks.drive_deviation[part.first : part.last]
     lost = of.blocks.lost["drive_voltage"][part.first : part.last]
-    return dataclasses.replace(course, y=values[~lost], up="drive signal, deviation (V)")
+    return dataclasses.replace(curve, y=values[~lost], up="drive signal, deviation (V)")
 
 
-def _shape(of: Material, place: int) -> Iterator[Finding]:
-    one = of.segments[place]
+def _shape(of: Material, index: int) -> Iterator[Finding]:
+    one = of.segments[index]
     if one.tone is None or one.refused:
         return
     if one.tone.impurity > _IMPURE or one.tone.second > _EVEN:
@@ -116,14 +116,14 @@ def _shape(of: Material, place: int) -> Iterator[Finding]:
             f"drive signal is not {asked}",
             f"beside its first harmonic there is {100.0 * one.tone.impurity:.2g} % of it, "
             f"{100.0 * one.tone.second:.2g} % the second{third}",
-            _LOOK, ("drive_voltage",), spectrum_of(of, place, "drive_voltage"), place,
+            _LOOK, ("drive_voltage",), spectrum_of(of, index, "drive_voltage"), index,
         )  # fmt: skip
 
 
 def _delay(
-    of: Material, place: int, commands: Sequence[tuple[float, float, str]]
+    of: Material, index: int, commands: Sequence[tuple[float, float, str]]
 ) -> Iterator[Finding]:
-    one = of.segments[place]
+    one = of.segments[index]
     length = of.blocks.length
     end = (one.shaken.last + 1) * length
     told = [span for span in commands if span[0] - _DELAY <= 0.5 * (one.start + end) < span[1]]
@@ -135,23 +135,23 @@ def _delay(
             "vibration comes late",
             f"{text} was commanded at {begun:.2f} s and is heard from {one.start:.2f} s on, "
             f"{one.start - begun:.2f} s later",
-            _LOOK, ("drive_voltage",), _of_deviation(of, place), place,
+            _LOOK, ("drive_voltage",), _of_deviation(of, index), index,
         )  # fmt: skip
-    on = of.segments[place].shaken.last * length
+    on = of.segments[index].shaken.last * length
     if ended - on > 2.0 * _DELAY and ended < of.recording.duration:
         yield Finding(
             "vibration ends early",
             f"it is heard until {on:.2f} s and was commanded until {ended:.2f} s", _LOOK,
-            ("drive_voltage",), _of_deviation(of, place), place,
+            ("drive_voltage",), _of_deviation(of, index), index,
         )  # fmt: skip
 
 
-def _breaks(of: Material, place: int) -> Iterator[Finding]:
+def _breaks(of: Material, index: int) -> Iterator[Finding]:
     """Yield a break in a vibration that goes on as it was."""
-    for other in (place - 1, place + 1):
+    for other in (index - 1, index + 1):
         if not 0 <= other < len(of.segments):
             continue
-        first, second = (of.segments[n] for n in sorted((place, other)))
+        first, second = (of.segments[n] for n in sorted((index, other)))
         ended = first.shaken.last + 1
         gap = second.start - ended * of.blocks.length
         if gap < of.given.least_window and _alike(of, first.tone, second.tone):
@@ -159,7 +159,7 @@ def _breaks(of: Material, place: int) -> Iterator[Finding]:
             why = "it is missing or past its range" if gone.any() else "it is not heard"
             yield Finding(
                 "vibration breaks", f"{why} for {gap:.2g} s, and goes on", _LOOK,
-                ("drive_voltage",), _of_deviation(of, place), place,
+                ("drive_voltage",), _of_deviation(of, index), index,
             )  # fmt: skip
             return
 
@@ -171,8 +171,8 @@ def _alike(of: Material, tone: Tone | None, other: Tone | None) -> bool:
     return apart < of.given.frequency_tolerance * tone.frequency
 
 
-def _before(of: Material, place: int) -> Iterator[Finding]:
-    one = of.segments[place]
+def _before(of: Material, index: int) -> Iterator[Finding]:
+    one = of.segments[index]
     quiet, loud = (
         float(np.median(of.blocks.drive_deviation[part.first : part.last]))
         for part in (one.before, one.shaken)
@@ -181,13 +181,13 @@ def _before(of: Material, place: int) -> Iterator[Finding]:
         yield Finding(
             "vibration in what should be without",
             f"the drive signal varies by {quiet:.2g} V before, by {loud:.2g} V with it",
-            _LOOK, ("drive_voltage",), _of_deviation(of, place), place,
+            _LOOK, ("drive_voltage",), _of_deviation(of, index), index,
         )  # fmt: skip
 
 
-def _late(of: Material, place: int) -> Iterator[Finding]:
+def _late(of: Material, index: int) -> Iterator[Finding]:
     """Yield a torque that steps within a window as it does when vibration comes or goes."""
-    one = of.segments[place]
+    one = of.segments[index]
     levels = [of.level("torque_steel", part).value for part in (one.before, one.shaken)]
     change = abs(levels[1] - levels[0])
     every = max(1, round(_STEP_GROUP / of.blocks.length))
@@ -196,10 +196,10 @@ def _late(of: Material, place: int) -> Iterator[Finding]:
         count = values.size // every
         if count < 3 * _STEP_END + 2:
             continue
-        course = values[: count * every].reshape(count, every).mean(axis=1)
-        at, height, left = _step(course)
+        curve = values[: count * every].reshape(count, every).mean(axis=1)
+        at, height, left = _step(curve)
         time = np.linspace(-1.0, 1.0, count)
-        bent = course - np.polynomial.Polynomial.fit(time, course, 2)(time)
+        bent = curve - np.polynomial.Polynomial.fit(time, curve, 2)(time)
         sharp = left < _STEP_FIT * float(bent @ bent)
         sure = abs(height) > _STEP_SURE * math.sqrt(left / count)
         if sharp and sure and abs(height) > _STEP_SHARE * change:
@@ -210,16 +210,16 @@ def _late(of: Material, place: int) -> Iterator[Finding]:
                 f"signal began, of a change of {change:.2g} N m",
                 "see whether the vibration came late or broke, or the discs slipped",
                 ("torque_steel",),
-                of.course("torque_steel", [window], part=of.around(place)), place,
+                of.curve("torque_steel", [window], part=of.around(index)), index,
             )  # fmt: skip
             return
 
 
-def _step(course: FloatArray) -> tuple[int, float, float]:
+def _step(curve: FloatArray) -> tuple[int, float, float]:
     """Return where a course steps, by how much, and the squares a step leaves."""
     best = (0, 0.0, math.inf)
-    for at in range(_STEP_END, course.size - _STEP_END):
-        one, other = course[:at], course[at:]
+    for at in range(_STEP_END, curve.size - _STEP_END):
+        one, other = curve[:at], curve[at:]
         left = float(((one - one.mean()) ** 2).sum() + ((other - other.mean()) ** 2).sum())
         if left < best[2]:
             best = at, float(other.mean() - one.mean()), left

@@ -6,7 +6,7 @@ from asperity.arrays import FloatArray
 
 
 @dataclasses.dataclass(frozen=True)
-class Course:
+class Curve:
     """What a finding is seen by, as points of a picture.
 
     Attributes
@@ -40,7 +40,7 @@ class Finding:
         What to do.
     signals : tuple of str
         What it is seen in.
-    course : Course
+    course : Curve
         Its picture.
     place : int or None
         Of the segment it is in; None: the whole recording.
@@ -52,8 +52,8 @@ class Finding:
     evidence: str
     remedy: str
     signals: tuple[str, ...]
-    course: Course
-    place: int | None = None
+    curve: Curve
+    index: int | None = None
     spoils: bool = True
 
     @property

@@ -69,7 +69,7 @@ def _sides(of: Material) -> Iterator[Finding]:
             f"hold 0 to {most:.3g} N m",
             "look at what comes into the torques with the motors, at both calibrations and at "
             "bearing_torque_steel, bearing_torque_bronze and bearing_tolerance of [rig]",
-            names, of.course(names[1]),
+            names, of.curve(names[1]),
         )  # fmt: skip
 
 
@@ -111,7 +111,7 @@ def _drawn(of: Material, twin: Twin) -> Iterator[Finding]:
         f"{np.median(high[:, 0]):.3g})",
         "look at the calibrations of its clamp and of the torque, at what comes into them with "
         "the motor, and at motor_constant, motor_drag and gear_efficiency of [twin]",
-        ("current_steel", "torque_steel"), of.course("current_steel"),
+        ("current_steel", "torque_steel"), of.curve("current_steel"),
     )  # fmt: skip
 
 
@@ -125,7 +125,7 @@ def _runs(of: Material, twin: Twin) -> Iterator[Finding]:
         return
     speed, current = (levels_of(of, name) for name in names)
     told = []
-    for (place, *both), w, i in zip(of.windows, speed, current, strict=True):
+    for (index, *both), w, i in zip(of.windows, speed, current, strict=True):
         if not (np.isfinite(w).all() and np.isfinite(i).all()) or w[0] < least_of(names[0]):
             continue
         less, left = i[0] - i[2], _SURE * float(np.hypot(i[1], i[3]))
@@ -139,15 +139,15 @@ def _runs(of: Material, twin: Twin) -> Iterator[Finding]:
         )
         unsure += twin.lead_voltage * abs(less) / max(abs(i[0]), abs(less)) / twin.motor_constant
         if abs(w[2] - w[0] - wanted) > unsure:
-            told.append((place, w[2] - w[0], wanted, w[0]))
-    for place, seen, wanted, level in told[:1] if len(told) == len(of.windows) else told:
+            told.append((index, w[2] - w[0], wanted, w[0]))
+    for index, seen, wanted, level in told[:1] if len(told) == len(of.windows) else told:
         yield Finding(
             "speed_steel does not answer as its motor",
             f"it changes by {seen:.3g} rad/s of {level:.3g}, its current leaves it {wanted:.3g} "
             "at a supply that holds its volts",
             "look at the encoder and its coupling, at the supply, and at motor_constant and "
             "motor_resistance of [twin]",
-            names, of.course(names[0]), place if len(told) < len(of.windows) else None,
+            names, of.curve(names[0]), index if len(told) < len(of.windows) else None,
         )  # fmt: skip
 
 

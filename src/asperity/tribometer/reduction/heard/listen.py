@@ -44,15 +44,15 @@ class Listened:
     tones: Mapping[int, Tones]
     at_rest: bool
 
-    def of_segment(self, place: int) -> list[Finding]:
+    def of_segment(self, index: int) -> list[Finding]:
         """Return what concerns a segment."""
-        return [one for one in self.findings if one.place in (None, place)]
+        return [one for one in self.findings if one.index in (None, index)]
 
-    def told(self, segments: Sequence[Segment]) -> tuple[dict[str, Any], ...]:
+    def rows(self, segments: Sequence[Segment]) -> tuple[dict[str, Any], ...]:
         """Return the findings, as JSON has them; those of the whole recording have no start."""
         return tuple(
             {
-                "start_s": None if one.place is None else segments[one.place].start,
+                "start_s": None if one.index is None else segments[one.index].start,
                 "name": one.name, "evidence": one.evidence, "remedy": one.remedy,
                 "signals": list(one.signals), "spoils": one.spoils, "flag": one.flag,
             }
@@ -79,9 +79,9 @@ def listen(
     taken, found = tare(of, zeros_of(of, rest))
     of = dataclasses.replace(of, blocks=taken.off(blocks))
     tones = {}
-    for place, one in enumerate(segments):
-        if not one.refused and (heard := acceleration.heard(of, place)) is not None:
-            tones[place] = heard
+    for index, one in enumerate(segments):
+        if not one.refused and (heard := acceleration.heard(of, index)) is not None:
+            tones[index] = heard
     found += moving.findings(of, rest)
     found += motors.findings(of)
     found += pulses.findings(of)

@@ -14,7 +14,7 @@ from asperity.tribometer.pair import Pair
 from asperity.tribometer.recording import Recording
 from asperity.tribometer.reduction.blocks import Blocks
 from asperity.tribometer.reduction.drive_signal import Stretch
-from asperity.tribometer.reduction.heard.finding import Course
+from asperity.tribometer.reduction.heard.finding import Curve
 from asperity.tribometer.reduction.segments import Segment
 from asperity.tribometer.signals import SIGNALS
 from asperity.units import to_si
@@ -52,8 +52,8 @@ class Material:
     def windows(self) -> list[tuple[int, Stretch, Stretch]]:
         """Segments that have both windows: their place, before and with vibration."""
         return [
-            (place, one.before, one.shaken)
-            for place, one in enumerate(self.segments)
+            (index, one.before, one.shaken)
+            for index, one in enumerate(self.segments)
             if not one.refused
         ]
 
@@ -107,9 +107,9 @@ class Material:
         error = float(parts.std(ddof=1)) / math.sqrt(parts.size) if parts.size > 1 else 0.0
         return Level(float(values.mean()), error)
 
-    def course(
+    def curve(
         self, signal: str, marked: Sequence[Stretch] = (), *, part: Stretch | None = None
-    ) -> Course:
+    ) -> Curve:
         """Return a signal over time, as a picture."""
         here = slice(None) if part is None else slice(max(part.first, 0), part.last)
         length = self.blocks.length
@@ -118,11 +118,11 @@ class Material:
         known = np.isfinite(values)
         unit = SIGNALS[signal].unit_in_text
         spans = tuple((one.first * length, one.last * length) for one in marked)
-        return Course(time[known], values[known], "time (s)", f"{signal} ({unit})", spans)
+        return Curve(time[known], values[known], "time (s)", f"{signal} ({unit})", spans)
 
-    def around(self, place: int) -> Stretch:
+    def around(self, index: int) -> Stretch:
         """Return a segment with what lies before and after it."""
-        one = self.segments[place]
+        one = self.segments[index]
         more = self.blocks.at_least(self.given.settling)
         return Stretch(
             max(one.before.first - 2 * more, 0), min(one.shaken.last + 2 * more, self.blocks.count)

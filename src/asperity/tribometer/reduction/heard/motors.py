@@ -55,7 +55,7 @@ def _teeth(of: Material) -> Iterator[Finding]:
         "speeds are not as the teeth",
         f"speed_bronze is {wheel:.3g} rad/s, the gear ratio gives {wanted:.3g} of the worm's",
         "look at both calibrations, at the map of [channels] and at the coupling to the brake",
-        names, of.course(names[1]),
+        names, of.curve(names[1]),
     )  # fmt: skip
 
 
@@ -75,7 +75,7 @@ def _signs(of: Material) -> Iterator[Finding]:
         return Finding(
             f"{signal} has the wrong sign", f"{value:.3g} {SIGNALS[signal].unit_in_text} {against}",
             "turn the sensor's leads, or the sign of its calibration points", (signal,),
-            of.course(signal), spoils=spoils,
+            of.curve(signal), spoils=spoils,
         )  # fmt: skip
 
     backwards = _below(of, "speed_steel")
@@ -111,7 +111,7 @@ def _torques(of: Material) -> Iterator[Finding]:
                 "torque_bronze does not answer the vibration",
                 f"torque_steel changes by {found.x.max():.2g} N m, torque_bronze by "
                 f"{found.y.max():.2g} N m, no number rests on it",
-                "look at its sensor and at the map of [channels]", names, found.course(),
+                "look at its sensor and at the map of [channels]", names, found.curve(),
                 spoils=False,
             )  # fmt: skip
             return
@@ -120,7 +120,7 @@ def _torques(of: Material) -> Iterator[Finding]:
                 "torques are not as the radii",
                 f"torque_bronze changes by {told} of torque_steel, the radii give {wanted:.2f}",
                 "look at both calibrations, at the map of [channels] and at what their cables pick "
-                "up", names, found.course(),
+                "up", names, found.curve(),
             )  # fmt: skip
             return
     (one, _), (other, _) = (_middle(of, name) for name in names)
@@ -131,7 +131,7 @@ def _torques(of: Material) -> Iterator[Finding]:
         yield Finding(
             "torques are not as the radii",
             f"torque_bronze is {abs(other / one):.2f} of torque_steel, the radii give {wanted:.2f}",
-            "look at both calibrations and at the map of [channels]", names, of.course(names[1]),
+            "look at both calibrations and at the map of [channels]", names, of.curve(names[1]),
         )  # fmt: skip
 
 
@@ -159,7 +159,7 @@ def _exchanged(of: Material, what: str) -> Iterator[Finding]:
             f"{what}s are exchanged",
             f"{names[1]} answers the vibration by {1e3 * answers[1]:.2g} mV, {names[0]} by "
             f"{1e3 * answers[0]:.2g} mV",
-            _MAP, names, of.course(names[1]),
+            _MAP, names, of.curve(names[1]),
         )  # fmt: skip
 
 
@@ -201,7 +201,7 @@ def _other_way_round(of: Material) -> Iterator[Finding]:
             f"with their currents and [twin] they are {volts[0][0]:.3g} V of {supplies[0]:g} V "
             f"and {volts[0][1]:.3g} V of {supplies[1]:g} V, on each other's channel "
             f"{volts[1][0]:.3g} V and {volts[1][1]:.3g} V",
-            _MAP, names, of.course(names[1]),
+            _MAP, names, of.curve(names[1]),
         )  # fmt: skip
 
 
@@ -227,7 +227,7 @@ def _supplied(of: Material) -> Iterator[Finding]:
                 f"torque and speed are {given:.3g} W, {volts:g} V and {current:.3g} A are "
                 f"{volts * current:.3g} W",
                 "look at the calibrations of torque, speed and current, and at the supply's volts",
-                ("torque_steel", *names), of.course("speed_steel"),
+                ("torque_steel", *names), of.curve("speed_steel"),
             )  # fmt: skip
     if (twin := of.case.get(Twin)) is not None:
         for disc in ("steel",) if of.pair.geared else ("steel", "bronze"):
@@ -239,8 +239,8 @@ def _turning(of: Material, twin: Twin, disc: str) -> Iterator[Finding]:
     name, current = f"speed_{disc}", f"current_{disc}"
     step = 0.5 * _encoder_step(of, name) * abs(of.blocks.lines[name].gain)
     told = []
-    for place, before, _ in of.windows:
-        volts, turns = of.supply(disc, of.segments[place].start), of.level(name, before)
+    for index, before, _ in of.windows:
+        volts, turns = of.supply(disc, of.segments[index].start), of.level(name, before)
         takes = of.level(current, before) if of.has(current) else None
         if volts <= 0.0 or not math.isfinite(turns.error) or abs(turns.value) < least_of(name):
             continue
@@ -257,15 +257,15 @@ def _turning(of: Material, twin: Twin, disc: str) -> Iterator[Finding]:
         known += twin.motor_tolerance * math.hypot(back, drop)
         least = volts - known if drop else 0.0
         if not least <= back + drop <= volts + known:
-            told.append((place, back, drop, abs(turns.value), volts))
-    for place, back, drop, turns_at, volts in told[:1] if len(told) == len(of.windows) else told:
+            told.append((index, back, drop, abs(turns.value), volts))
+    for index, back, drop, turns_at, volts in told[:1] if len(told) == len(of.windows) else told:
         yield Finding(
             f"{name} does not fit its supply",
             f"{turns_at:.3g} rad/s are {back:.2g} V with twin.motor_constant, and {drop:.2g} V "
             f"fall in the motor, of {volts:g} V",
             "look at its scale and channel, at that of the current, at the supply's volts, and at "
             "motor_constant and motor_resistance of [twin]",
-            (name,), of.course(name), place if len(told) < len(of.windows) else None,
+            (name,), of.curve(name), index if len(told) < len(of.windows) else None,
         )  # fmt: skip
 
 
@@ -297,7 +297,7 @@ def _carried(of: Material) -> Iterator[Finding]:
             "answer, by [twin] and the gear's ratio",
             "look at the calibrations of its clamp and of the torque, at what their cables pick up "
             "of the drive, and at motor_constant and gear_efficiency of [twin]",
-            ("current_steel",), found.course(),
+            ("current_steel",), found.curve(),
         )  # fmt: skip
 
 

@@ -49,7 +49,7 @@ def findings(of: Material, rest: Rest) -> Iterator[Finding]:
         yield Finding(
             f"{signal} does not move", f"{_value(of, signal)} in every sample",
             "look at its sensor, power and cable, or leave it out of [channels]", (signal,),
-            of.course(signal),
+            of.curve(signal),
         )  # fmt: skip
     dead = list(_dead(of, rest, constant))
     yield from dead
@@ -106,7 +106,7 @@ def _dead(of: Material, rest: Rest, constant: list[str]) -> Iterator[Finding]:
             f"it changes by {moved:.2g} {unit} between rest and sliding, which "
             f"{' and '.join(answers)} show",
             "look at its sensor and cable, and at the map of [channels]", (signal,),
-            of.course(signal, rest.stretches), spoils=signal != "current_bronze",
+            of.curve(signal, rest.stretches), spoils=signal != "current_bronze",
         )  # fmt: skip
 
 
@@ -141,7 +141,7 @@ def _held(of: Material, signal: str, rest: Rest) -> Iterator[Finding]:
         told.add(place)
         yield Finding(
             name, evidence, "look at the range of its amplifier and channel, and at its cable",
-            (signal,), of.course(signal, [window], part=of.around(place)), place,
+            (signal,), of.curve(signal, [window], part=of.around(place)), place,
         )  # fmt: skip
 
 
@@ -198,7 +198,7 @@ def _coarse(of: Material, signal: str) -> Iterator[Finding]:
             f"steps of {step:.2g} {unit}, of which its noise crosses {across:.2g}: its mean may be "
             f"off by {off:.2g} {unit} of {level:.2g} {unit}",
             "take a smaller range of its channel, or more bits", (signal,),
-            of.course(signal, both, part=of.around(place)), place,
+            of.curve(signal, both, part=of.around(place)), place,
         )  # fmt: skip
 
 
@@ -217,7 +217,7 @@ def _noisy(of: Material, signal: str) -> Iterator[Finding]:
             f"from sample to sample it varies by {noises[0]:.2g} {unit} before and {noises[1]:.2g} "
             f"{unit} with vibration, of {level:.2g} {unit}",
             "look at its screen and at what runs beside its cable", (signal,),
-            of.course(signal, both, part=of.around(place)), place,
+            of.curve(signal, both, part=of.around(place)), place,
         )  # fmt: skip
 
 
@@ -256,7 +256,7 @@ def _jumping(of: Material, signal: str) -> Iterator[Finding]:
                 f"{often} in {window.count * of.blocks.length:.2g} s, by up to {most:.2g} "
                 f"{SIGNALS[signal].unit_in_text} in {1e3 * of.blocks.length:.0f} ms",
                 "look for a loose contact or a screen that is off", (signal,),
-                of.course(signal, marked, part=of.around(place)), place,
+                of.curve(signal, marked, part=of.around(place)), place,
             )  # fmt: skip
 
 
@@ -285,5 +285,5 @@ def _copies(of: Material) -> Iterator[Finding]:
                     f"{one} is a copy of {other}",
                     f"their noises go together, correlation {correlation:.3f}",
                     "one sensor is on both channels, look at the cables", (other, one),
-                    of.course(one, part=of.around(of.windows[0][0])),
+                    of.curve(one, part=of.around(of.windows[0][0])),
                 )  # fmt: skip

@@ -41,7 +41,7 @@ def findings(of: Material) -> Iterator[Finding]:
             f"it goes in steps of {step:.3g} rad/s, a pulse is {pulse:.3g} rad/s by "
             f"{of.pair.drives.encoder_pulses} pulses a turn and {twin.encoder_gate:g} s",
             "look at its calibration, at encoder_pulses of [drives] and at encoder_gate of [twin]",
-            (name,), of.course(name),
+            (name,), of.curve(name),
         )  # fmt: skip
 
 

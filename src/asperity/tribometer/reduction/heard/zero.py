@@ -21,7 +21,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.tribometer.reduction.blocks import Blocks
 from asperity.tribometer.reduction.drive_signal import Stretch
-from asperity.tribometer.reduction.heard.finding import Course, Finding
+from asperity.tribometer.reduction.heard.finding import Curve, Finding
 from asperity.tribometer.reduction.heard.material import Material
 from asperity.tribometer.reduction.heard.rest import Rest
 from asperity.tribometer.reduction.levels import estimate_levels
@@ -282,7 +282,7 @@ def _findings(
     value, deviation = float(zero.values[place]), float(deviations[place])
     line = of.blocks.lines[signal]
     allowed = max(_ALLOWED * level, _STATED * line.offset_deviation)
-    course = Course(zero.times, zero.values, "time (s)", f"{signal} at rest ({unit})")
+    curve = Curve(zero.times, zero.values, "time (s)", f"{signal} at rest ({unit})")
     spoils = signal in TARED
     if abs(value) > max(allowed, _SURE * deviation):
         done = (
@@ -294,7 +294,7 @@ def _findings(
             f"{value:.3g} +- {deviation:.2g} {unit} at rest at {zero.times[place]:.0f} s, "
             f"{_percent(value, level)}, {allowed:.2g} {unit} are allowed, {done}",
             "zero the sensor, or lift the discs apart and see whether it is one",
-            (signal,), course, spoils=spoils,
+            (signal,), curve, spoils=spoils,
         )  # fmt: skip
         return
     moved = float(np.ptp(zero.values))
@@ -305,7 +305,7 @@ def _findings(
             f"drifting zero of {signal}",
             f"from {zero.values[0]:.3g} to {zero.values[-1]:.3g} {unit} between "
             f"{zero.times[0]:.0f} and {zero.times[-1]:.0f} s at rest",
-            "let the sensor warm up and zero it", (signal,), course, spoils=spoils,
+            "let the sensor warm up and zero it", (signal,), curve, spoils=spoils,
         )  # fmt: skip
 
 

@@ -23,7 +23,7 @@ _FRAME_CYCLES = 2
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Course:
+class Schedule:
     """How long a block is marched, and what is due on the way.
 
     Attributes
@@ -116,7 +116,7 @@ class Progress:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Kept:
+class SavedMarch:
     """What a march is gone on with: how far it is, and what its solvers have learnt."""
 
     progress: Progress
