@@ -12,7 +12,7 @@ from asperity.tribometer.options import Twin
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction import file
 from asperity.tribometer.reduction.heard import level
-from asperity.tribometer.reduction.heard.finding import Course
+from asperity.tribometer.reduction.heard.finding import Curve
 from asperity.tribometer.reduction.heard.material import Level
 from asperity.tribometer.tables import TABLES
 
@@ -27,7 +27,7 @@ class Rig:
 
     def __init__(self, volts=3.0, torques=TORQUES, *, case=CASE, known=0.0007):
         self.case, self.pair = case, Pair.from_case(case)
-        self.given = SimpleNamespace(speed_settling=3.0)
+        self.options = SimpleNamespace(speed_settling=3.0)
         lines = dict.fromkeys(("torque_steel", "torque_bronze"), Line(0.4, gain_deviation=known))
         self.blocks = SimpleNamespace(length=0.02, lines=lines)
         torque = np.array(torques)
@@ -48,8 +48,8 @@ class Rig:
     def level(self, name, window):
         return Level(float(self.of[name][window.cell, window.state]), 2e-4)
 
-    def course(self, name):
-        return Course(np.zeros(1), np.zeros(1), "time (s)", name)
+    def curve(self, name):
+        return Curve(np.zeros(1), np.zeros(1), "time (s)", name)
 
 
 class _Window(SimpleNamespace):

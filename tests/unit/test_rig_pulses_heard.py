@@ -9,7 +9,7 @@ from asperity.casefile import read_case
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.reduction.drive_signal import Stretch
 from asperity.tribometer.reduction.heard import pulses
-from asperity.tribometer.reduction.heard.finding import Course
+from asperity.tribometer.reduction.heard.finding import Curve
 from asperity.tribometer.tables import TABLES
 
 LENGTH, LAG = 0.02, 0.2
@@ -27,10 +27,10 @@ def rig(shown, *settings):
     stretches = [Stretch(n * part + 5, (n + 1) * part) for n in range(4)]
     return SimpleNamespace(
         case=case, pair=Pair.from_case(case), blocks=blocks,
-        given=SimpleNamespace(speed_settling=3.0, settling=1.0),
+        options=SimpleNamespace(speed_settling=3.0, settling=1.0),
         windows=[(0, *stretches[:2]), (1, *stretches[2:])],
         has=lambda name: name in blocks.means,
-        course=lambda name: Course(np.zeros(1), np.zeros(1), "time (s)", name),
+        curve=lambda name: Curve(np.zeros(1), np.zeros(1), "time (s)", name),
     )  # fmt: skip
 
 

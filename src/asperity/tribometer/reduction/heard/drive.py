@@ -154,7 +154,7 @@ def _breaks(of: Material, index: int) -> Iterator[Finding]:
         first, second = (of.segments[n] for n in sorted((index, other)))
         ended = first.shaken.last + 1
         gap = second.start - ended * of.blocks.length
-        if gap < of.given.least_window and _alike(of, first.tone, second.tone):
+        if gap < of.options.least_window and _alike(of, first.tone, second.tone):
             gone = of.blocks.lost["drive_voltage"][ended : ended + of.blocks.at_least(gap)]
             why = "it is missing or past its range" if gone.any() else "it is not heard"
             yield Finding(
@@ -168,7 +168,7 @@ def _alike(of: Material, tone: Tone | None, other: Tone | None) -> bool:
     if tone is None or other is None:
         return True
     apart = abs(tone.frequency - other.frequency)
-    return apart < of.given.frequency_tolerance * tone.frequency
+    return apart < of.options.frequency_tolerance * tone.frequency
 
 
 def _before(of: Material, index: int) -> Iterator[Finding]:

@@ -130,7 +130,7 @@ def _runs(of: Material, twin: Twin) -> Iterator[Finding]:
             continue
         less, left = i[0] - i[2], _SURE * float(np.hypot(i[1], i[3]))
         wanted = twin.motor_resistance * less / twin.motor_constant
-        seconds = min(one.count for one in both) * of.blocks.length - of.given.speed_settling
+        seconds = min(one.count for one in both) * of.blocks.length - of.options.speed_settling
         step = 2.0 * np.pi / (of.pair.drives.encoder_pulses * max(seconds, 1.0))
         unsure = _SURE * float(np.hypot(w[1], w[3])) + 2.0 * step + twin.supply_tolerance * w[0]
         unsure += (

@@ -37,7 +37,7 @@ class Material:
 
     Attributes
     ----------
-    recording, case, pair, blocks, segments, given
+    recording, case, pair, blocks, segments, options
         As the reduction has them.
     """
 
@@ -46,7 +46,7 @@ class Material:
     pair: Pair
     blocks: Blocks
     segments: Sequence[Segment]
-    given: Reduction
+    options: Reduction
 
     @functools.cached_property
     def windows(self) -> list[tuple[int, Stretch, Stretch]]:
@@ -95,7 +95,7 @@ class Material:
     def _level(self, signal: str, stretch: Stretch) -> Level:
         first = stretch.first
         if signal.startswith("speed"):
-            late = self.blocks.at_least(max(self.given.speed_settling - self.given.settling, 0.0))
+            late = self.blocks.at_least(max(self.options.speed_settling - self.options.settling, 0.0))
             if stretch.count - late >= self.blocks.at_least(_LEAST_OF_SPEED):
                 first += late
         values = self.blocks.means[signal][first : stretch.last]
@@ -123,7 +123,7 @@ class Material:
     def around(self, index: int) -> Stretch:
         """Return a segment with what lies before and after it."""
         one = self.segments[index]
-        more = self.blocks.at_least(self.given.settling)
+        more = self.blocks.at_least(self.options.settling)
         return Stretch(
             max(one.before.first - 2 * more, 0), min(one.shaken.last + 2 * more, self.blocks.count)
         )

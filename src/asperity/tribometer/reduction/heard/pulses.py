@@ -79,7 +79,7 @@ def _differences(of: Material, name: str, gate: float) -> FloatArray:
         np.concatenate(([0.0], np.cumsum(one)))
         for one in (values, np.square(values), of.blocks.lost[name])
     )
-    settled = of.blocks.at_least(max(of.given.speed_settling - of.given.settling, 0.0))
+    settled = of.blocks.at_least(max(of.options.speed_settling - of.options.settling, 0.0))
     spans = [(one.first + settled, one.last) for _, *both in of.windows for one in both]
     # Counts end where what is shown before changes least.
     least, found = np.inf, np.empty(0)
