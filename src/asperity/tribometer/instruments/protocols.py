@@ -148,21 +148,26 @@ class Scope(Instrument, Protocol):
 
 
 @runtime_checkable
-class VibrationDrive(Instrument, Protocol):
-    """What makes the vibration; its safe state is off."""
+class Switched(Instrument, Protocol):
+    """What is switched on and off; its safe state is off."""
+
+    def on(self) -> None:
+        """Switch it on: it vibrates, or gives power."""
+
+    def off(self) -> None:
+        """Switch it off."""
+
+    def safe(self) -> None:
+        """Switch it off."""
+        self.off()
+
+
+@runtime_checkable
+class VibrationDrive(Switched, Protocol):
+    """What makes the vibration."""
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
         """Set waveform and frequency, Hz, while it is off."""
-
-    def on(self) -> None:
-        """Vibrate."""
-
-    def off(self) -> None:
-        """Stop."""
-
-    def safe(self) -> None:
-        """Stop."""
-        self.off()
 
     def keep_alive(self) -> None:
         """Tell a device that watches its line that somebody is there."""
@@ -172,21 +177,11 @@ class VibrationDrive(Instrument, Protocol):
 
 
 @runtime_checkable
-class Supply(Instrument, Protocol):
-    """An output of a direct-current supply; its safe state is off."""
+class Supply(Switched, Protocol):
+    """An output of a direct-current supply."""
 
     def set(self, voltage: float) -> None:
         """Set the voltage, V."""
-
-    def on(self) -> None:
-        """Give power."""
-
-    def off(self) -> None:
-        """Give none."""
-
-    def safe(self) -> None:
-        """Give none."""
-        self.off()
 
     def reading(self) -> Reading:
         """Return what it gives."""
