@@ -45,6 +45,9 @@ ROOMS = (
     "rig reduce RECORDING --set reduction.speed_settling='0.3 s'",
 )
 
+# What is called by these alone, a fifth of all there is to compile, slow tests alone call.
+SLOW_ROOMS = (ROOMS[1],)
+
 # What stands where nobody has measured how long an entry is compiled, s.
 UNKNOWN = 1.0
 
