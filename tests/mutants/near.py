@@ -32,9 +32,14 @@ ANSWERS = "tests/acceptance/test_same_answers.py"
 
 # What is about processes, files, texts or the page, and what needs programs of others.
 _LEFT_OUT = re.compile(
-    r"test_(web|docs|house|processes|rig_|terminal|store|interrupts|runs|casefile|compiled|errors|"
-    r"units|thesis_run|thesis_figures|fric_subroutine|calculix|python_units|sweep_axes|mutants)"
+    r"test_(web|docs|house|processes|terminal|store|interrupts|runs|compiled|mutants|thesis_run|"
+    r"thesis_figures|fric_subroutine|calculix|docstrings|language|questions|"
+    r"rig_(acquisition|contract|guardian|instruments|plan|preview|procedure|twin|off|kills|package)|"
+    r"cli_(rig_run|streams|cache|instruments|help))"
 )
+_FOLDERS = {
+    "unit": "test_*", "literature": "test_*", "property": "test_*", "acceptance": "test_cli_*",
+}  # fmt: skip
 _OF_A_FUNCTION = 2  # tests that differ in their parameters alone
 _OF_A_FILE = 4
 _NEAREST = 20
@@ -252,8 +257,8 @@ def measure(reached: Path, names=()) -> None:
     if not names:
         names = [
             path.relative_to(ROOT).as_posix()
-            for folder in ("unit", "literature", "property")
-            for path in sorted((TESTS / folder).glob("test_*.py"))
+            for folder, names_of in _FOLDERS.items()
+            for path in sorted((TESTS / folder).glob(f"{names_of}.py"))
             if not _LEFT_OUT.match(path.name)
         ]
         names.append(ANSWERS)
