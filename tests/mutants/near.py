@@ -9,8 +9,7 @@ since it has come later, has the tests of its module's others; a module that is 
 tests that name it or its room.
 
 What has come since cannot be noted there: a file of tests that is not what it was when the map was
-made is near to each module that it imports. It comes behind the others, and at the last the files
-that import the module whatever the map says: what nothing noticed is survived by those as well.
+made is near to each module that it imports, and comes behind the others.
 """
 
 import argparse
@@ -79,7 +78,7 @@ def nearest(mutant) -> list[str]:
         named = _naming(mutant.module)
         own = [name for name in named if Path(mutant.module).stem in name]
         chosen = list(dict.fromkeys(own[:1] + named[:1])) + chosen
-    chosen += _importing_module(mutant.module)
+    chosen += _come_since(mutant.module)
     if len(chosen) < _FEW:
         chosen += _naming(mutant.module)
     if not _is_called(mutant):
@@ -93,18 +92,17 @@ def _is_called(mutant):
     return mutant.function in dict(_functions(tree))
 
 
-def _importing_module(module):
-    """Files of tests that import a module, those first that the map does not know as they are."""
+def _come_since(module):
+    """Files of tests that import a module and are not what they were when the map was made."""
     room, _, last = ".".join(("asperity", *module.removesuffix(".py").split("/"))).rpartition(".")
     known = _kept().get("files", {})
-    files = [
+    return [
         file
         for file, (imported, _) in _imports().items()
         if (f"{room}.{last}" in imported or last in imported.get(room, ()))
         and not _LEFT_OUT.match(Path(file).name)
+        and known.get(file) != _digest(file)
     ]
-    stale = [file for file in files if known.get(file) != _digest(file)]
-    return list(dict.fromkeys(stale + files[:_FALLBACK_FILES]))
 
 
 @functools.cache
