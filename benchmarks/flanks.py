@@ -24,7 +24,7 @@ from asperity.flanks.export.tooth import tooth_body
 from asperity.flanks.export.worm import worm_body
 from asperity.flanks.mesh.tooth import tooth
 from asperity.flanks.meshing.analysis import analyse
-from asperity.flanks.meshing.pattern.marking import pattern
+from asperity.flanks.meshing.pattern import pattern
 from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.study.flank import prepare
 from asperity.flanks.tables import TABLES as FLANKS

@@ -8,7 +8,7 @@ nothing; frames a second of the moving body, drawn by software; the longest task
 dragged, by the processor's time, since others who have the cores make any task long; and how soon
 each screen opens with its answer, on this machine and on one that has compiled nothing, beside an
 empty page that the same browser opens from the same server; and what three walks from a question to
-its answer take, in clicks and seconds. What runs besides is told as the load.
+its answer and on to the shared file take, in clicks and seconds. What runs besides is told as the load.
 """
 
 import contextlib
@@ -29,7 +29,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
 from apparatus.browser import TELL_REST
 from apparatus.page import Served, descendants, memory
-from apparatus.walks import Walk, to_a_law, to_a_report, to_the_best_way
+from apparatus.walks import Walk, to_a_law, to_a_report, to_a_shared_file, to_the_best_way
 
 CHANGES = 200
 ARGUMENTS = ["--disable-gpu", "--no-sandbox"]
@@ -110,7 +110,11 @@ def main():
             "worker, MB": 300.0, "frame over 20 ms": 1.0,
             "longest task, processor ms": LONG, "slowest screen, s": 1.0,
             "slowest screen, nothing compiled, s": 3.0,
-            "clicks to a report": 4, "clicks to the best way": 3, "clicks to a law": 5}  # fmt: skip
+            "clicks to a report": 4, "clicks to the best way": 3, "clicks to a law": 5,
+            "clicks to a report as a file": 4, "clicks to the best way as a file": 4,
+            "clicks to a law as a file": 5, "seconds to a report as a file": 30.0,
+            "seconds to the best way as a file": 15.0,
+            "seconds to a law as a file": 120.0}  # fmt: skip
     finish(report, most=most)
 
 
@@ -296,6 +300,9 @@ def walks(page, chromium):
                 go(walk)
                 found[f"seconds to {name}"] = time.perf_counter() - began
                 found[f"clicks to {name}"] = walk.clicks
+                to_a_shared_file(walk, Path(folder))
+                found[f"seconds to {name} as a file"] = time.perf_counter() - began
+                found[f"clicks to {name} as a file"] = walk.clicks
                 context.close()
         finally:
             browser.close()

@@ -39,6 +39,7 @@ def main() -> None:
         for name, packages in BUNDLED.items():
             run = (str(build / "node_modules/.bin/esbuild"), name, *ESBUILD)
             subprocess.run((*run, f"--outfile={PAGE / name}"), cwd=build, check=True)
+            (PAGE / name).write_text(bare((PAGE / name).read_text("utf-8")), "utf-8")
             made[PAGE / name] = packages
         for target, (package, source) in COPIED.items():
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -46,6 +47,15 @@ def main() -> None:
             made[target] = (package,)
         for folder in (PAGE, TESTS):
             write_list(folder, {f: p for f, p in made.items() if f.parent == folder}, build)
+
+
+def bare(text: str) -> str:
+    """Return a bundle without what shaders have for readers alone.
+
+    They are texts to the bundler: their indents, empty lines and lines of nothing but a comment.
+    """
+    lines = (line.lstrip(" \t") for line in text.split("\n"))
+    return "\n".join(line for line in lines if line and not line.startswith("//")) + "\n"
 
 
 def write_list(folder: Path, made: dict[Path, tuple[str, ...]], build: Path) -> None:

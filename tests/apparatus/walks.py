@@ -59,6 +59,16 @@ def to_a_report(walk, folder, seen=lambda page: None):
     return report
 
 
+def to_a_shared_file(walk, folder):
+    """From an answer to all of it as one file; returns that."""
+    settled(walk.page)
+    with walk.page.expect_download(timeout=MINUTES) as got:
+        walk.click("button", re.compile("^share$"))
+    path = folder / got.value.suggested_filename
+    got.value.save_as(path)
+    return path
+
+
 def to_the_best_way(walk, seen=lambda page: None):
     """From a pin on a disc to the direction in which least is left; ``seen`` before it is taken."""
     page = walk.page

@@ -95,11 +95,13 @@ def test_on_a_phone_the_answer_stands_before_what_is_set_on_every_screen(seen_as
             assert below.bounding_box()["y"] > top.bounding_box()["y"], screen
 
 
-TABLES = {"thesis": ".claims", "rig": ".levels", "gear": ".standards, .bars"}
+TABLES = {"thesis": ".claims", "rig": ".levels, .law", "gear": ".standards, .bars",
+          "size": ".proposals, .designs"}  # fmt: skip
 
 
 def test_on_a_phone_what_a_table_says_is_not_out_of_sight_at_its_side(seen_as):
-    # Verdicts of claims, what is good of a segment, the third standard, names of safeties.
+    # Verdicts of claims, what is good of a segment and of a law, the third standard, names of
+    # safeties, verdicts of designs.
     seen = seen_as(viewport={"width": 360, "height": 740}, reduced_motion="reduce")
     for screen, tables in TABLES.items():
         page = seen.open(screen)

@@ -439,3 +439,28 @@ def test_what_was_taken_is_called_by_its_own_name_on_the_screen_and_in_its_file(
     expect(page.get_by_role("heading", name="Gearset", exact=True)).to_be_visible()
     settled(page)
     expect(page.locator("#field-gearset-name")).to_have_value(name)
+
+
+def test_what_a_reader_of_a_gearset_should_know_is_folded_behind_its_count(seen, server):
+    page = seen.open("gear", case="gearset-3")
+    settled(page)
+    folded = page.locator("details.notes").first
+    lines = folded.locator("li")
+    expect(folded.locator("summary")).to_have_text(f"{lines.count()} notes")
+    expect(lines.first).to_be_hidden()
+    folded.locator("summary").click()
+    expect(lines.first).to_be_visible()
+    # As many as the command counts.
+    answer = answered(["asperity", "rate", "gearset-3", "--json"], server.folder)
+    standards = [answer[name] for name in ("iso14521", "bs721", "agma6034")]
+    memory = set().union(*(one["from_memory"] for one in standards))
+    film = answer["verdict"]["film"]
+    said = folded.inner_text()
+    assert f"{len(answer['assumed'])} assumed" in said
+    assert f"{len(memory)} numbers rest on sources from memory" in said
+    assert f"{film['regime']} lubrication: film {film['thickness_um']:.2g} µm" in said
+    for one in standards:
+        for note in one["notes"]:
+            # Each remark once: what a standard has no answer for stands with its verdict.
+            words = re.split(r"[_^µ\d]", note)[0].strip()
+            assert " fails: " in note or words in page.locator("main").inner_text()

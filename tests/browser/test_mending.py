@@ -3,7 +3,7 @@
 from urllib.parse import urlencode
 
 import pytest
-from apparatus.browser import answered, settled
+from apparatus.browser import answered, copied, settled
 from playwright.sync_api import expect
 
 GEAR = [
@@ -22,11 +22,13 @@ GEAR = [
     ("gearset.worm_material", "steel", None),
     ("gearset.pressure_angle", "95 deg", None),
     ("gearset.axial_module", "0 mm", None),
+    ("gearset.wheel_teeth", "1e400", ["60"]),
 ]
 BODY = [
     ("vibration.elevation", "-5 deg", ["0 deg"]),
     ("vibration.elevation", "4 rad", ["180 deg"]),
     ("vibration.frequency", "4", ["4 kHz"]),
+    ("vibration.frequency", "1e400 Hz", ["4 kHz"]),
     ("vibration.velocity_ratio", "-3", ["3"]),
     ("friction.mu", "-0.2", ["0.2"]),
     ("friction.mu", "0,3", ["0.3"]),
@@ -103,3 +105,131 @@ def test_a_word_that_is_near_none_of_a_list_leaves_the_list_and_the_way_back(see
     page.get_by_role("button", name="back to 74.93 mm").click()
     settled(page)
     expect(page.locator(".fault")).to_have_count(0)
+
+
+LAW = {"set.friction.max_deflection": "70 nm", "set.friction.law": "split",
+       "set.friction.transfer": "0.7"}  # fmt: skip
+JOBS = [
+    ("drive", {}, "vibration.frequency", "abc", "frequency 20 kHz", "", "shake it"),
+    ("block", {}, "vibration.direction", "5 kHz", "direction 5°", "back to 0°", "settle"),
+    ("flanks", {}, "hob.tilt", "1 kg", "tilt 1°", "back to", "cut the wheel"),
+    ("rig", {"case": "disc-on-disc", **LAW}, "friction.mu", "1e400", "mu 0.1", "without mu", ""),
+]
+"""Screens whose answers are jobs': what is refused there, what mends it, and the button of one."""
+
+
+@pytest.mark.parametrize(("screen", "params", "path", "text", "mend", "back", "job"), JOBS)
+@pytest.mark.parametrize("pressed", [False, True])
+def test_where_a_job_answers_what_is_refused_is_said_as_it_is_set_and_a_mend_leaves_nothing_of_it(
+    seen, screen, params, path, text, mend, back, job, pressed
+):
+    page = seen.open(screen, **params)
+    settled(page)
+    before = page.evaluate("location.hash")
+    page.evaluate(
+        "([hash, more]) => { location.hash = hash + (hash.includes('?') ? '&' : '?') + more; }",
+        [before, urlencode({f"set.{path}": text})],
+    )
+    settled(page)
+    fault = page.locator(".fault").first
+    expect(fault).to_contain_text(f"{path} is")
+    if screen != "rig":
+        assert text not in " ".join(copied(page))
+        page.get_by_role("button", name="copy command").click()
+        expect(page.locator(".toast")).to_contain_text("not yet")
+    if screen in ("drive", "block"):
+        assert page.locator("[aria-invalid=true]").count() > 0
+    if pressed and job:
+        page.get_by_role("button", name=job, exact=True).click()
+        settled(page)
+    mending = page.locator(".mending")
+    expect(mending.get_by_role("button", name=back).first).to_be_visible()
+    value = mending.locator("button.main").first.get_attribute("data-text")
+    mending.get_by_role("button", name=mend).click()
+    settled(page)
+    expect(page.locator(".fault")).to_have_count(0)
+    expect(page.locator(".mending")).to_have_count(0)
+    expect(page.locator("[aria-invalid=true]")).to_have_count(0)
+    expect(page.locator(".of-before")).to_have_count(0)
+    if screen != "rig":
+        assert f"{path}={value}" in copied(page)
+
+
+RATIO, TORQUE, SPEED = "ratio", "torque of the wheel", "speed of the worm"
+ASKED = [
+    (RATIO, "abc", "15"), (RATIO, "0", "15"), (RATIO, "1e9", "100"), (RATIO, "1e400", "15"),
+    (TORQUE, "abc", "300 N m"), (TORQUE, "-5 N m", "5 N m"), (TORQUE, "500 kg", "500 N m"),
+    (TORQUE, "0", "300 N m"), (TORQUE, "1e400 N m", "300 N m"),
+    (SPEED, "1450 U/min", "1450 rpm"), (SPEED, "0 rpm", "1500 rpm"),
+]  # fmt: skip
+"""What is typed into the fields that Size begins with, and what it becomes."""
+
+
+def given(page, label, text):
+    """Type into a box, and wait for what comes of it."""
+    box = page.get_by_label(label, exact=True).first
+    box.fill(text)
+    box.press("Enter")
+    settled(page)
+    return box
+
+
+def test_what_size_is_asked_is_marked_where_it_is_refused_and_mended_by_a_click(seen):
+    page = seen.open("size", case="gearset-3")
+    settled(page)
+    for label, text, offered in ASKED:
+        said = page.locator("main .big").first.inner_text()
+        box = given(page, label, text)
+        expect(page.locator(".fault").first).to_contain_text(" is ")
+        expect(box).to_have_attribute("aria-invalid", "true")
+        # What stands below is of before, and says so of what it was asked.
+        assert page.locator("main .big").first.inner_text() == said
+        button = page.locator(".mending button.main")
+        assert button.get_attribute("data-text") == offered, (label, text)
+        button.click()
+        settled(page)
+        expect(page.locator(".fault, .mending, [aria-invalid=true]")).to_have_count(0)
+        expect(box).to_have_value(offered)
+
+
+@pytest.mark.parametrize("text", ["40:1", "1 : 40", "80:2"])
+def test_a_ratio_is_taken_as_it_is_written(seen, text):
+    page = seen.open("size", case="gearset-3")
+    settled(page)
+    box = given(page, RATIO, text)
+    expect(box).to_have_value("40")
+    expect(page.locator(".fault")).to_have_count(0)
+    assert copied(page)[copied(page).index("--ratio") + 1] == "40"
+    page = seen.open("gear", case="gearset-3")
+    settled(page)
+    given(page, "ratio", text)
+    expect(page.get_by_role("heading", name="Size and trade-off")).to_be_visible()
+    expect(page.get_by_label("ratio", exact=True)).to_have_value("40")
+
+
+ENDS = [
+    ("x-from", "abc", "6.0"), ("x-from", "-0.5", "0.5"), ("x-points", "1000", "500"),
+    ("x-points", "abc", "11"), ("y-to", "5 N m", "5 deg"), ("y-from", "1e400 deg", "45 deg"),
+]  # fmt: skip
+
+
+def test_an_end_of_a_grid_that_is_refused_is_mended_by_a_click(seen):
+    page = seen.open("sweep", case="body-shaken-along", **{"set.solve.method": "periodic"})
+    settled(page)
+    for name, text, offered in ENDS:
+        box = page.locator(f"#{name}")
+        was = box.input_value()
+        box.fill(text)
+        box.press("Enter")
+        settled(page)
+        expect(box).to_have_attribute("aria-invalid", "true")
+        button = page.locator(".mending button.main")
+        assert button.get_attribute("data-text") == offered, (name, text)
+        back = page.locator(".mending").get_by_role("button", name="back to")
+        expect(back).to_have_count(int(offered != was))
+        button.click()
+        settled(page)
+        expect(page.locator(".fault, .mending, [aria-invalid=true]")).to_have_count(0)
+        box.fill(was)
+        box.press("Enter")
+        settled(page)

@@ -4,7 +4,7 @@ import math
 import time
 
 import pytest
-from apparatus.browser import answered
+from apparatus.browser import answered, shown
 from playwright.sync_api import expect
 
 # Contact points of a section at several places of the worm, how far they lie off both flanks, and
@@ -99,6 +99,15 @@ def test_a_drive_has_four_ways_side_by_side_and_its_powers_as_strips(seen):
         "mean powers: motor 280 W, 50 %; actuator 283 W, 50 %; "
         "load 166 W, 29 %; friction 397 W, 71 %",
     )
+    # Each is as wide as its power: so many to a watt, on both sides.
+    widths = strips.locator("path.strip").evaluate_all(
+        "all => all.map((one) => { const [, y0, last] = /^M\\S+ (\\S+)C.*V\\S+C.* (\\S+)Z$/"
+        ".exec(one.getAttribute('d')); return last - y0; })"
+    )
+    powers = [shown(page, f"power_{name}_W") for name in ("drive", "actuator", "load", "friction")]
+    scale = widths[0] / powers[0]
+    assert widths == pytest.approx([scale * abs(power) for power in powers], rel=1e-9)
+    assert sum(widths[:2]) == pytest.approx(150.0, rel=1e-9)
     # The line shows the pressure too, since the answer under load has it.
     mesh = page.get_by_label("in mesh")
     expect(mesh.get_by_text("m/s: sliding velocity")).to_be_visible()

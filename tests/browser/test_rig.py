@@ -105,6 +105,9 @@ def test_an_interval_is_a_bar_and_point_and_model_have_marks_of_their_own(seen):
     plot = page.locator("figure", has_text="Measured change of torque")
     expect(plot).to_be_visible(timeout=120_000)
     expect(plot.locator(".drawn circle.point")).to_have_count(1)
+    # All that is said of it is in sight at its place.
+    levels = page.locator(".levels")
+    assert levels.evaluate("one => one.scrollHeight <= one.clientHeight + 1")
     # One segment: no line is drawn, and the bar of the interval is.
     expect(plot.locator(".drawn path.line")).to_have_count(1)
     expect(plot.locator(".legend")).to_contain_text("measured, with its interval")

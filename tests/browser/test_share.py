@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from apparatus.browser import answered, settled
+from apparatus.shown_numbers import in_si, numbers
 from playwright.sync_api import expect
 
 MOST_BYTES = 2_000_000
@@ -46,6 +47,28 @@ def of_case(page, command, folder, tmp_path):
     return answered(["asperity", command, str(case), "--json"], folder)
 
 
+def told_of(answer, key):
+    """Return the number of an answer that has a key such as ``iso14521.eta_ges``."""
+    while key:
+        # Keys have dots of their own.
+        part = max((one for one in answer if f"{key}.".startswith(f"{one}.")), key=len)
+        answer, key = answer[part], key[len(part) + 1 :]
+    return answer
+
+
+def as_seen(page, answer, least, rel=2e-2):
+    """Say that each number that is seen in a file is that of ``--json``, but for its digits."""
+    found = numbers(page)
+    assert len(found) >= least
+    for one in found.values():
+        if "within" in one["text"]:
+            continue
+        exact = told_of(answer, one["key"])
+        # Of a time or a distance of rounding, what one march gives another does not.
+        assert float(one["value"]) == pytest.approx(exact, rel=1e-5, abs=1e-12), one
+        assert in_si(one["text"], one["unit"], one["of"]) == pytest.approx(exact, rel=rel), one
+
+
 @pytest.mark.parametrize(
     ("screen", "params", "command", "keys"),
     [
@@ -62,6 +85,7 @@ def test_a_shared_file_holds_the_numbers_and_the_case_that_gives_them(
     again = of_case(page, command, server.folder, tmp_path)
     for key in keys:
         assert again[key] == told[key]
+    as_seen(page, again, {"slide": 5, "gear": 10}[screen])
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
     expect(page.get_by_text("Made on")).to_contain_text(f"asperity {command}")
     with page.expect_download(timeout=120_000) as download:
@@ -141,4 +165,24 @@ def test_what_took_long_is_shared_with_its_pictures_and_its_command_gives_it_aga
     again = answered(["asperity", command, str(case), *rest, "--json"], server.folder)
     for key in keys:
         np.testing.assert_allclose(again[key], told[key], rtol=1e-5)
+    if screen != "sweep":
+        as_seen(page, again, {"flanks": 4, "drive": 10, "block": 2}[screen])
+    else:
+        # Its picture is seen, and in words where the least is.
+        least = page.locator(".big b").first.inner_text()
+        assert float(least) == pytest.approx(np.nanmin(np.array(told["ratio"], float)), rel=1e-2)
     assert page.evaluate("document.documentElement.scrollWidth") <= 360
+
+
+def test_a_shared_file_whose_command_needs_more_than_the_case_says_what(shared):
+    _, page = shared("size")
+    expect(page.get_by_text("The command gives the proposals again")).to_contain_text(
+        "Save the case as gearset-3.toml, and asperity optimise gearset-3.toml finds"
+    )
+    # What is pressed on the page is no word of the file.
+    assert "take" not in page.locator("table").first.inner_text().split()
+    _, page = shared("rig")
+    expect(page.get_by_text("The command reads simulated-run.nc")).to_contain_text(
+        "which is not in here"
+    )
+    assert "[friction]" in page.locator("#case").inner_text()

@@ -5,6 +5,7 @@ import re
 
 import pytest
 from apparatus.browser import answered, copied, settled
+from apparatus.shown_numbers import in_si, numbers, read
 from playwright.sync_api import expect
 
 from asperity.casefile.forms import forms
@@ -15,47 +16,13 @@ from asperity.units import measures, to_si
 from asperity.web.answer import case_tables
 
 INCH, POUND_FORCE = 0.0254, 4.4482216152605
-PREFIXES = {"": 1.0, "G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
-SUPERSCRIPT = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 # What a US unit is of the unit that the entry has; of the page's own besides, which are smaller.
 SMALLER = {("m", "µin"): 1e6 / INCH}
-EVERY = """() => [...document.querySelectorAll("main .num button")].map((button) => ({
-  key: button.dataset.key, value: button.dataset.value, of: button.dataset.unit,
-  text: button.querySelector("b").textContent,
-  unit: (button.querySelector("i")?.textContent.trim() ?? "")
-    .replace(/^°$/, "deg").replace(/^°/, "deg").replaceAll("²", "2").replaceAll("³", "3")
-    .replace(/^µm$/, button.dataset.unit === "um" ? "um" : "µm"),
-}))"""
 
 
 def choose(page, system):
     page.get_by_label("units", exact=True).select_option(system)
     settled(page)
-
-
-def numbers(page):
-    """Return every number of the screen that opens: its key, what it is, how it is shown."""
-    found = [
-        one
-        for one in page.evaluate(EVERY)
-        if re.fullmatch(r"-?\d+(\.\d+)?(e[-+]?\d+)?", one["value"])
-    ]
-    return {f"{n} {one['key']}": one for n, one in enumerate(found)}
-
-
-def read(text):
-    """Return a number as it is printed, 3.1·10⁻⁵ too."""
-    mantissa, _, power = text.replace("−", "-").partition("·10")
-    return float(mantissa) * 10.0 ** float(power.translate(SUPERSCRIPT) or 0)
-
-
-def in_si(text, shown, unit):
-    """Return what is shown in SI in the unit of its entry."""
-    if shown == unit:
-        return read(text)
-    if unit == "rad":
-        return read(text) * {"deg": 0.017453292519943295, "µrad": 1e-6}[shown]
-    return read(text) * PREFIXES[shown.removesuffix(unit)]
 
 
 def in_us(value, shown, unit):

@@ -87,6 +87,32 @@ def test_points_are_counted_from_the_case_as_it_is(cached):
     )
 
 
+def test_a_note_that_is_not_true_of_all_points_names_those_it_is_true_of(cached):
+    found = misalign.answer(study(over=["shaft.housing=20,200 kN/mm"]), Run())
+    told = [note for note in found.notes if "the housing is rigid" in note]
+    assert len(told) == 1
+    assert told[0].startswith("as the case is: the housing")
+    # What is true of all points is told of none in particular.
+    assert any(note.startswith("the wheel's rim is held") for note in found.notes)
+    found = misalign.answer(study(over=["mount.axial_offset=-20,20 um"]), Run())
+    assert any(note.startswith("the housing is rigid") for note in found.notes)
+    held = study("shaft.bearing_axial=1 kN/um", over=["shaft.bearing_axial=1,2 kN/um"])
+    notes = misalign.answer(held, Run()).notes
+    assert not any("axial bearing and seat" in note for note in notes)
+
+
+def test_many_points_that_a_note_is_true_of_are_counted(cached):
+    over = ["drive.phases=2,3,4,8,9"]
+    notes = misalign.answer(study("drive.phases=8", over=over), Run()).notes
+    few = next(note for note in notes if "drive.phases is 2" in note)
+    assert few.startswith("drive.phases=2: ")
+    over = ["shaft.bearing_axial=1,2,3,4,5 kN/um"]
+    notes = misalign.answer(study(over=over), Run()).notes
+    assert any(
+        note.startswith("5 of 6 points, shaft.bearing_axial=1 kN/um and on:") for note in notes
+    )
+
+
 def test_what_was_solved_before_it_was_interrupted_is_not_solved_again(cached):
     made = study(over=["mount.axial_offset=-20,-10,0,10,20 um"])
 

@@ -18,12 +18,12 @@ def search(*settings, over=OVER, at=()):
     return relief.prepare(case, over=over, at=at)
 
 
-def loaded(worm_tip, flank, wheel_tip=0.0, error=70e-6):
+def loaded(worm_tip, flank, wheel_tip=0.0, error=70e-6, k_h_beta=2.0):
     numbers = dict.fromkeys(Loaded.__dataclass_fields__, 0.0)
     numbers |= {
         "force_worm_tip": worm_tip, "force_wheel_tip": wheel_tip, "normal_force": 7000.0,
         "pressure_flank": flank, "pressure_worm_tip": 7e9 * (worm_tip > 0.0),
-        "transmission_error": error,
+        "transmission_error": error, "k_h_beta": k_h_beta,
     }  # fmt: skip
     return Loaded(**numbers | {"pattern": np.zeros(1)})
 
@@ -144,6 +144,39 @@ def test_of_equal_edges_and_pressures_the_smaller_error_counts(solved):
         for n, error in enumerate([70e-6, 50e-6])
     ]
     assert merits[1] < merits[0]
+
+
+def best_of(*designs):
+    known = {(n,): relief._design(search(), (n, -1), [loaded(**d)]) for n, d in enumerate(designs)}
+    return relief._best(list(known), known)[0]
+
+
+def test_what_differs_by_less_than_a_percent_is_equal_and_the_next_decides():
+    # Of 500 and 503 N the flank decides, of 500 and 510 N the edges do.
+    assert best_of({"worm_tip": 500.0, "flank": 1.2e9}, {"worm_tip": 503.0, "flank": 1e9}) == 1
+    assert best_of({"worm_tip": 500.0, "flank": 1.2e9}, {"worm_tip": 510.0, "flank": 1e9}) == 0
+    # Where both flow the error does, and of equal errors the pattern.
+    flows = {"worm_tip": 500.0, "flank": 0.98e9}
+    assert best_of({**flows, "error": 60e-6}, {**flows, "error": 50e-6}) == 1
+    assert best_of({**flows, "k_h_beta": 3.0}, {**flows, "k_h_beta": 1.5}) == 1
+    assert best_of({**flows, "k_h_beta": 3.0}, {**flows, "error": 72e-6, "k_h_beta": 1.5}) == 0
+    # Of designs that are equal in all the first is left as it is.
+    assert best_of(flows, {**flows, "worm_tip": 499.0}) == 0
+
+
+def test_the_largest_pressure_is_said_to_stay_where_the_wheel_flows(monkeypatch):
+    flow = search().case and relief.DriveProblem.from_case(search().case, shaken=False)
+    cap = flow.gearset.wheel_material.flow_pressure
+
+    def solve(problems, _run):
+        reliefs = [1e6 * (p.modification.tip_relief if p.modification else 0.0) for p in problems]
+        at_cap = dict.fromkeys(("pressure_worm_tip", "pressure_flank"), cap)
+        return [Loaded(**{**vars(loaded(900.0 - 10.0 * off, cap)), **at_cap}) for off in reliefs]
+
+    monkeypatch.setattr(relief, "solve_points", solve)
+    (said,) = relief.answer(search(over=OVER[:1]), Run()).headline()
+    assert f"the largest pressure stays at {cap / 1e6:.4g} MPa, at which the wheel flows" in said
+    assert "K_Hbeta from 2 to 2" in said
 
 
 @pytest.mark.parametrize(

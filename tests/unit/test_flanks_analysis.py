@@ -18,8 +18,7 @@ from asperity.flanks.meshing.ease_off import ease_off
 from asperity.flanks.meshing.kernels import transmission as kernels
 from asperity.flanks.meshing.kinematics import kinematics
 from asperity.flanks.meshing.lubrication import Load, film_thickness, loaded_lines
-from asperity.flanks.meshing.pattern.area import areas, crossings, node_areas, part_below
-from asperity.flanks.meshing.pattern.marking import pattern
+from asperity.flanks.meshing.pattern import areas, crossings, node_areas, part_below, pattern
 from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.parameters import Hob, Mount
 from asperity.flanks.wheel.enveloped import Wheel

@@ -12,7 +12,7 @@ from asperity.errors import InputError
 from asperity.rating.rate import rate_case
 from asperity.results import read
 from asperity.sweep import branches, read_grid, run
-from asperity.sweep.gear_plots import plot_along
+from asperity.sweep.plots import plot_along
 
 FACTORS = "gearset.diameter_factor=9.5:10.5:0.5"
 TORQUES = "operation.output_torque=200,300 N m"

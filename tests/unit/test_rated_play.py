@@ -3,7 +3,12 @@
 import pytest
 
 import asperity
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.errors import InputError
+from asperity.runs import Run
+from asperity.shafts import study
+from asperity.studies import optimise
 
 JS7 = "tolerances.centre_distance=js7"
 OVERHUNG = "worm_shaft.bearing=[{at='8 mm', carries='both'}, {at='45 mm'}]"
@@ -39,3 +44,17 @@ def test_a_worm_that_overhangs_has_no_deflection_by_the_standard_and_the_beam_ha
     assert "ISO/TR 14521 has no answer for deflection: the worm overhangs" in over.brief()
     assert [row.name for row in over.rows].count("worm as a beam") == 1
     assert over.to_json()["iso14521"]["safety_deflection"] is None
+
+
+def test_shafts_and_optimise_say_that_the_formula_is_not_of_a_worm_that_overhangs():
+    case = read_case("actuator-shafts", case_tables(), (OVERHUNG,))
+    shafts = study.answer(study.prepare(case), Run())
+    assert shafts.iso_deflection is None
+    assert sum("overhangs, its mesh 60 mm beyond bearing B" in note for note in shafts.notes) == 1
+    assert optimise.prepare(case).overhang == "60 mm beyond bearing B"
+
+
+@pytest.mark.slow
+def test_an_optimum_of_a_worm_that_overhangs_says_which_deflection_is_its_own():
+    best = asperity.optimise("actuator-shafts", settings=(OVERHUNG,))
+    assert sum("overhangs, its mesh 60 mm beyond bearing B" in note for note in best.notes) == 1

@@ -11,6 +11,7 @@ from asperity.files.store import write_dataset
 from asperity.results import Quantities, Result, labelled, part, quantity, read
 from asperity.results.table import table_of
 from asperity.results.terminal import rendered
+from asperity.results.words import Number, text_of
 
 
 class Pull(Result):
@@ -204,3 +205,9 @@ def test_pictures_are_written_as_asked_the_same_bytes_each_time(timed, tmp_path)
         contents.append((folder / "result.svg").read_bytes())
     assert contents[0].startswith(b"<?xml")
     assert contents[0] == contents[1]
+
+
+def test_what_is_zero_within_a_distance_says_it_in_inches_too():
+    text = text_of(1e-12, 1e-9)
+    assert text == "0 within 1e-09"
+    assert [part.value for part in text.parts if isinstance(part, Number)] == [1e-9]

@@ -23,7 +23,7 @@ from apparatus.heard_rig import (
 from asperity.casefile import read_case
 from asperity.errors import InputError
 from asperity.runs import Run
-from asperity.tribometer.checking import study as checking
+from asperity.tribometer import checking
 from asperity.tribometer.importing import study as importing
 from asperity.tribometer.plots import plot_findings
 from asperity.tribometer.recording import Recording

@@ -184,19 +184,35 @@ def test_an_unstable_state_is_told():
         # A corner of the map or rounding, which adds once however long it is looked at.
         (1.002, 1.003, False),
         (1.0005, 1.5, False),
+        # Rounding is any size over any time, and what leaves the finite numbers has told nothing.
+        (1.002, 1.02, False),
+        (1.002, 0.0, False),
+        (math.inf, math.inf, False),
     ],
 )
 def test_what_hardly_grows_is_told_by_longer_times_in_which_it_does(over_64, over_256, grows):
-    told, cycles = iter((over_64, over_256)), []
-    longer = SimpleNamespace(
-        repeat=cycles.append, find=lambda settle: True, _by_differences=lambda: next(told)
-    )
-    cycle = SimpleNamespace(copied=lambda: longer)
+    told, cycles = {64: over_64, 256: over_256}, []
+    cycle = SimpleNamespace(_growth_over=lambda over: [cycles.append(over), told[over]][1])
     assert Cycle.grows_slowly(cycle, 1.0001) is grows
     # What has not grown over the shorter time is followed no longer.
-    assert cycles == ([64, 4] if over_64 > 1.001 else [64])
+    assert cycles == ([64, 256] if over_64 > 1.001 else [64])
     assert not Cycle.grows_slowly(cycle, 1.00001)
     assert not Cycle.grows_slowly(cycle, 1.01)
+
+
+@pytest.mark.parametrize("name", ["table-4.4", "normal-pin"])
+def test_a_growth_over_many_cycles_is_that_of_one_so_many_times(name):
+    """Of a state that fades; as of the map over those cycles that is found anew."""
+    model = body(name, "solve.method=periodic")
+    steps = cycle_steps(model)
+    cycle = Cycle(model, steps, 1.0 / (steps * model.frequency))
+    assert cycle.find(0)
+    growth, found = cycle.multiplier(), cycle.copied()
+    found.repeat(4)
+    assert found.find(0)
+    assert cycle._growth_over(1) == pytest.approx(growth, rel=1e-4)
+    assert cycle._growth_over(4) == pytest.approx(growth**4, rel=1e-3)
+    assert cycle._growth_over(4) == pytest.approx(found.multiplier(), rel=1e-3)
 
 
 def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_state_that_stays():

@@ -1,5 +1,6 @@
 """The error of the step that an answer tells is that of a solution on twice the step."""
 
+import numpy as np
 import pytest
 
 from asperity.casefile import read_case
@@ -91,7 +92,7 @@ def at_its_state(*settings, name="table-4.3"):
 def foreseen_beside(cycle):
     """The ratio that is foreseen on half the step, or None, and that of the cycle."""
     here, part = step_error._ratio(cycle), orders.part_of_difference(cycle.body.model)
-    return step_error._foreseen(cycle, cycle.jacobian, cycle.slopes, here, part), here
+    return step_error._foreseen(cycle, cycle.jacobian, cycle.slopes, here, part)[0], here
 
 
 @pytest.mark.parametrize(
@@ -109,6 +110,18 @@ def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):
     foreseen, here = foreseen_beside(cycle)
     assert abs(found - here) > 1e-7
     assert foreseen - here == pytest.approx(found - here, rel=0.2)
+
+
+def test_the_jacobian_that_a_search_leaves_is_that_of_the_state_it_found():
+    _, cycle = at_its_state("vibration.waveform=triangle", name="normal-pin")
+    unknowns = len(cycle.jacobian)
+    found = np.empty((unknowns + 1, unknowns))
+    step_error.differentiated(
+        cycle.body.kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments,
+        cycle.rises, cycle.body.no_sums()[0], found,
+    )  # fmt: skip
+    assert cycle.jacobian == pytest.approx(found[:unknowns], abs=1e-5)
+    assert cycle.slopes == pytest.approx(found[unknowns], abs=1e-5)
 
 
 @pytest.mark.parametrize(
@@ -152,7 +165,7 @@ def test_where_no_state_is_next_to_a_march_its_last_cycles_tell_its_error(monkey
 def test_where_no_state_is_next_to_it_one_is_searched(monkeypatch):
     model, cycle = at_its_state("vibration.waveform=triangle")
     told = step_error.error_of_state(cycle, model)
-    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: None)
+    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: (None, 0.0))
     searched = step_error.error_of_state(cycle, model)
     assert searched.error == pytest.approx(told.error, rel=0.05)
     assert not told.notes
@@ -165,7 +178,7 @@ def test_where_none_is_found_at_all_a_note_says_what_it_was_taken_from(
 ):
     model, cycle = at_its_state(f"vibration.waveform={waveform}")
     told = step_error.error_of_state(cycle, model)
-    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: None)
+    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: (None, 0.0))
     monkeypatch.setattr(step_error, "_found_beside", lambda *given: None)
     from_there = step_error.error_of_state(cycle, model)
     assert from_there.error == pytest.approx(told.error, rel=0.15)

@@ -8,7 +8,7 @@ from asperity.results.dataset import described
 from asperity.thesis.contents import FIGURES
 from asperity.thesis.flanks import figures as figures_flanks
 from asperity.thesis.flanks import solids as figures_solids
-from asperity.thesis.flanks.drawings_solids import View, paint
+from asperity.thesis.flanks.drawings import View, paint
 from asperity.thesis.flanks.meshing import meshing
 from asperity.thesis.flanks.shapes import Shape, joined
 

@@ -85,8 +85,8 @@ RIG_COMMANDS = (
         "Check what recordings say of their own sensors: zeros, signs, ratios, drive, tones.",
         "With --out also report.html, check.json, check.nc and check.png, a small picture of each "
         "finding.",
-        module="asperity.tribometer.checking.study",
-        read="asperity.tribometer.checking.study:read",
+        module="asperity.tribometer.checking",
+        read="asperity.tribometer.checking:read",
         counts="recordings",
         arguments=(_RECORDINGS,),
         case="",

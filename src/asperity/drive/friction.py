@@ -109,9 +109,7 @@ def viscosity_ratio(given: Inputs, temperature: float) -> float:
     return float(viscosity * density / _MM2 / rated["eta_0M_Pas"])
 
 
-def friction_curve(
-    given: Inputs, fastest: float, temperature: float | None = None
-) -> FrictionCurve:
+def friction_curve(given: Inputs, fastest: float) -> FrictionCurve:
     """Return the coefficient of tooth friction as a kernel looks it up.
 
     Parameters
@@ -120,13 +118,11 @@ def friction_curve(
         Gearset and operation.
     fastest : float
         Sliding speed up to which it is to be right, m/s.
-    temperature : float, optional
-        Of the film, K; that of the rating if left out.
     """
     if not fastest > 0.0:
         raise InputError(f"the fastest sliding speed is {fastest:g} m/s; it must be positive")
     speeds = np.linspace(0.0, fastest, _POINTS)
-    return FrictionCurve(float(speeds[1]), tooth_friction(given, speeds, temperature))
+    return FrictionCurve(float(speeds[1]), tooth_friction(given, speeds))
 
 
 def mesh_friction(case: Case, gearset: Gearset, operation: Operation, drive: Drive) -> Friction:

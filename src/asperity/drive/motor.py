@@ -245,7 +245,6 @@ def exchange(
     after: Service,
     actuator_power: float,
     actuator_apparent_power: float,
-    motors: Iterable[Motor] | None = None,
 ) -> Exchange:
     """Return which motor does without and which with vibration, and what the actuator weighs.
 
@@ -255,12 +254,9 @@ def exchange(
         Asked of the motor without and with vibration.
     actuator_power, actuator_apparent_power : float
         Electrical, while it shakes, W and VA.
-    motors : iterable of Motor, optional
-        To choose from; all that are known if left out.
     """
-    known = all_motors() if motors is None else tuple(motors)
     return Exchange(
-        lightest(before, known),
-        lightest(after, known),
+        lightest(before),
+        lightest(after),
         TRANSDUCER_MASS * actuator_power + GENERATOR_MASS * actuator_apparent_power,
     )

@@ -21,7 +21,6 @@ from asperity.sources import Source
 from asperity.units import Quantity, to_si
 
 VALVES = Source("EN 15714-2, EN ISO 22153:2021", "one source", "by makers' tables")
-SERVICE_FACTORS = Source("AGMA 6034-A87, by NORD's catalogue", "one source")
 
 _MEAN, _ENDS = 0.30, 0.10
 _CLASS = re.compile(r"EN 15714-2 ([A-D])")

@@ -6,7 +6,7 @@ whose tables or limits of validity a gearset lies outside of.
 
 import re
 import textwrap
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 from asperity.rating.demands import DEMANDS
@@ -141,11 +141,6 @@ def listed(words: Sequence[str]) -> str:
 def wrapped(text: str) -> list[str]:
     """Return a text in lines of at most 79 characters."""
     return lines_of_text(shown_text(text), WIDTH, hanging="  ")
-
-
-def lines_of(texts: Iterable[str]) -> list[str]:
-    """Return texts in such lines."""
-    return [line for text in texts for line in wrapped(text)]
 
 
 def _what(violation: str) -> str:

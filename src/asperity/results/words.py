@@ -68,7 +68,7 @@ def text_of(value: Any, resolution: float = 0.0, key: str = "") -> str:
         if value != value:
             return "-"
         if abs(value) <= resolution and value:
-            return f"0 within {resolution:.0g}"
+            return Sentence("0 within ", Number(f"{resolution:.0g}", resolution))
         return Number(f"{value + 0.0:.{_DIGITS}g}", float(value), key)
     if isinstance(value, int):
         return Number(str(value), value, key)

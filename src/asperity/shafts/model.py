@@ -83,6 +83,15 @@ class Model(NamedTuple):
         return first, second
 
     @property
+    def overhang(self) -> str:
+        """How far the mesh lies beyond its bearings and beyond which; empty between them."""
+        first, second = self.bearings
+        if first <= self.mesh <= second:
+            return ""
+        end, over = ("A", first - self.mesh) if self.mesh < first else ("B", self.mesh - second)
+        return f"{over:.4g} mm beyond bearing {end}"
+
+    @property
     def length(self) -> float:
         """Of all of it, mm."""
         return self.stretches[-1].end

@@ -1,14 +1,13 @@
 """Shafts as JSON, as tables and as the arrays that are drawn."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
 
 from asperity.results.table import Column, Table
 from asperity.results.words import Number, Sentence, text_of
-from asperity.shafts.bearings import Life
 from asperity.shafts.shaft import ShaftFound
 from asperity.shafts.verdict_rows import NAMES
 
@@ -17,6 +16,11 @@ Study = Any
 
 _ENDS = ("A", "B")
 _BETWEEN = 12
+_LOAD, _OIL = ("radial_N", "axial_N"), ("kappa", "a_ISO", "Lnmh_h")
+_OF_SECTION = (
+    "diameter_mm", "bending_moment_Nm", "torque_Nm", "sigma_v_MPa", "S_D_case_1", "S_D_case_2",
+    "S_F", "n_goodman", "n_gerber",
+)  # fmt: skip
 _OF_ALL = (
     "F_r and F_a are those of the load with the greatest equivalent load, P is the mean of all "
     "loads that gives the same life, s_0 the least of all"
@@ -88,11 +92,11 @@ def shaft_json(found: ShaftFound) -> dict[str, Any]:
                 "sigma_zd_MPa": each.judged.axial,
                 "tau_t_MPa": each.judged.torsion,
                 "sigma_v_MPa": each.judged.mises,
-                "S_D_case_1": _finite(each.judged.fatigue_1),
-                "S_D_case_2": _finite(each.judged.fatigue_2),
-                "S_F": _finite(each.judged.yielding),
-                "n_goodman": _finite(each.judged.goodman),
-                "n_gerber": _finite(each.judged.gerber),
+                "S_D_case_1": _known(each.judged.fatigue_1),
+                "S_D_case_2": _known(each.judged.fatigue_2),
+                "S_F": _known(each.judged.yielding),
+                "n_goodman": _known(each.judged.goodman),
+                "n_gerber": _known(each.judged.gerber),
             }
             for each in found.sections
         ],
@@ -127,23 +131,19 @@ def tables(study: Study) -> tuple[Table, ...]:
 
 
 def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
-    name = NAMES[key]
+    name, told = NAMES[key], shaft_json(found)
     reactions = [
         (
             condition.text,
-            *_keyed(
-                f"{key}.cases.{condition.key}",
-                {
-                    "bearings.0.radial_N": each.carried.radial[0],
-                    "bearings.0.axial_N": each.axial.loads[0],
-                    "bearings.1.radial_N": each.carried.radial[1],
-                    "bearings.1.axial_N": each.axial.loads[1],
-                    "deflection_um": each.at_mesh[0],
-                },
+            *(
+                text
+                for n, bearing in enumerate(case["bearings"])
+                for text in _keyed(f"{key}.cases.{condition.key}.bearings.{n}", bearing, _LOAD)
             ),
+            *_keyed(f"{key}.cases.{condition.key}", case, ("deflection_um",)),
         )
-        for condition, each in zip(found.cases, found.hardest, strict=True)
-    ]  # fmt: skip
+        for condition, case in zip(found.cases, told["cases"].values(), strict=True)
+    ]
     a, b = found.model.bearings
     yield Table.of(
         ("", "F_r,A (N)", "F_a,A (N)", "F_r,B (N)", "F_a,B (N)", "v at the mesh (um)"),
@@ -151,44 +151,28 @@ def _of_shaft(key: str, found: ShaftFound) -> Iterator[Table]:
         title=f"Loads of the {name}'s bearings, A at {a:.4g} mm and B at {b:.4g} mm, at "
         f"{max(each.load.torque for each in found.hardest):.4g} N m",
     )
+    every = [life for own in found.lives for life in (own or {}).values()]
+    oiled = bool(every) and every[0].modified is not None
+    keys = (*_LOAD, "P_N", "L10h_h", *(_OIL if oiled else ()), "static_safety")
     lives = [
         (
-            f"{end} {place.bearing.name if place.bearing else ''}, {condition.text}",
-            *_keyed(f"{key}.bearings.{number}.cases.{condition.key}", _life_columns(life)),
+            f"{end} {own['bearing'] or ''}, {condition.text}",
+            *_keyed(f"{key}.bearings.{n}.cases.{condition.key}", own["cases"][condition.key], keys),
         )
-        for number, (end, place, own) in enumerate(
-            zip(_ENDS, found.model.places, found.lives, strict=True)
-        )
-        for condition, life in (own or {}).items()
-    ]  # fmt: skip
-    several = any(len(life.damage) > 1 for own in found.lives for life in (own or {}).values())
+        for n, (end, own) in enumerate(zip(_ENDS, told["bearings"], strict=True))
+        for condition in found.lives[n] or {}
+    ]
     if lives:
-        oil = ("kappa", "a_ISO", "L_nmh (h)") if len(lives[0]) > 6 else ()
+        oil = ("kappa", "a_ISO", "L_nmh (h)") if oiled else ()
         yield Table.of(
             ("", "F_r (N)", "F_a (N)", "P (N)", "L_10h (h)", *oil, "s_0"),
             lives,
             title=f"Lives of the {name}'s bearings (ISO 281, ISO 76)",
-            remarks=[_OF_ALL] if several else [],
+            remarks=[_OF_ALL] if any(len(life.damage) > 1 for life in every) else [],
         )
     sections = [
-        (
-            each.detail.name,
-            *_keyed(
-                f"{key}.sections.{number}",
-                {
-                    "diameter_mm": each.detail.diameter,
-                    "bending_moment_Nm": each.actions.bending,
-                    "torque_Nm": each.actions.torque,
-                    "sigma_v_MPa": each.judged.mises,
-                    "S_D_case_1": _known(each.judged.fatigue_1),
-                    "S_D_case_2": _known(each.judged.fatigue_2),
-                    "S_F": _known(each.judged.yielding),
-                    "n_goodman": _known(each.judged.goodman),
-                    "n_gerber": _known(each.judged.gerber),
-                },
-            ),
-        )
-        for number, each in enumerate(found.sections)
+        (each["name"], *_keyed(f"{key}.sections.{n}", each, _OF_SECTION))
+        for n, each in enumerate(told["sections"])
     ]
     if sections:
         steel = found.model.table.material
@@ -226,24 +210,9 @@ def _deflection(study: Study) -> Table:
     )
 
 
-def _life_columns(life: Life) -> dict[str, float | None]:
-    """Return what a table tells of a life, by its key in JSON."""
-    film: dict[str, float | None] = {}
-    if life.modified is not None:
-        film = {"kappa": life.kappa, "a_ISO": life.a_iso, "Lnmh_h": life.modified}
-    return {
-        "radial_N": life.radial,
-        "axial_N": life.axial,
-        "P_N": life.equivalent,
-        "L10h_h": life.rating_life,
-        **film,
-        "static_safety": life.static_safety,
-    }
-
-
-def _keyed(path: str, values: Mapping[str, float | None]) -> list[str]:
-    """Return numbers that know where they stand in JSON."""
-    return [text_of(value, key=f"{path}.{key}") for key, value in values.items()]
+def _keyed(path: str, told: Mapping[str, Any], keys: Iterable[str]) -> list[str]:
+    """Return some numbers of an object of JSON, which know where they stand in it."""
+    return [text_of(told[key], key=f"{path}.{key}") for key in keys]
 
 
 def _shown(value: float, key: str, unit: str) -> str:
@@ -310,6 +279,3 @@ def _short(value: float) -> float:
 
 def _known(value: float) -> float | None:
     return value if math.isfinite(value) else None
-
-
-_finite = _known

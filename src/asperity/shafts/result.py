@@ -121,6 +121,11 @@ class ShaftStudy(Drawn):
         worm = found.get("worm_shaft")
         bent = None if worm is None else worm.worst.at_mesh
         notes = [note for shaft in found.values() for note in shaft.model.notes]
+        if worm is not None and worm.model.overhang:
+            notes.append(
+                f"the worm overhangs, its mesh {worm.model.overhang}: ISO/TR 14521 has no "
+                "deflection of such a worm, its limit is taken"
+            )
         if (factor := given.operation.application_factor) != 1.0:
             notes.append(
                 f"forces of the teeth are those under K_A = {factor:g} times the torque, as in "
@@ -156,7 +161,9 @@ class ShaftStudy(Drawn):
             life=life,
             worm_deflection=None if bent is None else bent[0],
             worm_deflection_with_shear=None if bent is None else bent[1],
-            iso_deflection=None if iso is None or worm is None else 1e3 * iso[0],
+            iso_deflection=(
+                None if iso is None or worm is None or worm.model.overhang else 1e3 * iso[0]
+            ),
             deflection_limit=None if iso is None or worm is None else 1e3 * iso[1],
             least_life=min((each.told for each in lives), default=None),
             least_static_safety=min((each.static_safety for each in lives), default=None),

@@ -209,11 +209,18 @@ def rows_by(case: Case) -> Callable[[Gearset], tuple[Row, ...]] | None:
     )
 
 
+def overhang_by(case: Case) -> str:
+    """Return where the mesh of a case's worm lies beyond its bearings; empty between them."""
+    if WormShaft.table not in case:
+        return ""
+    return model_of(case.require(WormShaft), case.require(Gearset).geometry).overhang
+
+
 def _off_centre(worm: Model) -> str:
     """Say that the worm's mesh is not midway between its bearings, where the standard has it."""
     first, second = worm.bearings
     place, span = worm.mesh - first, second - first
-    if abs(place - 0.5 * span) <= _MIDWAY * span or not 0.0 <= place <= span:
+    if abs(place - 0.5 * span) <= _MIDWAY * span or worm.overhang:
         return ""
     return (
         f"worm_shaft: its mesh is {place:.4g} mm from bearing A, of {span:.4g} mm; forces on "
@@ -221,25 +228,15 @@ def _off_centre(worm: Model) -> str:
     )
 
 
-def _overhung(worm: Model) -> str:
-    """Say that the worm's mesh is not between its bearings at all: a standard's beam is another."""
-    first, second = worm.bearings
-    place, span = worm.mesh - first, second - first
-    if 0.0 <= place <= span:
-        return ""
-    end, over = ("A", -place) if place < 0.0 else ("B", place - span)
-    return (
-        f"the worm overhangs, its mesh {over:.4g} mm beyond bearing {end}; the worm as a beam, "
-        "below, has its deflection"
-    )
-
-
 def _judged(rated: Rated, worm: Model | None) -> Rated:
     """Return a rating without the standard's deflection where the worm overhangs."""
     iso = rated.iso14521
-    why = "" if worm is None else _overhung(worm)
-    if iso is None or not why or _DEFLECTION[0] not in iso:
+    if iso is None or worm is None or not worm.overhang or _DEFLECTION[0] not in iso:
         return rated
+    why = (
+        f"the worm overhangs, its mesh {worm.overhang}; the worm as a beam, below, has its "
+        "deflection"
+    )
     first = rated.verdict.first
     found = dataclasses.replace(rated, iso14521=iso.without(_DEFLECTION, why))
     if first is not None and first.demand.path == f"iso14521.{_DEFLECTION[0]}":

@@ -9,7 +9,6 @@ from asperity.sources import Source
 DIN_743 = Source("DIN 743:2012", "one source", "an open student program has the same formulas")
 DIN_743_MEMORY = Source("DIN 743:2012", "from memory")
 SHIGLEY = Source("Budynas and Nisbett, Shigley's Mechanical Engineering Design, ch. 7", "verified")
-STATICS = Source("statics", "verified")
 ISO_281 = Source("ISO 281", "verified", "makers' catalogues agree")
 ISO_281_MEMORY = Source("ISO 281", "from memory")
 ISO_76 = Source("ISO 76", "verified", "makers' catalogues agree")
@@ -51,7 +50,6 @@ sigma_bm = Annotated[Real, Symbol("sigma_bm", "MPa", finite)]
 tau_m = Annotated[Real, Symbol("tau_m", "MPa", finite)]
 M = Annotated[Real, Symbol("M", "N m", not_negative)]
 T = Annotated[Real, Symbol("T", "N m", finite)]
-F_x = Annotated[Real, Symbol("F_x", "N", finite)]
 
 # Rolling bearings
 F_r = Annotated[Real, Symbol("F_r", "N", not_negative)]

@@ -20,6 +20,7 @@ from asperity.kernels.dense import copy
 from asperity.kernels.elimination import eliminate
 from asperity.normal import elastic_force, indentation
 from asperity.slider.cycle_map import Cycle
+from asperity.slider.on_twice import predicted_on_half
 from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed
 from asperity.slider.scaled import COULOMB, LUGRE, SPRINGS
 from asperity.slider.search_room import room_for
@@ -28,21 +29,41 @@ from asperity.slider.unknowns import read_unknowns, unknown_scales
 _JUMP = 1e-9  # of the load, that a jump is more than the rounding of a wave
 
 
+def remembers_jumps(cycle: Cycle) -> bool:
+    """Whether a load of a cycle may jump, and friction remembers it."""
+    p, q = cycle.body.p, cycle.q
+    if q is None or p.smooth or p.model == COULOMB or q.damping == 0.0:
+        return False
+    return bool(p.model == SPRINGS or q.keeps == STIFFNESS)
+
+
 def ratio_let_down(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> float | None:
     """Return the ratio of the state next to that of a cycle whose asperities are let down.
 
     None where no load jumps, or friction does not remember it. What is given is left as it is.
     """
-    p, q, kept = cycle.body.p, cycle.q, cycle.body.kept
-    if q is None or p.smooth or p.model == COULOMB or q.damping == 0.0:
+    if not remembers_jumps(cycle):
         return None
-    if p.model != SPRINGS and q.keeps != STIFFNESS:
-        return None
+    body = cycle.body
     jumps, ratio = _let_down_in_a_cycle(
-        kept["state"], cycle.springs, p, q, cycle.increments, cycle.rises, kept["sums"],
-        np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
+        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
+        body.kept["sums"], np.ascontiguousarray(jacobian), np.ascontiguousarray(slopes),
     )  # fmt: skip
     return ratio if jumps and math.isfinite(ratio) else None
+
+
+@kernel
+def predicted_at_corners(
+    start, springs, p, q, increments, rises, halves, rise_halves, sums, jacobian, slopes
+):  # fmt: skip
+    """What `predicted_on_half` and `_let_down_in_a_cycle` return, in one call."""
+    first, ratio = predicted_on_half(
+        start, springs, p, q, halves, rise_halves, sums, jacobian, slopes
+    )
+    jumps, let_down = _let_down_in_a_cycle(
+        start, springs, p, q, increments, rises, sums, jacobian, slopes
+    )
+    return first, ratio, jumps, let_down
 
 
 @kernel

@@ -5,7 +5,6 @@ import functools
 import math
 import time
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +18,7 @@ from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
+from asperity.slider.fading import quarter_means
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.longer import advice, needed
 from asperity.slider.march import judged_answer, march, march_once
@@ -276,13 +276,15 @@ def _answer(
     if not np.all(np.isfinite(column)):
         return ConvergenceError("the march left the finite numbers; give a smaller solve.step")
     sums = _sums(column, body, start_free)
-    half, first_half = table.middle - table.window_start, float(quarters[1])
-    second = (sums["drive_force"] - first_half) / (table.window - half)
-    residual = abs(float(second - first_half / half))
+    early, to_the_middle, late = map(float, quarters)
+    begin, (first, middle, third) = table.window_start, table.quarters
+    halves = (
+        (to_the_middle, middle - begin),
+        (float(sums["drive_force"]) - to_the_middle, table.steps - middle),
+    )
+    means = quarter_means(halves, ((early, first - begin), (late - to_the_middle, third - middle)))
+    residual = abs(halves[1][0] / halves[1][1] - halves[0][0] / halves[0][1])
     broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
-    ends = pairwise([table.window_start, *table.quarters, table.steps])
-    forces = pairwise([0.0, *quarters.tolist(), float(sums["drive_force"])])
-    means = [(b - a) / max(to - at, 1) for (a, b), (at, to) in zip(forces, ends, strict=True)]
     across = pull_across(model, sums["friction_y"] / sums["steps"])
     window = WindowMeans(model, table, residual, means, broke, across)
 

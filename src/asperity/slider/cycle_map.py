@@ -30,7 +30,8 @@ _FEW = 2  # of them, after which a friction that keeps this share of what is all
 _CLEARLY = 0.1
 _LASTING = 1.0 - 1e-5  # a multiplier by differences is as exact
 _SURE = 1.0 + 2e-5  # above which it is not 1
-_LONGER = 64, 4  # times the cycles, and times these: over which a slow growth is told
+_LONGER = 64, 256  # times the cycles, over which a slow growth is told
+_AS_OFTEN = 0.25  # of the times as many, that a growth over the longer time may be off it
 _FAR_PUSH = 0.1
 _SAME_RATIO, _SAME_IN_PLANE = 1e-6, 2e-5
 _MOST_WATCHED = 2000
@@ -149,31 +150,36 @@ class Cycle:
         return self._marched(growth) if growth > UNSTABLE else growth
 
     def _by_differences(self) -> float:
-        if self.q is not None:
-            unknowns = len(self.jacobian)
-            found = np.empty((unknowns + 1, unknowns))
-            differentiated(
-                self.body.kept["state"], self.springs, self.body.p, self.q, self.increments,
-                self.rises, self.body.no_sums()[0], found,
-            )  # fmt: skip
-            self.jacobian, self.slopes = found[:unknowns], found[unknowns]
         return _growth(self.jacobian)
 
     def grows_slowly(self, growth: float) -> bool:
         """Whether what is 1 within the bound of what is told unstable is above it nevertheless.
 
         A corner of the map or its rounding adds to a multiplier once, however many cycles it is
-        over; what grows does so in each of them.
+        over; what grows does so in each of them, as often as there are.
         """
         if not _SURE < growth <= UNSTABLE:
             return False
-        longer, grown = self.copied(), []
-        for cycles in _LONGER:
-            longer.repeat(cycles)
-            grown.append(longer._by_differences() if longer.find(0) else 0.0)
-            if not grown[-1] > UNSTABLE:
-                return False
-        return math.log(grown[1]) > 3.0 * math.log(grown[0])
+        early = self._growth_over(_LONGER[0])
+        if not early > UNSTABLE:
+            return False
+        late = self._growth_over(_LONGER[1])
+        times = math.log(max(late, 1.0)) / math.log(early)
+        return abs(times * _LONGER[0] / _LONGER[1] - 1.0) < _AS_OFTEN
+
+    def _growth_over(self, cycles: int) -> float:
+        """How much the least stable disturbance grows over so many times the cycles from here.
+
+        By differences too, which a state that was found bears for as long without being found anew.
+        """
+        same, along = self.rises is self.increments, _repeated(self.increments, cycles)
+        unknowns = len(self.jacobian)
+        found = np.empty((unknowns + 1, unknowns))
+        differentiated(
+            self.body.kept["state"], self.springs, self.body.p, self.q, along,
+            along if same else _repeated(self.rises, cycles), self.body.no_sums()[0], found,
+        )  # fmt: skip
+        return _growth(found[:unknowns]) if np.isfinite(found).all() else math.inf
 
     def one_of_many(self, growth: float) -> bool:
         """Whether a disturbance of a state lasts, and the mean force follows it."""

@@ -22,10 +22,7 @@ def quarters_in_time(means: Sequence[float]) -> float | None:
 
 
 def quarter_means(
-    halves: Sequence[tuple[float, float]],
-    quarters: Sequence[tuple[float, float]],
-    *,
-    counted: bool = False,
+    halves: Sequence[tuple[float, float]], quarters: Sequence[tuple[float, float]]
 ) -> list[float]:
     """Return the means over the quarters of a window, or its halves where a quarter has no span.
 
@@ -33,15 +30,13 @@ def quarter_means(
     ----------
     halves, quarters : sequence of 2 tuples
         Sum and span of the halves of a window, and of the first quarter in each.
-    counted : bool
-        Whether spans are steps; the mean of none of them is nothing.
     """
     means = []
     for (force, span), (early, of_it) in zip(halves, quarters, strict=True):
         parts = (early, of_it), (force - early, span - of_it)
-        if of_it <= 0.0 and not counted:
+        if not 0.0 < of_it < span:
             parts = (force, span), (force, span)
-        means += [each / (max(time, 1.0) if counted else time) for each, time in parts]
+        means += [each / time for each, time in parts]
     return means
 
 

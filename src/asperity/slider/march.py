@@ -52,6 +52,7 @@ _SPARE = 1.2  # times what is foreseen
 # anything; and of mu F_N, from which on friction swings.
 _SEEN, _SWINGS = 0.1, 1e-3
 _CHANGING = ("done", "seconds", "_start", "_first_half", "_quarters", "_places", "_rows")
+_TOGETHER: dict[str, Callable[[Any, Any], Any]] = {"_max": max, "_min": min}
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
 
 
@@ -91,15 +92,14 @@ class March:
         self._stop = stop
         self._run = run if run is not None else Run()
         self._body = integrator(model, self.table.step)
+        self._timed = model  # with the duration that is marched
         self._start: tuple[float, float] | None = None
         self._first_half: npt.NDArray[np.void] | None = None
-        self._timed = model  # with the duration that is marched
         # Sum of the drive force and steps, of the first quarter in each half of the window.
         self._quarters: list[tuple[float, float]] = []
         # Of each recorded stretch: its first step and its steps; mean, least and greatest.
         self._places: list[npt.NDArray[np.int64]] = []
         self._rows: list[FloatArray] = []
-        self._start_cycles = model.frequency * model.start
         self._body.start(self._cycles)
 
     @property
@@ -125,7 +125,7 @@ class March:
 
     @property
     def _cycles(self) -> float:
-        return self.done * self._body.rate - self._start_cycles
+        return self.done * self._body.rate - self.model.frequency * self.model.start
 
     def to(self, target: int, stride: int) -> None:
         """March to a step in stretches of ``stride`` steps, and one that ends there."""
@@ -167,27 +167,30 @@ class March:
         table = self.table
         stride, tail = BLOCK, table.steps
         if self._record:
-            stride = max(1, table.steps // table.parts // _RECORDS) * table.parts
-            tail = table.steps - table.tail
+            stride = max(table.steps // table.parts // _RECORDS, 1) * table.parts
+            tail -= table.tail
         self.to(table.window_start, stride)
         if self._start is None:
             self._start = self.energies()
             self._body.clear()
-        self._quarter(1, table.window_start, stride)
+        self._quarter(1, table.window_start, stride, tail)
         self.to(table.middle, stride)
         if self._first_half is None:
             self._first_half = self._body.kept["sums"].copy()
             self._body.clear()
-        self._quarter(2, table.middle, stride, most=tail)
+        self._quarter(2, table.middle, stride, tail)
         self.to(tail, stride)
         self.to(table.steps, table.parts)
         return self._result(self._start, self._first_half[0])
 
-    def _quarter(self, half: int, begin: int, stride: int, most: float = math.inf) -> None:
+    def _quarter(self, half: int, begin: int, stride: int, tail: int) -> None:
         """March to the end of a half's first quarter, and keep the sums up to there."""
         # At the end of a stretch, which are the same without these sums.
         target = self.table.quarters[2 * (half - 1)]
-        self.to(int(min(begin + (target - begin) // stride * stride, most)), stride)
+        if target > tail:
+            self.to(tail, stride)
+            stride = self.table.parts
+        self.to(begin + ((target - begin) // stride * stride or target - begin), stride)
         if len(self._quarters) < half:
             self._quarters.append(_pulled(self.sums))
 
@@ -216,20 +219,17 @@ class March:
         halves = first_half, self.sums
         sums = self._body.no_sums()[0]
         for name in sums.dtype.names or ():
-            together = (
-                max if name.endswith("_max") else min if name.endswith("_min") else operator.add
-            )
+            together = _TOGETHER.get(name[-4:], operator.add)
             sums[name] = together(*(half[name] for half in halves))
-        means = [half["drive_force"] / half["steps"] for half in halves]
+        first, second = (half["drive_force"] / half["steps"] for half in halves)
         window = WindowMeans(
-            self._timed, table, abs(float(means[1] - means[0])),
-            quarter_means([_pulled(half) for half in halves], self._quarters, counted=True),
+            self._timed, table, abs(float(second - first)),
+            quarter_means([_pulled(half) for half in halves], self._quarters),
             self.breakaway is not None, pull_across(model, sums["friction_y"] / sums["steps"]),
         )  # fmt: skip
         swings = _swing(first_half), _swing(self.sums)
-        leaves = ""
-        if not model.vibrates:
-            leaves = still_leaves(model, 0.5 * table.window * table.step, swings)
+        half = 0.5 * table.window * table.step
+        leaves = "" if model.vibrates else still_leaves(model, half, swings)
         answer = judged_answer(
             model, window, sums, (start, self.energies()), lambda: self._body,
             leaves=leaves, notes=self._beside(swings), seconds=self.seconds,

@@ -160,9 +160,10 @@ def differentiate(
 def _newton(
     start, springs, p, q, increments, rises, sums, count, jacobian, room, end, end_springs
 ):  # fmt: skip
-    """Newton from ``start``, which ends at the best state found; returns (defect, cycles run).
+    """Newton from ``start``, which ends at the best state found, ``room.defect`` from it.
 
-    ``end`` and ``end_springs`` are the state a cycle on.
+    Returns that defect's largest part, the mean drive force and the cycles run; ``end`` and
+    ``end_springs`` are the state a cycle on.
     """
     trial, trial_springs, here, there = room.trial, room.trial_springs, room.here, room.there
     trial_end, trial_end_springs = room.trial_end, room.trial_end_springs
@@ -231,16 +232,16 @@ def _newton(
         end[0] = trial_end[0]
         copy(trial_end_springs, end_springs)
         copy(room.trial_defect, defect)
-    return worst, cycles
+    return worst, mean, cycles
 
 
 @kernel
 def _first_guess(
     start, springs, p, q, increments, rises, sums, count, room, end, end_springs
 ):  # fmt: skip
-    """Find a state to start from; returns its defect, if it is periodic already, and cycles run.
+    """Find a state to start from; returns its defect and mean drive force, and the cycles run.
 
-    ``end`` and ``end_springs`` are the state a cycle on, if it is.
+    Those, ``end`` and ``end_springs``, the state a cycle on, are its own if it is periodic already.
     """
     state = start[0]
     steps = increments.size - 1
@@ -259,8 +260,9 @@ def _first_guess(
     worst = defect_of(
         start, springs, p, q, increments, rises, sums, count, room, end, end_springs, room.defect
     )
+    mean = mean_drive(sums, state, end[0], p)
     if worst <= 1e-12:
-        return worst, 1
+        return worst, mean, 1
     state.deflection_x = 1.0
     state.friction_x = 1.0
     # Friction under the drive's mean motion alone tells the mean force to start from.
@@ -269,7 +271,7 @@ def _first_guess(
         _run(state, springs, carried(p), q, increments, rises, sums, room.nodes)
     if not p.rigid:
         state.stretch = sums.friction_x / steps / p.stiffness
-    return worst, 4
+    return worst, mean, 4
 
 
 @kernel
@@ -293,7 +295,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         Overwritten.
     jacobian : ndarray
         Room for that of the map less one, and in the row behind it for the slopes of the mean drive
-        force over mu F_N.
+        force over mu F_N: as Newton's method left it; of a pressed body that of the state found.
     settle : int
         0 for the first call; else cycles to run beforehand, the drive damped critically, which
         calms the lateral motion too; on its own drive if below zero.
@@ -311,10 +313,11 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     count = unknown_scales(start, springs, p, q, room.scales)
     used = 0
     worst = np.inf
+    mean = 0.0
     end = np.empty_like(start)
     end_springs = np.empty_like(springs)
     if settle == 0:
-        worst, used = _first_guess(
+        worst, mean, used = _first_guess(
             start, springs, p, q, increments, rises, sums, count, room, end, end_springs
         )
     else:
@@ -323,11 +326,16 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
             _run(start[0], springs, drive, q, increments, rises, sums, room.nodes)
         used = abs(settle)
     if worst > 1e-12:
-        worst, cycles = _newton(
+        worst, mean, cycles = _newton(
             start, springs, p, q, increments, rises, sums, count, jacobian, room, end, end_springs
         )
         used += cycles
     if worst <= ACCEPTED:
+        if q is not None:
+            differentiate(
+                start, springs, p, q, increments, rises, sums, count, _DIFFERENCE, 1.0, mean, room,
+                jacobian,
+            )  # fmt: skip
         # Once more around for the sums, from the end of a cycle, where the node forces belong.
         start[0] = end[0]
         copy(end_springs, springs)

@@ -20,7 +20,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError
-from asperity.slider.at_corners import ratio_let_down
+from asperity.slider.at_corners import predicted_at_corners, ratio_let_down, remembers_jumps
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
@@ -124,12 +124,12 @@ def error_of_state(cycle: Cycle, model: Model) -> OfState:
         return OfState(0.0)
     jacobian, slopes = map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
     here, part = _ratio(cycle), part_of_difference(model)
-    other = _closed_beside(cycle, jacobian, slopes, here, part)
+    other, hidden = _closed_beside(cycle, jacobian, slopes, here, part)
     if other is None:
         other = _found_beside(cycle)
     if other is None:
         return _from_there(cycle)
-    return OfState(max(abs(other - here) * part, _hidden(cycle, jacobian, slopes, here)))
+    return OfState(max(abs(other - here) * part, hidden))
 
 
 def _from_there(cycle: Cycle) -> OfState:
@@ -178,9 +178,9 @@ def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float |
         there = end.copied()
         one = _closed(there, jacobian)
         if one is not None and abs(one - ratio) <= _AGREE:
-            other = _closed_beside(there, jacobian, slopes, one, part)
+            other, hidden = _closed_beside(there, jacobian, slopes, one, part)
             if other is not None:
-                return max(abs(other - one) * part, _hidden(there, jacobian, slopes, one))
+                return max(abs(other - one) * part, hidden)
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
     return _cycles_again(end, min(max(1, again), _MOST_AGAIN))
 
@@ -195,12 +195,6 @@ def at_the_end(body: Integrator, table: Timetable) -> Cycle:
     end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
     put(end, step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
     return end
-
-
-def _hidden(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray, here: float) -> float:
-    """Return the error of a state at corners which other steps make as well; 0 where none is."""
-    let_down = ratio_let_down(cycle, jacobian, slopes)
-    return 0.0 if let_down is None else abs(let_down - here)
 
 
 def _beside(model: Model) -> float:
@@ -321,40 +315,48 @@ def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
 
 def _closed_beside(
     cycle: Cycle, jacobian: FloatArray, slopes: FloatArray, here: float, part: float
-) -> float | None:
+) -> tuple[float | None, float]:
     """Return the ratio of that state on other steps; the body stays where it is.
 
     Those are twice as long, or half as long of a wave with corners: half the steps end on the same
-    corners, and on coarser ones errors that fall with the step alone do not show in full.
+    corners, and on coarser ones errors that fall with the step alone do not show in full. And the
+    error of a state at corners which other steps make as well; 0 where none is.
     """
     if cycle.body.model.meets_corners:
-        foreseen = _foreseen(cycle, jacobian, slopes, here, part)
-        return foreseen if foreseen is not None else _closed(_on_half(cycle), jacobian)
+        foreseen, hidden = _foreseen(cycle, jacobian, slopes, here, part)
+        return (_closed(_on_half(cycle), jacobian) if foreseen is None else foreseen), hidden
     kept = cycle.body.kept
     left, ratio = close_on_twice(
         kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
         kept["sums"], jacobian, _CLOSING,
     )  # fmt: skip
-    return ratio if left <= _LEFT and math.isfinite(ratio) else None
+    let_down = ratio_let_down(cycle, jacobian, slopes)
+    hidden = 0.0 if let_down is None else abs(let_down - here)
+    return (ratio if left <= _LEFT and math.isfinite(ratio) else None), hidden
 
 
 def _foreseen(
     cycle: Cycle, jacobian: FloatArray, slopes: FloatArray, here: float, part: float
-) -> float | None:
-    """Return the ratio of that state on half the steps, from one cycle of them.
+) -> tuple[float | None, float]:
+    """Return the ratio of that state on half the steps, from one cycle of them, and what they hide.
 
     None where that may not be enough, which takes some cycles more: what the steps change in that
     cycle and what the way to the state does are not small by themselves, or undo one another.
     """
-    body, kept = cycle.body, cycle.body.kept
-    first, ratio = predicted_on_half(
-        kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), kept["sums"], jacobian,
-        slopes,
-    )  # fmt: skip
+    p, q, kept, halves = cycle.body.p, cycle.q, cycle.body.kept, cycle.halves()
+    at, matrix = (kept["state"], cycle.springs, p, q), (kept["sums"], jacobian, slopes)
+    jumps, let_down = 0, here
+    if remembers_jumps(cycle):
+        first, ratio, jumps, let_down = predicted_at_corners(
+            *at, cycle.increments, cycle.rises, *halves, *matrix
+        )
+    else:
+        first, ratio = predicted_on_half(*at, *halves, *matrix)
+    hidden = abs(let_down - here) if jumps and math.isfinite(let_down) else 0.0
     most = WANTED * max(abs(here), _LEAST_RATIO) / part
     apart = abs(first - here) + abs(ratio - first)
     clear = abs(ratio - here) >= _CLEAR * apart or apart <= _NOTHING * most
-    return ratio if apart <= most and clear else None
+    return (ratio if apart <= most and clear else None), hidden
 
 
 def _ratio(cycle: Cycle) -> float:

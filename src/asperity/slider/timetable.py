@@ -17,6 +17,7 @@ BLOCK = 1024
 _TAIL_CYCLES = 4
 _TAIL_RECORDS = 4000
 _MOST_STEPS = 1e10
+_FEW = 3  # cycles of a window, of which a quarter has none whole
 UNSTEADY = 1e-3
 FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
 LAGS = 0.02  # of its velocity, that a body may be slower than its drive
@@ -75,10 +76,20 @@ class Timetable:
 
     @functools.cached_property
     def quarters(self) -> tuple[int, int, int]:
-        """Steps at which the first three quarters of the window end, in whole blocks."""
-        first = (self.middle - self.window_start) // 2 // BLOCK * BLOCK
-        third = (self.steps - self.middle) // 2 // BLOCK * BLOCK
-        return self.window_start + first, self.middle, self.middle + third
+        """Steps at which the first three quarters of the window end, in whole blocks if it can be.
+
+        Of a window that is shorter they are of whole cycles. Parts of cycles tell nothing: where a
+        quarter has none whole, it has no span.
+        """
+        first, middle, third = self.whole_quarters
+        few = 0 < self.cycles <= _FEW
+        begins, ends = (self.window_start, middle), (first, third)
+        lengths = middle - self.window_start, self.steps - middle
+        early, late = (
+            begin + (length // 2 // BLOCK * BLOCK or (0 if few else end - begin))
+            for begin, end, length in zip(begins, ends, lengths, strict=True)
+        )
+        return early, middle, late
 
     @property
     def whole_quarters(self) -> tuple[int, int, int]:
@@ -89,7 +100,7 @@ class Timetable:
         parts = self.cycles // 2, self.cycles - self.cycles // 2
         spans = self.middle - self.window_start, self.steps - self.middle
         first, third = (
-            round(span * (part // 2) / part) if self.cycles > 3 else span // 2
+            round(span * (part // 2) / part) if self.cycles > _FEW else span // 2
             for span, part in zip(spans, parts, strict=True)
         )
         return self.window_start + first, self.middle, self.middle + third

@@ -22,7 +22,7 @@ from asperity.rating.verdict_rows import Row
 from asperity.results import Result, labelled, quantity
 from asperity.results.table import Table
 from asperity.runs import Run
-from asperity.shafts.study import rows_by
+from asperity.shafts.study import overhang_by, rows_by
 from asperity.studies.climb import climb, spread
 from asperity.studies.constraints import TORQUES, Limit, limits_of, number_of
 from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
@@ -323,12 +323,15 @@ class Problem(NamedTuple):
         Safeties that may not fall.
     rows : callable or None
         What the case's shafts come to with a gearset.
+    overhang : str
+        Where the worm's mesh lies beyond its bearings; empty between them.
     """
 
     gears: Gears
     bounds: Bounds | None
     keep: tuple[str, ...]
     rows: Callable[[Gearset], tuple[Row, ...]] | None = None
+    overhang: str = ""
 
 
 def prepare(
@@ -344,7 +347,7 @@ def prepare(
         known_safeties(name)
     span = bounds_of(gears.gearset, free, bounds or ())
     with naming_source(case):
-        return Problem(gears, span, tuple(keep or ()), rows_by(case))
+        return Problem(gears, span, tuple(keep or ()), rows_by(case), overhang_by(case))
 
 
 def answer(problem: Problem, _: Run) -> Optimum:
@@ -376,7 +379,13 @@ def answer(problem: Problem, _: Run) -> Optimum:
         best = with_shafts(
             best, problem.rows, lambda borne: search(np.array([near]), borne), kept.safety
         )
-    return dataclasses.replace(best, curve=curve)
+    notes = best.notes
+    if problem.overhang:
+        notes += (
+            f"the worm overhangs, its mesh {problem.overhang}: the deflection by ISO/TR 14521 is "
+            "that of a worm between its bearings; the row of the worm as a beam has its own",
+        )
+    return dataclasses.replace(best, curve=curve, notes=notes)
 
 
 def _notes(before: Rated, bounds: Bounds | None) -> tuple[str, ...]:

@@ -8,7 +8,6 @@ from asperity.rating.demands import DEMANDS
 from asperity.rating.standing import NAMES
 from asperity.rating.verdict_rows import Row
 from asperity.results import Result, quantity
-from asperity.results.language import said
 from asperity.results.table import Table
 
 _OF_SHAFTS = ("rows", "bearings")
@@ -204,11 +203,6 @@ def _grouped(rows: Sequence[Row]) -> dict[str, Row]:
     lives = [row for row in rows if row.unit]
     least = {"bearings": min(lives, key=lambda row: row.margin)} if lives else {}
     return {**least, **{row.name: row for row in rows if not row.unit}}
-
-
-def _cell(row: Row) -> str:
-    fails = "" if row.holds else f" {said('FAILS')}"
-    return f"{row.value:.3g}{fails}"
 
 
 def _safety(path: str) -> str:

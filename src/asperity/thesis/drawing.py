@@ -12,6 +12,7 @@ __all__ = [
     "DOTTED",
     "OVER_DIRECTION",
     "OVER_RATIO",
+    "arrow",
     "asperity",
     "legend_above",
     "limit",
@@ -48,6 +49,11 @@ def limit(axes: "Axes", *values: float) -> None:
     """Draw forces that cannot be passed."""
     for value in values:
         panels.level(value).put(axes)
+
+
+def arrow(axes: "Axes", start: Any, end: Any, colour: str, **look: Any) -> None:
+    """Draw an arrow from a point to another, with a full head unless the look says else."""
+    axes.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": colour, **look})
 
 
 def legend_above(axes: "Axes", columns: int) -> None:

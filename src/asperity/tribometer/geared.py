@@ -107,11 +107,6 @@ class GearPair(Pair):
         return self.steel.radius / math.cos(self.geometry.lead_angle)
 
     @property
-    def slower(self) -> float:
-        """What the wheel's encoder sees over what the worm's motor does."""
-        return self.tied
-
-    @property
     def tied(self) -> float:
         """What the wheel's encoder sees over what the worm's motor does."""
         return self.drives.bronze_gear_ratio / (self.drives.gear_ratio * self.geometry.gear_ratio)

@@ -10,6 +10,7 @@ NAME = "journal.jsonl"
 ENDED = frozenset(("finished", "latched", "interrupted"))  #: Lines of how a run has ended.
 
 Line = dict[str, Any]
+_END = 1 << 16  # bytes of a file's end
 
 
 def lines_of(text: bytes, path: Path) -> list[Line]:
@@ -35,28 +36,20 @@ def lines_of(text: bytes, path: Path) -> list[Line]:
     return lines
 
 
-def last_lines(path: Path, size: int = 1 << 16) -> list[Line]:
-    """Return the last whole lines of a journal that may just be written; none of what is none.
-
-    Parameters
-    ----------
-    path : Path
-        Its file.
-    size : int
-        How many bytes of its end are looked at.
-    """
+def last_lines(path: Path) -> list[Line]:
+    """Return the last whole lines of a journal that may just be written; none of what is none."""
     try:
         if path.is_symlink():
             return []
         with path.open("rb") as file:
             end = file.seek(0, 2)
-            file.seek(max(0, end - size))
-            rows = file.read(size).split(b"\n")
+            file.seek(max(0, end - _END))
+            rows = file.read(_END).split(b"\n")
     except OSError:
         return []
     lines: list[Line] = []
     # The first may be cut, and the last on its way.
-    for row in rows[:-1] if end <= size else rows[1:-1]:
+    for row in rows[:-1] if end <= _END else rows[1:-1]:
         try:
             line = json.loads(row)
         except (ValueError, RecursionError):

@@ -61,7 +61,7 @@ class Pair:
         raise NotImplementedError
 
     @property
-    def slower(self) -> float:
+    def tied(self) -> float:
         """Speed of the bronze side's encoder over that of the steel side where teeth tie them."""
         return 1.0
 

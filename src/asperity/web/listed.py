@@ -1,6 +1,7 @@
 """What data files hold for keys of a case, each by its name with the figures it is chosen by."""
 
 import re
+from typing import Any
 
 from asperity.gearset.library import Sourced, every
 from asperity.units import quantity_of
@@ -10,24 +11,22 @@ _AT = re.compile(r"_(\d+)$")  # of a viscosity, its temperature
 
 def listed() -> dict[str, list[dict[str, str]]]:
     """Return by ``table.key`` what may stand there: names, and key figures in words."""
+    from asperity.gearset.bearings import Bearings
     from asperity.gearset.lubricants import Lubricant
     from asperity.gearset.materials import WheelMaterial, WormMaterial
     from asperity.shafts.bearing import RollingBearing
     from asperity.shafts.steel import ShaftSteel
 
-    bearings = _lines(RollingBearing, "kind", "bore", "dynamic_rating", "static_rating")
-    steels = _lines(ShaftSteel, "tensile_strength", "yield_strength")
-    return {
-        "gearset.wheel_material": _lines(
-            WheelMaterial, "family", "pitting_strength", "shear_strength"
-        ),
-        "gearset.worm_material": _lines(WormMaterial, "youngs_modulus", "bs721"),
-        "operation.lubricant": _lines(Lubricant, "base_oil", "viscosity_40", "viscosity_100"),
-        "worm_shaft.material": steels,
-        "worm_shaft.bearing": bearings,
-        "wheel_shaft.material": steels,
-        "wheel_shaft.bearing": bearings,
+    figures: dict[str, Any] = {
+        "gearset.wheel_material": (WheelMaterial, "family", "pitting_strength", "shear_strength"),
+        "gearset.worm_material": (WormMaterial, "youngs_modulus", "bs721"),
+        "operation.bearings": (Bearings, "loss_coefficient"),
+        "operation.lubricant": (Lubricant, "base_oil", "viscosity_40", "viscosity_100"),
+        "worm_shaft.bearing": (RollingBearing, "kind", "bore", "dynamic_rating", "static_rating"),
+        "worm_shaft.material": (ShaftSteel, "tensile_strength", "yield_strength"),
     }
+    found = {path: _lines(*of) for path, of in figures.items()}
+    return found | {path.replace("worm_shaft", "wheel_shaft"): of for path, of in found.items()}
 
 
 def _lines(model: type[Sourced], *keys: str) -> list[dict[str, str]]:

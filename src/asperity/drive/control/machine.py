@@ -9,7 +9,6 @@ from collections import deque
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity.drive.control.parameters import Control
 from asperity.drive.control.sensor import Filter
@@ -60,12 +59,12 @@ class Machine:
 
     def __init__(
         self, problem: DriveProblem, model: MeshModel, control: Control, failure: str, run: Run,
-        coarser: float, stop: npt.NDArray[np.int64] | None,
+        coarser: float,
     ) -> None:  # fmt: skip
         self.problem, self.model, self.control, self.failure = problem, model, control, failure
         self.run, self.coarser, self.clutch = run, coarser, control.kind == "clutch"
         self.full = refined(system(problem, model), coarser)
-        self.march = March(model, self.full, *begin(problem, model, self.full), Run(), stop)
+        self.march = March(model, self.full, *begin(problem, model, self.full), Run())
         self.cycle = 1.0 / self.full.frequency
         rate = 0.0 if self.clutch else control.sample_rate
         self.parts = max(1, math.ceil(self.cycle / _TICK), math.ceil(self.cycle * rate))

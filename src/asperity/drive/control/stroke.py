@@ -5,7 +5,6 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.drive.control.machine import Machine, load_at
@@ -92,7 +91,6 @@ def march_stroke(
     problem: DriveProblem, model: MeshModel, control: Control, failure: str, run: Run,
     done: int = 0, of: int = 1000, *, coarser: float = 1.0,
     kept: Callable[[], Tree] | None = None,
-    stop: npt.NDArray[np.int64] | None = None,
 ) -> Stroke:  # fmt: skip
     """March a stroke from seat to seat, and what comes when the motor has stopped.
 
@@ -112,15 +110,13 @@ def march_stroke(
         Steps are so many times as long as chosen.
     kept : callable, optional
         Gives the strokes that are done.
-    stop : ndarray of int64, shape (1,), optional
-        Set to 1 from another thread, it ends the march.
 
     Raises
     ------
     ConvergenceError
         The motion left the finite numbers.
     """
-    machine = Machine(problem, model, control, failure, run, coarser, stop)
+    machine = Machine(problem, model, control, failure, run, coarser)
     begins = control.begins_on and not machine.clutch
     machine.switch.begin(0.0, on=begins)
     machine.target = float(begins and failure != "dead")

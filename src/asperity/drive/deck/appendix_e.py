@@ -11,7 +11,6 @@ from importlib import resources
 
 from asperity.block.deck.fric import FricSubroutine, commented
 
-APPENDIX_E = "appendix-e"
 _STATE_VARIABLES = 5
 
 

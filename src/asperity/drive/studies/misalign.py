@@ -35,6 +35,7 @@ MOST = 1000
 """Points of a study: an hour and more."""
 
 _MILLIMETRES, _MICRO = 1e3, 1e6
+_NAMED = 3  # points that a note names, where it is not true of all
 _EXAMPLE = (
     "give [tolerances] with centre_distance, axial_offset or shaft_angle, or axes such as "
     "--over 'mount.shaft_angle_error=-0.1,0,0.1 deg'"
@@ -113,17 +114,35 @@ def answer(study: Study, run: Run) -> Misaligned:
     if all(isinstance(each, str) for each in found[1:]):
         raise ConvergenceError(f"no point has an answer; the first: {found[1]}")
     names = tuple(place.name for place in study.places)
-    notes = [*few_phases(nominal), *rigid_parts(nominal)]
-    if nominal.shaft.housing is None:
-        notes.append(
-            "the housing is rigid: shaft.housing is its stiffness along the centre distance"
-        )
+    notes = list(_notes(study.places))
     notes += [f"{n}: {e}" for n, e in zip(names, found, strict=True) if isinstance(e, str)]
     own = [own_value(study.case, axis) for axis in study.axes]
     values = [own] + [_values(study.axes, place.where) for place in study.places[1:]]
     return Misaligned.of(
         nominal, study.axes, values, names, found, _flank(nominal), tuple(notes)
     )  # fmt: skip
+
+
+def _notes(places: Sequence[Place]) -> Iterator[str]:
+    """Yield what should be known of the points; where it is not true of all, with those it is."""
+    of: dict[str, list[str]] = {}
+    solved = [(p.name, p.problem) for p in places if not isinstance(p.problem, str)]
+    for name, problem in solved:
+        for note in (*few_phases(problem), *rigid_parts(problem), *_housing(problem)):
+            of.setdefault(note, []).append(name)
+    for note, names in of.items():
+        if len(names) == len(solved):
+            yield note
+        elif len(names) <= _NAMED:
+            yield f"{'; '.join(names)}: {note}"
+        else:
+            yield f"{len(names)} of {len(solved)} points, {names[0]} and on: {note}"
+
+
+def _housing(problem: DriveProblem) -> Iterator[str]:
+    """Yield what the housing gives."""
+    if problem.shaft.housing is None:
+        yield "the housing is rigid: shaft.housing is its stiffness along the centre distance"
 
 
 def _values(axes: Sequence[Axis], where: tuple[int, ...]) -> list[float]:

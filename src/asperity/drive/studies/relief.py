@@ -1,16 +1,17 @@
-"""The command `relief`: which relief takes the load off the edges, wherever the gearset stands.
+r"""The command `relief`: which relief takes the load off the edges, wherever the gearset stands.
 
 Designs are values of keys such as ``modification.tip_relief`` or ``hob.oversize``; one key after
 the other is gone through with the others held, from the case as it is, until none gives more. Each
 design is solved under every load and at every mounting; the worst of these counts. A design is the
-better, the less force its edges bear; where that is less than `LITTLE` of the normal force, the
-less pressure its flank does; of equal pressures the smaller transmission error.
+better, the less force its edges bear, if that is more than `LITTLE` of the normal force; of equal
+ones the less pressure its flank does, then the smaller its transmission error, then the more evenly
+its pattern bears across the face (:math:`K_{H\beta}`). What differs by less than `EQUAL` is equal.
 """
 
 import dataclasses
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +22,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded
 from asperity.drive.studies.misalign import described, of_tolerances, own_value
 from asperity.drive.studies.points import solve_points
-from asperity.drive.studies.relieved import Design, Relieved
+from asperity.drive.studies.relieved import NONE, Design, Relieved
 from asperity.errors import ConvergenceError, InputError
 from asperity.rating.parameters import Operation
 from asperity.runs import Run
@@ -30,6 +31,9 @@ from asperity.sweep.axis import Axis, Value
 
 LITTLE = 0.01
 """Of the normal force, below which the force of edges counts for nothing."""
+
+EQUAL = 0.01
+"""Of the least among designs, by which another's may be more and still count as equal."""
 
 HALVINGS = 3
 """Times that `between` tries values half-way between the best and those beside it."""
@@ -130,14 +134,28 @@ def answer(search: Search, run: Run) -> Relieved:
                 values = _beside(axis, best[k]) if halving else range(len(axis.values))
                 around = [(*best[:k], n, *best[k + 1 :]) for n in values]
                 look(search, around)
-                best = min([best, *around], key=lambda place: known[place].merit)
+                best = _best([best, *around], known)
             if best == before:
                 break
+    # Of all that were tried, whatever the way to it.
+    best = _best([best, *known], known)
     nominal = DriveProblem.from_case(search.case, shaken=False)
     return Relieved.of(
         nominal, search.axes, tuple(name for name, _ in search.stands), list(known.values()),
         list(known).index(best),
     )  # fmt: skip
+
+
+def _best(
+    places: Sequence[tuple[int, ...]], known: Mapping[tuple[int, ...], Design]
+) -> tuple[int, ...]:
+    """Return the best design, the first of equal ones."""
+    left = list(places)
+    for what in zip(*(known[place].merit for place in places), strict=True):
+        of = dict(zip(places, what, strict=True))
+        least = min(of[place] for place in left)
+        left = [place for place in left if of[place] <= (1.0 + EQUAL) * least]
+    return left[0]
 
 
 def between(search: Search) -> Search:
@@ -213,12 +231,13 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
     name = "as the case is" if place == _start(search) else ", ".join(own_names)
     failed = next((each for each in found if isinstance(each, str)), "")
     if failed:
-        return Design(name, tuple(own), failed=failed, merit=(math.inf,) * 3)
+        return Design(name, tuple(own), failed=failed, merit=NONE)
     solved = [each for each in found if isinstance(each, Loaded)]
     edges = [each.force_worm_tip + each.force_wheel_tip + each.force_face_end for each in solved]
     share = max(edge / each.normal_force for edge, each in zip(edges, solved, strict=True))
     flank = max(each.pressure_flank for each in solved)
     error = max(each.transmission_error for each in solved)
+    uneven = max(each.k_h_beta for each in solved)
     peak = max(
         max(e.pressure_flank, e.pressure_worm_tip, e.pressure_wheel_tip, e.pressure_face_end)
         for e in solved
@@ -234,9 +253,9 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
         flank=flank,
         peak=peak,
         error=error,
-        k_h_beta=max(each.k_h_beta for each in solved),
+        k_h_beta=uneven,
         worst=search.stands[int(np.argmax(edges))][0],
-        merit=(max(edges) if share > LITTLE else 0.0, flank, error),
+        merit=(max(edges) if share > LITTLE else 0.0, flank, error, uneven),
     )
 
 

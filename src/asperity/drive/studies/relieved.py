@@ -1,6 +1,7 @@
 """Which relief takes the load off the edges of a loaded gearset."""
 
 import dataclasses
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar, Self
 
@@ -17,7 +18,12 @@ from asperity.results.table import Table
 from asperity.sweep.axis import Axis
 
 _DESIGN = ("design",)
-_MEGA, _MICRO, _PERCENT = 1e-6, 1e6, 100.0
+_MEGA, _MICRO = 1e-6, 1e6
+_SAME = 1e-3  # of a pressure, within which it is the same one
+
+
+NONE = (np.inf,) * 4
+"""Merit of a design without an answer."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -37,7 +43,7 @@ class Design:
     k_h_beta: float = np.nan
     worst: str = ""  #: Where the edges bear most
     failed: str = ""  #: Why there is no answer
-    merit: tuple[float, ...] = (np.inf,) * 3  #: The less, the better
+    merit: tuple[float, ...] = NONE  #: The less, the better, the first before the next
 
 
 class Relieved(OfDrive):
@@ -158,9 +164,24 @@ class Relieved(OfDrive):
         does = f"takes {' and '.join(gone)} away" if gone else "takes load off the edges"
         return (
             f"{self.best} {does}: the force on edges goes from {self.edge_force_before:.4g} to "
-            f"{self.edge_force_after:.4g} N, the largest pressure from {self.peak_before:.4g} to "
-            f"{self.peak_after:.4g} MPa, the transmission error from "
-            f"{_MICRO * self.error_before:.3g} to {_MICRO * self.error_after:.3g} urad",
+            f"{self.edge_force_after:.4g} N, {self._pressure()}, the transmission error from "
+            f"{_MICRO * self.error_before:.3g} to {_MICRO * self.error_after:.3g} urad, K_Hbeta "
+            f"from {self.k_h_beta[0]:.3g} to {self.k_h_beta[n]:.3g}",
+        )
+
+    def _pressure(self) -> str:
+        """What becomes of the largest pressure, in words."""
+        before, after = self.peak_before, self.peak_after
+        if not math.isclose(before, after, rel_tol=_SAME):
+            return f"the largest pressure from {before:.4g} to {after:.4g} MPa"
+        flow = self.problem.gearset.wheel_material.flow_pressure
+        flows = (
+            self.problem.drive.plastic
+            and flow is not None
+            and math.isclose(after, _MEGA * flow, rel_tol=_SAME)
+        )
+        return f"the largest pressure stays at {after:.4g} MPa" + (
+            ", at which the wheel flows" if flows else ""
         )
 
     @property
@@ -193,6 +214,7 @@ class Relieved(OfDrive):
             "flank (MPa)": ("pressure_flank_MPa", ".0f", 1.0),
             "peak (MPa)": ("pressure_peak_MPa", ".0f", 1.0),
             "error (urad)": ("transmission_error_rad", ".1f", _MICRO),
+            "K_Hbeta": ("k_h_beta", ".2f", 1.0),
         }
         best = tuple("best" if n == self.best_number else "" for n in range(len(self.rows)))
         remarks = ("the first row is the case as it is", *self.notes)

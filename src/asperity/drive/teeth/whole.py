@@ -39,7 +39,6 @@ from asperity.mesh import HexMesh
 from asperity.runs.cache import Cache
 from asperity.runs.key import key
 
-_MILLIMETRES = 1e3
 FURTHER = 4
 """Teeth further about the axis whose displacement under forces on one is returned."""
 

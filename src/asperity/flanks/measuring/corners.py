@@ -21,7 +21,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.analysis import COLUMNS, ROWS
 from asperity.flanks.meshing.backlash import worm_turn
-from asperity.flanks.meshing.pattern.marking import pattern
+from asperity.flanks.meshing.pattern import pattern
 from asperity.flanks.meshing.transmission import Transmission, touching, transmission
 from asperity.flanks.sides import both
 from asperity.flanks.wheel.enveloped import Wheel

@@ -18,8 +18,7 @@ from asperity.flanks.meshing.lubrication import (
     loaded_lines,
     pressed_lines,
 )
-from asperity.flanks.meshing.pattern.area import node_areas
-from asperity.flanks.meshing.pattern.marking import Pattern, pattern
+from asperity.flanks.meshing.pattern import Pattern, node_areas, pattern
 from asperity.flanks.meshing.transmission import SAMPLES, Transmission, transmission
 from asperity.flanks.meshing.vibration_share import (
     DIRECTIONS,

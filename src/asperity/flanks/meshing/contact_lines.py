@@ -13,7 +13,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.flanks.meshing.kinematics import Kinematics
-from asperity.flanks.meshing.pattern.area import crossings
+from asperity.flanks.meshing.pattern import crossings
 from asperity.flanks.wheel.enveloped import FlankGrid
 
 

@@ -2,6 +2,8 @@
 
 import dataclasses
 import time
+from collections.abc import Mapping
+from typing import ClassVar
 
 from asperity.casefile import Case, naming_source
 from asperity.errors import InputError, MissingExtraError
@@ -18,7 +20,6 @@ from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.lubrication import Load
 from asperity.flanks.parameters import Disc, Hob, MeasuringOptions, Modification, Mount
 from asperity.flanks.study.meshed import ToothMesh
-from asperity.flanks.study.mounted import MountedStudy
 from asperity.flanks.study.result import FlankStudy
 from asperity.flanks.study.toleranced import Toleranced, require_once
 from asperity.flanks.wheel.enveloped import Wheel
@@ -356,3 +357,16 @@ def _ground(gearset: Gearset) -> tuple[str, ...]:
     return {"ZK": ("disc.diameter",), "ZC": ("disc.diameter", "disc.profile_radius")}.get(
         gearset.flank, ()
     )
+
+
+class MountedStudy(FlankStudy):
+    """The flanks of a worm gearset, and their contact at the corners of how it may be mounted."""
+
+    drawings: ClassVar[Mapping[str, str]] = {
+        **FlankStudy.drawings,
+        "corners": "asperity.flanks.study.plots:corners",
+    }
+    captions: ClassVar[Mapping[str, str]] = {
+        **FlankStudy.captions,
+        "corners": "The pattern of the flank s = +1 at the corners of the mounting tolerances.",
+    }

@@ -6,15 +6,13 @@ from typing import Annotated, Any, NamedTuple
 import numpy as np
 
 from asperity.arrays import Real
-from asperity.formulas import Symbol, finite, formula, not_negative, positive
+from asperity.formulas import Symbol, formula, not_negative, positive
 from asperity.formulas.traced import number
 from asperity.shafts import symbols as s
 
 _X = Annotated[Real, Symbol("X", "", not_negative)]
 _Y = Annotated[Real, Symbol("Y", "", not_negative)]
 _f0 = Annotated[Real, Symbol("f_0", "", positive)]
-_axial = Annotated[Real, Symbol("K_a", "N", finite)]
-_induced = Annotated[Real, Symbol("S", "N", not_negative)]
 
 _RELATIVE = (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89)
 _E = (0.19, 0.22, 0.26, 0.28, 0.30, 0.34, 0.38, 0.42, 0.44)

@@ -129,21 +129,6 @@ def equivalent_mean_stress(tension: s.sigma_zdm, bending: s.sigma_bm, torsion: s
 @formula(
     symbol="sigma_AD",
     unit="MPa",
-    equation="sigma_WK - psi sigma_mv",
-    source=s.DIN_743,
-    result=positive,
-    because="the mean stress alone is more than the section bears",
-)
-def amplitude_at_constant_mean(
-    part_strength: s.sigma_WK, sensitivity: s.psi, mean: s.sigma_mv
-) -> Real:
-    """Amplitude that is borne in case 1: the mean stays while the amplitude grows."""
-    return part_strength - sensitivity * mean
-
-
-@formula(
-    symbol="sigma_AD",
-    unit="MPa",
     equation="sigma_WK/(1 + psi sigma_mv/sigma_a)",
     source=s.DIN_743,
 )

@@ -74,28 +74,3 @@ def gerber_safety(
         np.pi * diameter**3 * endurance_limit
         / (8e3 * alternating * (1.0 + np.sqrt(1.0 + rest**2)))
     )  # fmt: skip
-
-
-@formula(symbol="d", unit="mm", equation="(16000 n/pi (A/S_e + B/S_ut))^(1/3)", source=s.SHIGLEY)
-def goodman_diameter(
-    safety: n, alternating: A, mean: B, endurance_limit: S_e, tensile_strength: S_ut
-) -> Real:
-    """Diameter for a factor of safety by DE-Goodman."""
-    loaded = alternating / endurance_limit + mean / tensile_strength
-    return (16e3 * safety / np.pi * loaded) ** (1.0 / 3.0)
-
-
-@formula(
-    symbol="d",
-    unit="mm",
-    equation="(8000 n A/(pi S_e) (1 + sqrt(1 + (2 B S_e/(A S_ut))^2)))^(1/3)",
-    source=s.SHIGLEY,
-    because="nothing alternates",
-)
-def gerber_diameter(
-    safety: n, alternating: A, mean: B, endurance_limit: S_e, tensile_strength: S_ut
-) -> Real:
-    """Diameter for a factor of safety by DE-Gerber."""
-    rest = 2.0 * mean * endurance_limit / (alternating * tensile_strength)
-    loaded = 8e3 * safety * alternating / (np.pi * endurance_limit)
-    return (loaded * (1.0 + np.sqrt(1.0 + rest**2))) ** (1.0 / 3.0)

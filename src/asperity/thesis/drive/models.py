@@ -13,7 +13,7 @@ from asperity.flanks.wheel.enveloped import Wheel
 from asperity.mesh import HexMesh
 from asperity.results.dataset import described
 from asperity.thesis.contact.derivatives import Before, scheme
-from asperity.thesis.drive import drawings_models as drawings
+from asperity.thesis.drive import drawings
 from asperity.thesis.drive.claims import GEAR
 from asperity.thesis.exhibits import Computed, figure
 from asperity.thesis.flanks.meshing import pair_of

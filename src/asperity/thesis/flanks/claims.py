@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from asperity.flanks.meshing.pattern.marking import MARKING, pattern
+from asperity.flanks.meshing.pattern import MARKING, pattern
 from asperity.thesis.exhibits import claim
 from asperity.thesis.flanks.meshing import Gear, meshing
 from asperity.thesis.products import Finding

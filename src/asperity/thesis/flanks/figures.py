@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.flanks.mesh.tooth import tooth
-from asperity.flanks.meshing.pattern.marking import MARKING, Pattern, pattern
+from asperity.flanks.meshing.pattern import MARKING, Pattern, pattern
 from asperity.flanks.wheel.flank import FlankGrid
 from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure

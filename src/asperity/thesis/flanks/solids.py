@@ -1,4 +1,4 @@
-"""Figures of chapter 7 that show gearset 3 in space; drawn by `drawings_solids`."""
+"""Figures of chapter 7 that show gearset 3 in space; drawn by `drawings`."""
 
 import functools
 import math
@@ -15,7 +15,7 @@ from asperity.flanks.worm.setting import Pair
 from asperity.mesh import HexMesh
 from asperity.results.dataset import described
 from asperity.thesis.exhibits import Computed, figure
-from asperity.thesis.flanks import drawings_solids as drawings
+from asperity.thesis.flanks import drawings
 from asperity.thesis.flanks.meshing import Gear, pair_of, stood
 from asperity.thesis.flanks.shapes import Shape, joined
 

@@ -10,6 +10,7 @@ from asperity.thesis.drawing import (
     DOTTED,
     OVER_DIRECTION,
     OVER_RATIO,
+    arrow,
     asperity,
     legend_above,
     limit,
@@ -29,6 +30,7 @@ _SERIES = {
 }
 """Schemes as the thesis names what they stand for."""
 _ARROWS = 9
+_OPEN: dict[str, Any] = {"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0}
 
 
 def own_names(variable: str, body: str) -> tuple[str, str]:
@@ -111,24 +113,12 @@ def _vectors(upper: "Axes", lower: "Axes", dataset: "xr.Dataset") -> None:
     half = int(np.argmin(base))
     at = np.linspace(int(np.argmax(base)), half, _ARROWS).astype(int) if half else [0]
     for n in at:
-        upper.annotate(
-            "", (1e3 * drive, -1e3 * base[n]), (0.0, 0.0),
-            arrowprops={"arrowstyle": "->", "color": BLUE, "shrinkA": 0, "shrinkB": 0},
-        )  # fmt: skip
-        lower.annotate(
-            "", (-friction[n, 0], -friction[n, 1]), (0.0, 0.0),
-            arrowprops={"arrowstyle": "->", "color": BLUE, "shrinkA": 0, "shrinkB": 0},
-        )  # fmt: skip
-    upper.annotate(
-        "", (1e3 * drive, 0.0), (0.0, 0.0),
-        arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 2.0, "shrinkB": 0},
-    )  # fmt: skip
+        arrow(upper, (0.0, 0.0), (1e3 * drive, -1e3 * base[n]), BLUE, **_OPEN)
+        arrow(lower, (0.0, 0.0), (-friction[n, 0], -friction[n, 1]), BLUE, **_OPEN)
+    arrow(upper, (0.0, 0.0), (1e3 * drive, 0.0), BLACK, linewidth=2.0, shrinkB=0)
     upper.annotate("$v_d$", (1e3 * drive, 0.0), (6, 0), textcoords="offset points", va="center")
     mean = float(dataset["mean_friction"])
-    lower.annotate(
-        "", (-mean, 0.0), (0.0, 0.0),
-        arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 2.0, "shrinkB": 0},
-    )  # fmt: skip
+    arrow(lower, (0.0, 0.0), (-mean, 0.0), BLACK, linewidth=2.0, shrinkB=0)
     lower.annotate(
         "mean $F_x$", (-0.5 * mean, 0.0), (0.62, 0.93), textcoords="axes fraction", va="center",
         arrowprops={"arrowstyle": "-", "linewidth": 0.6},
@@ -284,9 +274,7 @@ def increment(dataset: "xr.Dataset") -> "Figure":
 def _arrow(
     axes: "Axes", start: Any, end: Any, name: str, beside: tuple[float, float] = (5.0, 4.0)
 ) -> None:
-    axes.annotate(
-        "", end, start, arrowprops={"arrowstyle": "->", "color": BLUE, "shrinkA": 0, "shrinkB": 0}
-    )
+    arrow(axes, start, end, BLUE, **_OPEN)
     axes.annotate(name, 0.5 * (np.asarray(start) + end), beside, textcoords="offset points",
                   color=BLUE)  # fmt: skip
     axes.update_datalim([start, end])
@@ -305,10 +293,7 @@ def base(dataset: "xr.Dataset") -> "Figure":
         (np.array([0.0, at[1]]), "$y_b$", (-22, -12), COLOURS[2]),
     )
     for end, name, beside, colour in vectors:
-        axes.annotate(
-            "", end, (0.0, 0.0),
-            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "shrinkB": 0},
-        )  # fmt: skip
+        arrow(axes, (0.0, 0.0), end, colour, linewidth=1.8, shrinkB=0)
         axes.annotate(name, end, beside, textcoords="offset points", color=colour)
     for end in (np.array([at[0], 0.0]), np.array([0.0, at[1]])):
         axes.plot(*np.transpose([at, end]), color=BLACK, linewidth=0.6)

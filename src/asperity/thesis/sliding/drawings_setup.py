@@ -6,6 +6,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.results.figures import BLACK, COLOURS, GREEN, ORANGE, axes_grid
+from asperity.thesis.drawing import arrow
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -44,11 +45,7 @@ def _arrow(
     axes: "Axes", start: Any, way: Any, name: str, colour: str, beside: tuple[float, float]
 ) -> None:
     first, last = _shown(start), _shown(np.add(start, way))
-    axes.annotate(
-        "", (last[0], last[1]), (first[0], first[1]),
-        arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "shrinkA": 0,
-                    "shrinkB": 0},
-    )  # fmt: skip
+    arrow(axes, first, last, colour, linewidth=1.8, shrinkA=0, shrinkB=0)
     axes.annotate(name, (last[0], last[1]), beside, textcoords="offset points", color=colour)
     axes.update_datalim([first, last])
 
@@ -102,11 +99,7 @@ def forces(dataset: "xr.Dataset") -> "Figure":
         ((float(dataset["drive"]), 0.0), "$\\mathbf{F}_d$", (-6, -18), BLACK),
     )
     for end, name, beside, colour in vectors:
-        axes.annotate(
-            "", end, (0.0, 0.0),
-            arrowprops={"arrowstyle": "-|>", "color": colour, "linewidth": 1.8, "shrinkA": 0,
-                        "shrinkB": 0},
-        )  # fmt: skip
+        arrow(axes, (0.0, 0.0), end, colour, linewidth=1.8, shrinkA=0, shrinkB=0)
         axes.annotate(name, end, beside, textcoords="offset points", color=colour)
         axes.update_datalim([end])
     for end in ((force[0], 0.0), (0.0, force[1])):

@@ -49,20 +49,24 @@ class _Asked(Instrument):
         """Let go of it: who has it does."""
 
 
-class AskedVibration(_Asked):
+class _AskedSwitch(_Asked):
+    """What is switched on and off."""
+
+    def on(self) -> None:
+        """Switch it on."""
+        self._ask("on")
+
+    def off(self) -> None:
+        """Switch it off."""
+        self._ask("off")
+
+
+class AskedVibration(_AskedSwitch):
     """A vibration controller."""
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
         """Set waveform and frequency, Hz."""
         self._ask("configure", waveform, frequency)
-
-    def on(self) -> None:
-        """Vibrate."""
-        self._ask("on")
-
-    def off(self) -> None:
-        """Stop."""
-        self._ask("off")
 
     def keep_alive(self) -> None:
         """Tell it that somebody is there."""
@@ -74,20 +78,12 @@ class AskedVibration(_Asked):
         return on
 
 
-class AskedSupply(_Asked):
+class AskedSupply(_AskedSwitch):
     """An output of a supply."""
 
     def set(self, voltage: float) -> None:
         """Set the voltage, V."""
         self._ask("set", voltage)
-
-    def on(self) -> None:
-        """Give power."""
-        self._ask("on")
-
-    def off(self) -> None:
-        """Give none."""
-        self._ask("off")
 
     def reading(self) -> Reading:
         """Return what it gives."""

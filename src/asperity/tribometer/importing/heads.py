@@ -33,8 +33,6 @@ ONE_COLUMN = (
 )
 """What is said of a date beside the time."""
 
-_COMMENT = ("#", "%", ";", "//", "!")
-
 
 @dataclasses.dataclass(frozen=True)
 class Told:

@@ -8,7 +8,12 @@ from collections.abc import Callable
 from typing import Any, Protocol, TypeVar
 
 from asperity.errors import MissingExtraError, shown
-from asperity.tribometer.instruments.protocols import Instrument, InstrumentError
+from asperity.tribometer.instruments.protocols import (
+    Instrument,
+    InstrumentError,
+    one_line,
+    reported,
+)
 from asperity.tribometer.instruments.words import ENDS, Spoken
 
 T = TypeVar("T")
@@ -40,7 +45,7 @@ class Line(Protocol):
 
 
 class _Line:
-    """What lines share.
+    """What lines share; how a device is written to and read is a line's own.
 
     Parameters
     ----------
@@ -50,6 +55,10 @@ class _Line:
         How it is spoken to.
     """
 
+    _device: Any
+    _errors: tuple[type[BaseException], ...]
+    _write: Callable[[bytes], object]
+
     def __init__(self, name: str, words: Spoken) -> None:
         self.name = name
         self.lock = threading.RLock()
@@ -58,6 +67,48 @@ class _Line:
         self._free = 0.0
         # A question was not answered in time, or not to its end: what comes next may be the rest.
         self._owed = False
+
+    def tell(self, text: str) -> None:
+        """Send a line."""
+        with self.lock, self._reported():
+            self._waited()
+            self._write(text.encode("ascii") + self._end)
+
+    def ask(self, text: str) -> str:
+        """Send a line and return the answer without its end."""
+        with self.lock, self._reported():
+            if self._owed:
+                self._owed = False
+                self._answer()
+            self._begin()
+            self.tell(text)
+            answer = self._answer()
+            self._owed = not answer or not answer.endswith(self._answer_end)
+            return self._whole(text, answer)
+
+    def clear(self) -> None:
+        """Throw away what an earlier command left."""
+        with self.lock, self._reported():
+            self._clear()
+
+    def close(self) -> None:
+        """Let go of the device."""
+        self._device.close()
+
+    def _answer(self) -> bytes:
+        raise NotImplementedError
+
+    def _clear(self) -> None:
+        raise NotImplementedError
+
+    def _reported(self) -> contextlib.AbstractContextManager[None]:
+        return reported(
+            self._errors, "line lost",
+            lambda why: f"{self.name}: the line is lost ({why}); look at the cable",
+        )  # fmt: skip
+
+    def _begin(self) -> None:
+        """Do what a question begins with."""
 
     def _waited(self) -> None:
         if (left := self._free - time.monotonic()) > 0.0:
@@ -116,8 +167,9 @@ class SerialLine(_Line):
 
     def __init__(self, name: str, words: Spoken) -> None:
         super().__init__(name, words)
+        self._errors = _serial_errors()
         try:
-            self._port = _serial().Serial(
+            self._device = _serial().Serial(
                 words.port, words.baud, timeout=words.timeout, write_timeout=words.timeout,
                 rtscts=words.handshake == "rts-cts", xonxoff=words.handshake == "xon-xoff",
             )  # fmt: skip
@@ -125,50 +177,29 @@ class SerialLine(_Line):
             raise InstrumentError(
                 f"{name} cannot be opened: {error}; look at {words.table}.port", kind="line lost"
             ) from None
+        self._write = self._device.write
 
-    def tell(self, text: str) -> None:
-        """Send a line."""
-        with self.lock, _Reported(self.name, _serial_errors()):
-            self._waited()
-            self._port.write(text.encode("ascii") + self._end)
+    def _clear(self) -> None:
+        self._device.reset_input_buffer()
 
-    def ask(self, text: str) -> str:
-        """Send a line and return the answer without its end."""
-        with self.lock, _Reported(self.name, _serial_errors()):
-            if self._owed:
-                self._owed = False
-                self._answer()
-            # What came unasked is no answer to this.
-            self._port.reset_input_buffer()
-            self.tell(text)
-            answer = self._answer()
-            self._owed = not answer or not answer.endswith(self._answer_end)
-            return self._whole(text, answer)
+    # What came unasked is no answer to a question.
+    _begin = _clear
 
     def _answer(self) -> bytes:
         if not self._answer_end:
             return self._until_silent()
-        answer: bytes = self._port.read_until(self._answer_end, _MOST_ANSWER)
+        answer: bytes = self._device.read_until(self._answer_end, _MOST_ANSWER)
         return answer
 
     def _until_silent(self) -> bytes:
-        answer: bytes = self._port.read(1)
+        answer: bytes = self._device.read(1)
         while answer and len(answer) < _MOST_ANSWER:
             time.sleep(_SILENCE)
-            more = self._port.read(self._port.in_waiting) if self._port.in_waiting else b""
+            more = self._device.read(self._device.in_waiting) if self._device.in_waiting else b""
             if not more:
                 break
             answer += more
         return answer
-
-    def clear(self) -> None:
-        """Throw away what an earlier command left."""
-        with self.lock, _Reported(self.name, _serial_errors()):
-            self._port.reset_input_buffer()
-
-    def close(self) -> None:
-        """Let go of the port."""
-        self._port.close()
 
 
 class VisaLine(_Line):
@@ -202,60 +233,39 @@ class VisaLine(_Line):
             self._device.read_termination = self._answer_end.decode() or None
         except Exception as error:  # of whichever VISA library there is
             raise InstrumentError(
-                f"{name} cannot be opened: {_said(error)}; look at {words.table}.address",
+                f"{name} cannot be opened: {one_line(error)}; look at {words.table}.address",
                 kind="line lost",
             ) from None
+        self._write = self._device.write_raw
         kind = words.address.upper()
         # A packet of the others has an end of its own.
         self._needs_end = kind.startswith("ASRL") or kind.endswith("SOCKET")
 
-    def tell(self, text: str) -> None:
-        """Send a line."""
-        with self.lock, _Reported(self.name, self._errors):
-            self._waited()
-            self._device.write_raw(text.encode("ascii") + self._end)
-
-    def ask(self, text: str) -> str:
-        """Send a line and return the answer without its end."""
-        with self.lock, _Reported(self.name, self._errors):
-            if self._owed:
-                self._owed = False
-                self._answer()
-            self.tell(text)
-            answer = self._answer()
-            if not self._needs_end and answer and not answer.endswith(self._answer_end):
-                answer = answer.rstrip(b"\r\n") + self._answer_end
-            self._owed = not answer or not answer.endswith(self._answer_end)
-            return self._whole(text, answer)
-
     def _answer(self) -> bytes:
         try:
-            return bytes(self._device.read_raw(_MOST_ANSWER))
+            answer = bytes(self._device.read_raw(_MOST_ANSWER))
         except self._errors as error:
             if _late(error):
                 return b""
             raise
+        if self._needs_end or not answer or answer.endswith(self._answer_end):
+            return answer
+        return answer.rstrip(b"\r\n") + self._answer_end
 
-    def clear(self) -> None:
-        """Throw away what an earlier command left."""
-        with self.lock, _Reported(self.name, self._errors):
-            if not self._needs_end:
-                self._device.clear()
-                return
-            # What clears a socket waits, and for ever where it is closed.
-            self._device.timeout = _NOTHING
-            try:
-                for _ in range(_MOST_LEFT):
-                    self._device.read_raw(_MOST_ANSWER)
-            except self._errors as error:
-                if not _late(error):
-                    raise
-            finally:
-                self._device.timeout = 1e3 * self._words.timeout
-
-    def close(self) -> None:
-        """Let go of the device."""
-        self._device.close()
+    def _clear(self) -> None:
+        if not self._needs_end:
+            self._device.clear()
+            return
+        # What clears a socket waits, and for ever where it is closed.
+        self._device.timeout = _NOTHING
+        try:
+            for _ in range(_MOST_LEFT):
+                self._device.read_raw(_MOST_ANSWER)
+        except self._errors as error:
+            if not _late(error):
+                raise
+        finally:
+            self._device.timeout = 1e3 * self._words.timeout
 
 
 def opened_line(name: str, words: Spoken) -> Line:
@@ -317,29 +327,8 @@ class SpokenDevice(Instrument):
             raise InstrumentError(f"{self.name} refuses {what}: {shown(answer)}", kind="refused")
 
 
-class _Reported:
-    """Turns what a broken line raises into one line."""
-
-    def __init__(self, name: str, errors: tuple[type[BaseException], ...]) -> None:
-        self._name, self._errors = name, errors
-
-    def __enter__(self) -> None:
-        return None
-
-    def __exit__(self, kind: object, error: BaseException | None, _trace: object) -> None:
-        if isinstance(error, self._errors):
-            raise InstrumentError(
-                f"{self._name}: the line is lost ({_said(error)}); look at the cable",
-                kind="line lost",
-            ) from None
-
-
 def _late(error: BaseException) -> bool:
     return "TMO" in str(error)
-
-
-def _said(error: BaseException) -> str:
-    return " ".join(str(error).split()) or type(error).__name__
 
 
 def _serial() -> Any:

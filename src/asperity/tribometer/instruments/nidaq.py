@@ -17,6 +17,7 @@ from asperity.tribometer.instruments.protocols import (
     Poll,
     Scope,
     WallClock,
+    reported,
 )
 
 _SECONDS = 10.0  # that the driver's buffer holds
@@ -138,22 +139,7 @@ class NiDaq(Scope):
         with contextlib.suppress(InstrumentError):
             self.stop()
 
-    def _told(self, doing: str) -> "_Told":
-        return _Told(self.name, doing, self._errors)
-
-
-class _Told:
-    """Turns what the driver raises into one line."""
-
-    def __init__(self, name: str, doing: str, errors: tuple[type[BaseException], ...]) -> None:
-        self._name, self._doing, self._errors = name, doing, errors
-
-    def __enter__(self) -> None:
-        return None
-
-    def __exit__(self, kind: object, error: BaseException | None, _trace: object) -> None:
-        if isinstance(error, self._errors):
-            said = " ".join(str(error).split())
-            raise InstrumentError(
-                f"{self._name}: {self._doing} failed: {said}", kind="oscilloscope"
-            ) from None
+    def _told(self, doing: str) -> contextlib.AbstractContextManager[None]:
+        return reported(
+            self._errors, "oscilloscope", lambda why: f"{self.name}: {doing} failed: {why}"
+        )

@@ -4,9 +4,10 @@ Each kind is a small protocol; a backend is a class that follows it. All of them
 their safe state at any time, as often as one likes.
 """
 
+import contextlib
 import dataclasses
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
 import numpy as np
@@ -39,6 +40,22 @@ class InstrumentError(AsperityError):
     def __init__(self, message: str, *, kind: str = "instrument") -> None:
         super().__init__(message)
         self.kind = kind
+
+
+def one_line(error: BaseException) -> str:
+    """Return what a driver says in one line, or what it raised where it says nothing."""
+    return " ".join(str(error).split()) or type(error).__name__
+
+
+@contextlib.contextmanager
+def reported(
+    errors: tuple[type[BaseException], ...], kind: str, said: Callable[[str], str]
+) -> Iterator[None]:
+    """Turn what a driver raises into one line, `said` of its own words."""
+    try:
+        yield
+    except errors as error:
+        raise InstrumentError(said(one_line(error)), kind=kind) from None
 
 
 class StillOnError(InstrumentError):
@@ -148,21 +165,26 @@ class Scope(Instrument, Protocol):
 
 
 @runtime_checkable
-class VibrationDrive(Instrument, Protocol):
-    """What makes the vibration; its safe state is off."""
+class Switched(Instrument, Protocol):
+    """What is switched on and off; its safe state is off."""
+
+    def on(self) -> None:
+        """Switch it on: it vibrates, or gives power."""
+
+    def off(self) -> None:
+        """Switch it off."""
+
+    def safe(self) -> None:
+        """Switch it off."""
+        self.off()
+
+
+@runtime_checkable
+class VibrationDrive(Switched, Protocol):
+    """What makes the vibration."""
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
         """Set waveform and frequency, Hz, while it is off."""
-
-    def on(self) -> None:
-        """Vibrate."""
-
-    def off(self) -> None:
-        """Stop."""
-
-    def safe(self) -> None:
-        """Stop."""
-        self.off()
 
     def keep_alive(self) -> None:
         """Tell a device that watches its line that somebody is there."""
@@ -172,21 +194,11 @@ class VibrationDrive(Instrument, Protocol):
 
 
 @runtime_checkable
-class Supply(Instrument, Protocol):
-    """An output of a direct-current supply; its safe state is off."""
+class Supply(Switched, Protocol):
+    """An output of a direct-current supply."""
 
     def set(self, voltage: float) -> None:
         """Set the voltage, V."""
-
-    def on(self) -> None:
-        """Give power."""
-
-    def off(self) -> None:
-        """Give none."""
-
-    def safe(self) -> None:
-        """Give none."""
-        self.off()
 
     def reading(self) -> Reading:
         """Return what it gives."""

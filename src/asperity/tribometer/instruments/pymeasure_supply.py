@@ -9,7 +9,7 @@ from typing import Any
 
 from asperity.errors import InputError, MissingExtraError
 from asperity.tribometer.instruments.parameters import Supplies
-from asperity.tribometer.instruments.protocols import InstrumentError, Reading, Supply
+from asperity.tribometer.instruments.protocols import InstrumentError, Reading, Supply, one_line
 
 _DRIVERS = "pymeasure.instruments"
 
@@ -89,7 +89,7 @@ class PyMeasureSupply(Supply):
             setattr(self._output, names[0], limit)
             told = getattr(self._output, names[0])
         except ValueError as error:
-            raise InputError(f"{refused}; {driver.__name__} refuses it: {_one_line(error)}") from (
+            raise InputError(f"{refused}; {driver.__name__} refuses it: {one_line(error)}") from (
                 None
             )
         except Exception as error:
@@ -147,13 +147,9 @@ class PyMeasureSupply(Supply):
         # A driver raises what the line, the library below it or its own reading of an answer
         # raise; whatever it is, the supply did not do what it was told.
         return InstrumentError(
-            f"{self.name} did not do as it was told: {type(error).__name__}: {_one_line(error)}",
+            f"{self.name} did not do as it was told: {type(error).__name__}: {one_line(error)}",
             kind="half an answer" if isinstance(error, ValueError) else "line lost",
         )
-
-
-def _one_line(error: Exception) -> str:
-    return " ".join(str(error).split())
 
 
 def _settable(driver: type, key: str) -> bool:

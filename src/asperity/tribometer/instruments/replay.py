@@ -159,23 +159,30 @@ def _inputs(recording: Recording) -> tuple[Input, ...]:
     )  # fmt: skip
 
 
-class ReplayVibration(Instrument):
+class _Replayed(Instrument):
+    """What was switched, as it was recorded."""
+
+    def __init__(self, scope: ReplayScope, name: str, kind: str) -> None:
+        self.name = f"recorded {name}"
+        self._scope, self._kind = scope, kind
+
+    def on(self) -> None:
+        """Go to where it was switched on."""
+        self._scope.reach(self._kind, off=False)
+
+    def off(self) -> None:
+        """Go to where it was switched off."""
+        self._scope.reach(self._kind, off=True)
+
+
+class ReplayVibration(_Replayed):
     """The vibration as it was recorded."""
 
     def __init__(self, scope: ReplayScope) -> None:
-        self.name = "recorded vibration"
-        self._scope = scope
+        super().__init__(scope, "vibration", "vibration")
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
         """Do nothing: the interlock sees whether it was so."""
-
-    def on(self) -> None:
-        """Go to where it began."""
-        self._scope.reach("vibration", off=False)
-
-    def off(self) -> None:
-        """Go to where it ended."""
-        self._scope.reach("vibration", off=True)
 
     def keep_alive(self) -> None:
         """Nothing watches."""
@@ -193,23 +200,14 @@ class _NoEar(Instrument):
         return False
 
 
-class ReplaySupply(Instrument):
+class ReplaySupply(_Replayed):
     """A supply as it was recorded."""
 
     def __init__(self, scope: ReplayScope, motor: str) -> None:
-        self.name = f"recorded supply of {motor}"
-        self._scope, self._kind = scope, f"{motor}_supply"
+        super().__init__(scope, f"supply of {motor}", f"{motor}_supply")
 
     def set(self, voltage: float) -> None:
         """Do nothing: its reading says what was set."""
-
-    def on(self) -> None:
-        """Go to where it was switched on."""
-        self._scope.reach(self._kind, off=False)
-
-    def off(self) -> None:
-        """Go to where it was switched off."""
-        self._scope.reach(self._kind, off=True)
 
     def reading(self) -> Reading:
         """Return what the recording says was set; currents are on its channels."""

@@ -19,6 +19,7 @@ from asperity.tribometer.instruments.protocols import (
     Reading,
     Scope,
     Supply,
+    Switched,
     VibrationDrive,
     Waveform,
 )
@@ -236,56 +237,56 @@ class SimulatedScope(_Simulated, Scope):
         self._rig.end()
 
 
-class SimulatedVibration(_Simulated, VibrationDrive):
+class _SimulatedSwitch(_Simulated, Switched):
+    """An output of the rig that is switched."""
+
+    def __init__(self, rig: SimulatedRig, name: str, output: str) -> None:
+        super().__init__(rig, name)
+        self._output = output
+
+    def on(self) -> None:
+        """Switch it on."""
+        self._rig.change()
+        self._rig.on |= {self._output}
+
+    def off(self) -> None:
+        """Switch it off."""
+        self._rig.change()
+        self._rig.on -= {self._output}
+
+    def _is_on(self) -> bool:
+        return self._output in self._rig.on
+
+
+class SimulatedVibration(_SimulatedSwitch, VibrationDrive):
     """The vibration controller."""
 
     def __init__(self, rig: SimulatedRig) -> None:
-        super().__init__(rig, "vibration controller")
+        super().__init__(rig, "vibration controller", "vibration")
 
     def configure(self, waveform: Waveform, frequency: float) -> None:
         """Set waveform and frequency, Hz."""
         self._rig.change()
         self._rig.waveform, self._rig.frequency = waveform, frequency
 
-    def on(self) -> None:
-        """Vibrate."""
-        self._rig.change()
-        self._rig.on |= {"vibration"}
-
-    def off(self) -> None:
-        """Stop."""
-        self._rig.change()
-        self._rig.on -= {"vibration"}
-
     def keep_alive(self) -> None:
         """Nothing watches a simulated line."""
 
     def vibrates(self) -> bool:
         """Return whether it is on."""
-        return "vibration" in self._rig.on
+        return self._is_on()
 
 
-class SimulatedSupply(_Simulated, Supply):
+class SimulatedSupply(_SimulatedSwitch, Supply):
     """An output of a supply."""
 
     def __init__(self, rig: SimulatedRig, output: str) -> None:
-        super().__init__(rig, f"supply of {output}")
-        self._output = output
+        super().__init__(rig, f"supply of {output}", output)
 
     def set(self, voltage: float) -> None:
         """Set the voltage, V."""
         self._rig.change()
         self._rig.volts[self._output] = voltage
-
-    def on(self) -> None:
-        """Give power."""
-        self._rig.change()
-        self._rig.on |= {self._output}
-
-    def off(self) -> None:
-        """Give none."""
-        self._rig.change()
-        self._rig.on -= {self._output}
 
     def reading(self) -> Reading:
         """Return what it gives."""
@@ -295,7 +296,7 @@ class SimulatedSupply(_Simulated, Supply):
 
     def output(self) -> bool:
         """Return whether it is on."""
-        return self._output in self._rig.on
+        return self._is_on()
 
 
 class SimulatedListener(_Simulated):

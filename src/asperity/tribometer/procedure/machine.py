@@ -271,7 +271,7 @@ class Machine:
                 name: logger.during(supply, supply.reading)
                 for name, supply in self._bench.motors.items()
             }
-            checks.check_changes(rest, running, self._pair.slower)
+            checks.check_changes(rest, running, self._pair.tied)
             checks.check_map(running, given, self._pair.torque_share)
             meter = self._bench.tachometer
             measured = {

@@ -16,7 +16,6 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import unsettled
-from asperity.roots import root_between
 from asperity.runs import Run
 from asperity.tribometer.geared import GearPair
 from asperity.tribometer.options import Plan, Twin
@@ -197,19 +196,6 @@ class GearPlant(Plant):
         InputError
             The motor does not turn.
         """
-        drive = self.steel
-
-        def torque(speed: float) -> float:
-            return drive.bearing + drive.radius * friction(drive.radius * speed / drive.ratio)
-
-        def missing(speed: float) -> float:
-            return self._speed(drive, steel, torque(speed)) - speed
-
-        most = steel / drive.constant
-        least = 2.0 * _STARTS * self._fastest * drive.ratio
-        if most <= least or missing(least) <= 0.0:
-            raise InputError(f"the simulated motor of the worm does not turn at {steel:g} V")
-        speed = root_between(missing, least, most * (1.0 + 1e-9) + 1e-9)
-        return SteadyState(
-            torque(speed), speed, self.pair.tied * speed, drive.radius * speed / drive.ratio
-        )
+        least = 2.0 * _STARTS * self._fastest * self.steel.ratio
+        torque, speed, sliding = self._balanced(steel, friction, "worm", least=least)
+        return SteadyState(torque, speed, self.pair.tied * speed, sliding)

@@ -201,21 +201,33 @@ class Plant:
                 f"the simulated motor of the bronze disc does not turn at {bronze:g} V"
             )
         rim = self.bronze.radius * idle / self.bronze.ratio
+        torque, speed, sliding = self._balanced(steel, friction, "steel disc", rim)
+        return SteadyState(torque, speed, idle, sliding)
+
+    def _balanced(
+        self, volts: float, friction: Callable[[float], float], driven: str, rim: float = 0.0,
+        least: float = 0.0,
+    ) -> tuple[float, float, float]:  # fmt: skip
+        """Return torque, speed of the motor and sliding velocity at which the driven side runs.
+
+        What it slides on moves with ``rim``; slower than ``least`` the motor does not turn.
+        """
         drive = self.steel
 
+        def sliding(speed: float) -> float:
+            return drive.radius * speed / drive.ratio - rim
+
         def torque(speed: float) -> float:
-            sliding = drive.radius * speed / drive.ratio - rim
-            return drive.bearing + drive.radius * friction(sliding)
+            return drive.bearing + drive.radius * friction(sliding(speed))
 
         def missing(speed: float) -> float:
-            return self._speed(drive, steel, torque(speed)) - speed
+            return self._speed(drive, volts, torque(speed)) - speed
 
-        most = steel / drive.constant
-        if missing(0.0) <= 0.0:
-            raise InputError(f"the simulated motor of the steel disc does not turn at {steel:g} V")
-        speed = root_between(missing, 0.0, most * (1.0 + 1e-9) + 1e-9)
-        sliding = drive.radius * speed / drive.ratio - rim
-        return SteadyState(torque(speed), speed, idle, sliding)
+        most = volts / drive.constant
+        if most <= least or missing(least) <= 0.0:
+            raise InputError(f"the simulated motor of the {driven} does not turn at {volts:g} V")
+        speed = root_between(missing, least, most * (1.0 + 1e-9) + 1e-9)
+        return torque(speed), speed, sliding(speed)
 
     @staticmethod
     def _speed(motor: Motor, volts: float, torque: float) -> float:

@@ -34,7 +34,6 @@ from asperity.flanks.parameters import Mount
 from asperity.flanks.worm.setting import Pair
 from asperity.rating import Operation
 
-_MILLIMETRES = 1e3
 _HOURS = 1.0 / 3600.0
 
 

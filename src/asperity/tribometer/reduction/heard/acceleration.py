@@ -16,7 +16,6 @@ from asperity.tribometer.reduction.heard.spectrum import spectrum_of
 
 _ORDERS = 2, 3, 4, 5
 _BESIDE = 0.3  # of the tone, above which what is beside it is told
-_WORTH = 0.05  # of the tone, above which an overtone is listed
 _ABOVE_NOISE = 10.0  # of the usual line of the spectrum, for a tone to be heard
 _STEADY = 0.3  # of a level, between its least and its largest
 _REMEDY = "look at how it is fixed, at its cable and at the mains"

@@ -52,7 +52,7 @@ export function Law({ work, segments }) {
     ${data ? html`<${Against} data=${data} segments=${segments} />
       <p class="says">Bars are of 95 %, and count how uncertain the conditions are as well, such as the amplitude, where
         the measurements tell: so they are wider than those of the change by itself.</p>` : null}
-    <${Table} region="parameters" rows=${found.parameters} columns=${[
+    <${Table} region="parameters" wide="whole cards law" rows=${found.parameters} columns=${[
       ["parameter", ({ key }) => key, "row"],
       ["value", ({ value, units }) => `${digits(value, 4)} ${units}`, "right"],
       ["95 % interval", ({ ci95 }) => ci95.map(ended).join(" to "), "right"],

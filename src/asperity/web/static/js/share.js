@@ -6,7 +6,7 @@ import { download, fileOf } from "./figure.js";
 const STYLES = ["style.css", "gear.css", "stage.css"];
 /** What of a screen is of use with a server only. */
 const OF_SERVER = ".controls, .asks-for, .work, .actions, .beneath, select, input, dialog, .busy, .over, .hidden, nav,"
-  + " .choice, .passing, .to-press, .grip, .drop, .of-server, .on-paper, label:has(input), label:has(select)";
+  + " .choice, .passing, .to-press, .grip, .drop, .of-server, .on-paper, .taking, label:has(input), label:has(select)";
 /** A command that takes longer to read is folded away: what is found comes first. */
 const LONG = 160;
 const made = (said, command) => (command.length > LONG
@@ -55,6 +55,7 @@ function seen(body) {
   copy.querySelectorAll(".num button, td button, th button, li button").forEach((each) => {
     const plain = copy.ownerDocument.createElement("span");
     plain.append(...each.childNodes);
+    Object.assign(plain.dataset, each.dataset);
     each.replaceWith(plain);
   });
   copy.querySelectorAll("button, .all, .stage .row > label").forEach((each) => each.remove());
@@ -67,6 +68,7 @@ const rows = (entries) => entries.map(({ key, symbol, value, unit, meaning, equa
   `<tr data-key="${safe(key)}" data-value="${safe(value)}">${[meaning || key, symbol, value, unit, equation, source]
     .map((each) => `<td>${safe(each)}</td>`).join("")}</tr>`).join("");
 
+const again = (file) => `Save it as ${file}, and the command gives all of this again.`;
 const frame = () => new Promise(requestAnimationFrame);
 
 /**
@@ -96,7 +98,8 @@ function fitting(moves, room) {
 
 /**
  * Hand the screen over as a file.
- * @param {string} title @param {any} told the answer as the server gives it, with command and toml
+ * @param {string} title @param {any} told the answer as the server gives it, with command and toml; `again`: what is
+ *   to be done with the case, saved as a file, where the command does not give all of the screen again by it
  * @param {string} of what the case is called
  */
 export async function share(title, told, of) {
@@ -135,7 +138,7 @@ ${body}${notes}
 ${entries ? `<details><summary>all ${told.entries.length} numbers</summary><div class="scroll whole"><table>
 <tr><th>what</th><th>symbol</th><th>value</th><th>unit</th><th>equation</th><th>source</th></tr>
 ${entries}</table></div></details>` : ""}
-${told.toml ? `<h2>The case</h2><p>Save it as <code>${safe(file)}</code>, and the command gives all of this again.
+${told.toml ? `<h2>The case</h2><p>${safe((told.again ?? again)(file))}
 <button type="button" id="take">save the case</button></p><pre id="case">${safe(told.toml)}</pre>` : ""}</main>
 <script type="application/json" id="answer">${answer}</script>
 <script type="application/json" id="moves">${within(played)}</script>

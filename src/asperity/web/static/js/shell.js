@@ -1,6 +1,6 @@
 /** What is around every screen: where to go, the case, what to take along, what went wrong. */
 import { html, signal, useEffect, useRef, useState } from "../vendor/preact.js";
-import { about, forgetCase, loadAbout, post, THERE, useAsked, useCaseFile } from "./api.js";
+import { about, useAsked, useCaseFile } from "./api.js";
 import { Behind } from "./number.js";
 import { address, called, caseParams, fault, go, redo, route, undo, undoable, useCase } from "./state.js";
 import { inWords, printed } from "./symbols.js";
@@ -135,60 +135,40 @@ function CasePicker({ kinds, first, start = {} }) {
   </div>`;
 }
 
-/** Save the case with what is set as a file of the folder, and open it. */
+/** What saves the case, loaded once somebody wants to. @param {{toml: string | null, unless: any}} props */
 function Save({ toml, unless }) {
-  const box = useRef(null);
-  const [wrong, setWrong] = useState(null);
-  const { name, reset } = useCase();
-  const close = () => (setWrong(null), box.current.close());
-  const save = async (event) => {
-    event.preventDefault();
-    const wanted = String(new FormData(event.target).get("name")).trim();
-    try {
-      const saved = await post("/api/save", { name: wanted, toml, ...(wrong?.status === THERE && { replace: true }) });
-      forgetCase(saved.name);
-      close();
-      await loadAbout();
-      reset(saved.name);
-      tell(`saved as ${about.value.folder}/${saved.name}`);
-    } catch (error) {
-      setWrong(error);
-    }
-  };
-  return html`
-    <button type="button" disabled=${!toml} onClick=${unless(() => box.current.showModal())}>
+  const [wanted, setWanted] = useState(0);
+  const { found, error } = useAsked(wanted ? "save" : "", () => import("./save.js"));
+  useEffect(() => error && tell(error.message), [error, wanted]);
+  return html`<button type="button" disabled=${!toml} onClick=${unless(() => setWanted(wanted + 1))}>
       save case</button>
-    <dialog ref=${box} aria-labelledby="save-title">
-      <form method="dialog" onSubmit=${save}>
-        <h2 id="save-title">Save the case</h2>
-        <p class="says">A file of ${about.value?.folder}; asperity on the command line takes it.</p>
-        <label>name <input name="name" required defaultValue=${`my-${name.replace(/\.toml$/, "")}`}
-          onInput=${() => setWrong(null)}
-          pattern="[A-Za-z0-9][A-Za-z0-9 _.+\\-]*" title="letters, digits, - _ ." /></label>
-        <output role="alert">${wrong?.message}</output>
-        <p class="row"><button type="submit" class="main">${wrong?.status === THERE ? "replace it" : "save"}</button>
-          <button type="button" onClick=${close}>cancel</button></p>
-      </form>
-    </dialog>`;
+    ${found ? html`<${found.Saving} toml=${toml} wanted=${wanted} />` : null}`;
 }
 
 /** What is refused as it was given, and what it must be in the units that are shown. @param {string} line */
 const refusal = (line) => line.split(/(?=; it must )/).map((part, at) => (at ? printed(part) : part)).join("");
 
 /**
- * What mends what is refused, of the screen's case; loaded once something is.
- * @param {{error: any, now: boolean}} props
+ * @typedef {{said: string, text: string, put: (text: string) => void, usual?: string,
+ *   field: import("./mends.js").Bounds}} Other what a screen asks beside its case: what it is called, what stands
+ *   there, what sets it, what stands there where nothing is set, and what may
  */
-function Mends({ error, now }) {
+
+/**
+ * What mends what is refused, of the screen's case or beside it; loaded once something is.
+ * @param {{error: any, now: boolean, others: Record<string, Other>}} props
+ */
+function Mends({ error, now, others }) {
   const { name, settings, setAll, unset } = useCase();
   const own = useCaseFile(name)?.tables;
   // What was set when there was an answer, of the same case.
   const before = useRef({ name, settings: {} });
-  if (now && !error) before.current = { name, settings };
+  const beside = Object.entries(others).map(([key, { text }]) => [key, text]);
+  if (now && !error) before.current = { name, settings: { ...settings, ...Object.fromEntries(beside) } };
   const { found } = useAsked(error ? "mend" : "", () => import("./mend.js"));
   const last = before.current.name === name ? before.current.settings : {};
-  return error && found ? html`<${found.Mending} line=${error.message} own=${own} settings=${settings} before=${last}
-    setAll=${setAll} unset=${unset} />` : null;
+  return error && found ? html`<${found.Mending} error=${error} own=${own} settings=${settings} before=${last}
+    others=${others} setAll=${setAll} unset=${unset} />` : null;
 }
 
 /** What a reader of the numbers should know. @param {{notes: string[] | undefined}} props */
@@ -211,11 +191,13 @@ export async function copy(text) {
  *
  * @param {{title: string, lead?: string, kinds?: string[], first?: string, start?: Record<string, string>,
  *   answer?: any, error?: any, busy?: boolean, late?: boolean, now?: boolean, actions?: any,
- *   children: any}} props
+ *   others?: Record<string, Other>, children: any}} props
  *   `kinds` of the cases it opens, the `first` one of them, and the settings that each starts with;
- *   `answer` as the server gives it, with command, toml and notes; `late` and `now` as of `useLive`
+ *   `answer` as the server gives it, with command, toml and notes; `late` and `now` as of `useLive`;
+ *   `others`: what it asks beside the case, by the word that a refusal begins with, or that stands in its `of`
  */
-export function Screen({ title, lead, kinds, first, start, answer, error, busy, late, now = true, actions, children }) {
+export function Screen({ title, lead, kinds, first, start, answer, error, busy, late, now = true, actions, others = {},
+  children }) {
   useEffect(() => {
     fault.value = error?.message ?? "";
   }, [error]);
@@ -243,7 +225,7 @@ export function Screen({ title, lead, kinds, first, start, answer, error, busy, 
       ${error ? html`<p>✗ ${refusal(error.message)}</p>` : null}
       ${error && answer?.answer ? html`<p class="says">What is shown below is of before, not of what is set now.</p>`
         : null}
-      ${kinds ? html`<${Mends} error=${error} now=${now} />` : null}
+      ${kinds ? html`<${Mends} error=${error} now=${now} others=${others} />` : null}
       ${reached.length ? html`<p class="says">
         reached: ${reached.map(([key, value]) => `${key} ${value}`).join(", ")}</p>` : null}
     </div>

@@ -84,6 +84,13 @@ export function inUnit(text, unit) {
     : (number * one.size + one.zero - other.zero) / other.size;
 }
 
+/** A ratio as a number, also of "40:1" or "1:40"; what is none stays as it is. @param {string} text */
+export function ratioOf(text) {
+  const [, one, other] = /^\s*([\d.]+)\s*:\s*([\d.]+)\s*$/.exec(text) ?? [];
+  const ratio = Math.max(Number(one) / Number(other), Number(other) / Number(one));
+  return Number.isFinite(ratio) ? digits(ratio, 8) : text;
+}
+
 /** A number with so many digits, without needless zeros. */
 export function digits(value, count = 5) {
   if (!Number.isFinite(value)) return "–";

@@ -1,8 +1,7 @@
 /** Work that takes longer: begin it, hear how far it is, stop it, read its answer. */
 import { html, useEffect, useState } from "../vendor/preact.js";
 import { returned } from "./again.js";
-import { about, commandLine, fetchRaw, follow, get, job as submit, post, Refused, shippedJobs, useAsked,
-  useLive } from "./api.js";
+import { about, fetchRaw, follow, get, job as submit, post, Refused, shippedJobs, useAsked } from "./api.js";
 import { download } from "./figure.js";
 import { Notes } from "./shell.js";
 import { route, setParam } from "./state.js";
@@ -68,7 +67,7 @@ const answerOf = (id) => (isShipped(id) ? `${id}/answer.json` : `/api/jobs/${id}
 export const dataOf = (id, names = []) => (isShipped(id) ? `${id}/data.json`
   : `/api/jobs/${id}/data${names.length ? `?names=${names.join()}` : ""}`);
 
-const NOTHING = { job: null, data: null, error: null, asking: false };
+const NOTHING = { job: null, data: null, error: null, of: null, asking: false };
 
 /**
  * A job of a command; which one stands in the address, with a name for what was asked of it.
@@ -95,11 +94,11 @@ export function useJob(command, body, slot = "", any = false) {
     setState({ ...NOTHING, asking: Boolean(id) });
     if (!id) return;
     const leave = new AbortController();
-    const failed = (error) => error.name === "AbortError" || put({ error, asking: false });
+    const failed = (error) => error.name === "AbortError" || put({ error, of: null, asking: false });
     let answered = false;
     const hear = (job) => {
       const error = job.error ? new Refused(job.error, 0) : null;
-      put({ job: { ...job, heard: performance.now() }, asking: false, error });
+      put({ job: { ...job, heard: performance.now() }, asking: false, error, of });
       // Its pictures may come later.
       if (!job.answered || answered) return;
       answered = true;
@@ -117,28 +116,19 @@ export function useJob(command, body, slot = "", any = false) {
       // The same job again: it is heard of anew.
       if (made.id === id) setRound((old) => old + 1);
     } catch (error) {
-      put({ error, asking: false });
+      put({ error, of: name, asking: false });
     }
   };
   const stop = () => post(`/api/jobs/${id}/stop`, {});
   // What ships is shown until the reader's own is there.
   const example = state.data ? null : exampleOf(asked, slot, any);
   const ships = useAsked(example ? answerOf(example.id) : "", (leave) => get(answerOf(example.id), leave)).found;
-  const found = { can: Boolean(asked), start, stop, id, ...state };
+  // What was refused is told as long as it is set.
+  const error = state.of === null || state.of === name ? state.error : null;
+  const found = { can: Boolean(asked), start, stop, id, ...state, error };
   if (!ships) return { ...found, from: state.data ? id : "", stale: Boolean(id) && of !== name };
   const job = state.job ?? { state: "done", files: example.files, shipped: true, other: example.other };
   return { ...found, job, from: example.id, files: example.files, data: ships, stale: example.name !== name };
-}
-
-/**
- * What is taken along of a screen whose answer is a job's: case and command as they are set now, and
- * what came of them once it is there.
- * @param {Job} work @param {string} command @param {object | null} body
- */
-export function useTaken(work, command, body) {
-  const checked = useLive("check", body && { case: body.case, settings: body.settings }, 300);
-  const now = { toml: checked.now ? checked.data.toml : null, command: body && commandLine(command, body) };
-  return work.stale ? now : { ...now, ...work.data };
 }
 
 /** Whether something has been there and was drawn: what stands below it waits for that. @param {boolean} there */

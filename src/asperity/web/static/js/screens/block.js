@@ -1,6 +1,6 @@
 /** An elastic block: what it settles to beside a rigid body, and the pressure under it. */
 import { html, useMemo } from "../../vendor/preact.js";
-import { commandLine, fetchRaw, useAsked } from "../api.js";
+import { fetchRaw, useAsked } from "../api.js";
 import { span } from "../colours.js";
 import { Deformed } from "../deformed.js";
 import { AllKeys, Amplitude, Field, Slider, useValue } from "../form.js";
@@ -12,8 +12,9 @@ import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { useCase } from "../state.js";
 import { inWords } from "../symbols.js";
+import { useTaken } from "../taken.js";
 import { digits, inUnit } from "../units.js";
-import { firstError, lasting, placeOf, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { lasting, placeOf, useData, useJob, WorkPanel } from "../work.js";
 
 const START = { "block.elements": "[4, 3, 3]", "block.element": "hex8", "vibration.start": "2 ms",
   "solve.step": "4 us", "solve.duration": "20 ms" };
@@ -35,12 +36,11 @@ export function view() {
   const ask = (method) => (name ? { case: name, settings: { ...settings, "solve.method": method } } : null);
   const settled = useJob("block", ask("settled"), "-settled", true);
   const marched = useJob("block", ask("march"), "-march", true);
-  const taken = useTaken(settled, "block", ask("settled"));
+  const taken = useTaken("block", [ask("settled"), ask("march")], settled, marched);
   const mesh = useMesh();
   return html`<${Screen} title="Elastic block" kinds=${["block"]} first="block-shaken-along" start=${START}
     lead="The same body, elastic: meshed with solid elements, pressed, pulled and shaken."
-    error=${firstError(settled, marched)} actions=${html`<${Report} work=${settled} />`}
-    answer=${{ ...taken, notes: [], command: both(taken.command, name && commandLine("block", ask("march"))) }}>
+    actions=${html`<${Report} work=${settled} />`} ...${taken} answer=${{ ...taken.answer, notes: [] }}>
     <div class="columns headed moving">
       <section class="controls" aria-label="what is set">
         <${Mesh} ...${mesh} />
@@ -65,9 +65,6 @@ export function view() {
     </div>
   <//>`;
 }
-
-/** What gives both answers of the screen. */
-const both = (settle, march) => (settle && march ? `${settle} && ${march}` : settle);
 
 const PACKED = "frames.bin";
 

@@ -11,9 +11,10 @@ import { Strips } from "../strips.js";
 import { useCase } from "../state.js";
 import { Table } from "../table.js";
 import { inWords } from "../symbols.js";
+import { useTaken } from "../taken.js";
 import { digits, inUnit } from "../units.js";
 import { amount } from "../us.js";
-import { firstError, further, Later, rows, useAfter, useData, useJob, useTaken, WorkPanel } from "../work.js";
+import { further, Later, rows, useAfter, useData, useJob, WorkPanel } from "../work.js";
 
 /** @type {[string, string, number][]} */
 const POWERS = [["power_drive_W", "motor", 1], ["power_actuator_W", "actuator", 1], ["power_load_W", "load", -1],
@@ -87,7 +88,7 @@ export function view() {
   const { geometry } = useLive("rate", body && { case: name, settings }, 200).data?.answer ?? {};
   const speed = inUnit(useValue("operation.worm_speed").text, "rad/s");
   const mode = useValue("vibration.mode").text;
-  const taken = useTaken(shaken, "drive", body);
+  const taken = useTaken("drive", [body], shaken, loaded, ways, held);
   const under = useData(loaded, UNDER);
   const pressed = useMemo(() => (under && !loaded.stale ? {
     radius: under.node_radius.values.map((r) => 1e3 * r), face: under.node_face.values.map((z) => 1e3 * z),
@@ -96,7 +97,7 @@ export function view() {
   const creep = useData(held, ["amplitude", "creep_over", "creep_limit", "settled_over"]);
   const [of, still, holding] = [shaken, loaded, held].map(({ data }) => byKey(data?.entries));
   return html`<${Screen} title="Drive" kinds=${["drive"]} first="drive-actuator"
-      answer=${{ ...taken, notes: [] }} error=${firstError(shaken, loaded, ways, held)}
+      ...${taken} answer=${{ ...taken.answer, notes: [] }}
       actions=${html`<${Report} work=${shaken} />`}
       lead="A gearset under load, shaken: what the motor is spared, what that costs, and what it does to the teeth.">
     <div class="columns headed moving"><section class="controls" aria-label="what is set">

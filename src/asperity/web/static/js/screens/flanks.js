@@ -14,10 +14,11 @@ import { nearest, stage } from "../scene.js";
 import { Report } from "../report.js";
 import { Screen } from "../shell.js";
 import { route, setParam, useCase } from "../state.js";
+import { useTaken } from "../taken.js";
 import { useTouch } from "../touch.js";
 import { digits } from "../units.js";
 import { amount } from "../us.js";
-import { Files, placeOf, useJob, useTaken, Work } from "../work.js";
+import { Files, placeOf, useJob, Work } from "../work.js";
 
 const PACKED = "flanks.bin";
 /** Of a turn of the worm. */
@@ -212,7 +213,7 @@ export function view() {
   const { name, settings } = useCase();
   const body = name ? { case: name, settings, options: { density: "coarse" } } : null;
   const work = useJob("flank", body, "", true);
-  const taken = useTaken(work, "flank", body);
+  const taken = useTaken("flank", [body], work);
   const path = (work.files ?? work.job?.files)?.includes(PACKED) ? placeOf(work.from, PACKED) : "";
   const packed = useAsked(path, async (leave) => unpacked(await (await fetchRaw(path, leave)).arrayBuffer()));
   const gears = packed.found;
@@ -232,7 +233,7 @@ export function view() {
   ];
   const shown = { part, layer: told?.key, side, worm, ...values };
   return html`<${Screen} title="Flanks" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${taken} error=${work.error ?? packed.error}
+      ...${taken} error=${taken.error ?? packed.error}
       actions=${html`<${Report} work=${work} />`}
       lead="The wheel cut exactly as its hob cuts it: where it touches the worm, and what that does.">
     <div class="columns headed moving">

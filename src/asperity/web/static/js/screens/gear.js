@@ -11,7 +11,7 @@ import { Screen } from "../shell.js";
 import { caseParams, go, route, setParam, useCase } from "../state.js";
 import { printed, symbol } from "../symbols.js";
 import { Table } from "../table.js";
-import { digits, inUnit, split } from "../units.js";
+import { digits, inUnit, ratioOf, split } from "../units.js";
 import { amount, written } from "../us.js";
 import { further, Later } from "../work.js";
 
@@ -81,7 +81,7 @@ function Ratio() {
     "operation.worm_speed"].map((path) => useValue(path).text);
   const ratio = Number(teeth) / Number(starts);
   // What is set may not be known yet, though an answer that ships is shown.
-  const ask = (other) => torque && go("size", { ...caseParams(route.peek().params), ratio: other,
+  const ask = (other) => torque && go("size", { ...caseParams(route.peek().params), ratio: ratioOf(other),
     output_torque: torque, worm_speed: speed }, false, true);
   return html`<div class="field"><label for="ratio">ratio</label>
     <${Box} id="ratio" text=${ratio > 0 && ratio < Infinity ? digits(ratio) : ""} onSet=${ask}
@@ -242,6 +242,8 @@ function Efficiency({ sway, geometry, setAll }) {
   </section>`;
 }
 
+const bearings = () => import("../bearings.js");
+
 export function view() {
   const { name, settings, setAll } = useCase();
   const body = name ? { case: name, settings } : null;
@@ -262,7 +264,8 @@ export function view() {
     <${Fitting} error=${error} settings=${settings} geometry=${answer?.geometry} setAll=${setAll} />
     <div class="columns headed moving">
       <div class="controls"><${Ratio} />
-        <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} /><//></div>
+        <${Folded}><${Form} tables=${["operation", "gearset"]} brief=${true} />
+          <${Later} load=${bearings} part="ShaftBearings" name=${name} /><//></div>
       <div class="headline said-first">${answer ? html`<${Headline} verdict=${answer.verdict} />` : null}</div>
       ${answer && speed ? html`<${Gears} geometry=${answer.geometry} speed=${speed} />` : null}
       ${answer ? html`<div class="pair shown">

@@ -10,6 +10,7 @@ import { Screen, tell } from "../shell.js";
 import { OWN, Refusals, Signals } from "../signals.js";
 import { go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
+import { useChecked } from "../taken.js";
 import { digits } from "../units.js";
 import { headed } from "../us.js";
 import { Files, placeOf, useJob, useShipped, Work, WorkPanel } from "../work.js";
@@ -33,18 +34,25 @@ const SEEN = "signals.json";
 
 export function view() {
   const { name, settings } = useCase();
-  const { rec = "" } = route.value.params;
+  const { rec = "", free = FREE[0] } = route.value.params;
   const kept = Object.fromEntries(Object.entries(settings).filter(([path]) => path.startsWith(OWN)));
   const asked = rec ? { arguments: { recordings: [rec] }, settings: kept } : null;
   const seen = useLive("signals", asked && { ...asked, case: name }, 60);
   const reduced = useJob("rig reduce", asked);
   const found = reduced.data?.answer;
   const example = useExample(!rec);
-  return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy} now=${!rec || seen.now}
+  // What the law begins from is asked of no recording.
+  const { error: wrong, toml } = useChecked(name ? { case: name, settings: { ...LAW, ...settings } } : null);
+  const again = (file) => `The command reads ${rec || example?.seen.recording}, which is not in here: in its folder it \
+gives what vibration did again. Save the case as ${file}, and asperity fit measurements.csv ${file} --free ${
+    free}, of what the command leaves with --out, fits the law.`;
+  return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy}
+      now=${!wrong && (!rec || seen.now)}
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
-      answer=${rec ? seen.data && { ...seen.data, ...(reduced.data && { notes: reduced.data.notes }) }
-        : example && { ...example.reduced, notes: [] }}
-      error=${rec ? (seen.error ?? reduced.error) : null} actions=${html`<${Report} work=${reduced} />`}>
+      answer=${rec ? seen.data && { ...seen.data, toml, again, ...(reduced.data && { notes: reduced.data.notes }) }
+        : example && { ...example.reduced, notes: [], again }}
+      error=${(rec ? seen.error : null) ?? wrong ?? (rec ? reduced.error : null)}
+      actions=${html`<${Report} work=${reduced} />`}>
     <${Live} />
     ${found || example ? html`<${Most} segments=${(found ?? example).segments} />` : null}
     <${Bring} name=${name} rec=${rec} />
@@ -77,7 +85,8 @@ function useExample(wanted) {
   const path = reduced ? placeOf(reduced.id, SEEN) : "";
   const seen = useAsked(path, (leave) => get(path, leave)).found;
   if (!reduced || !fitted || !seen) return null;
-  return { seen: seen.answer, reduced: reduced.data, segments: reduced.data.answer.segments,
+  const { segments } = reduced.data.answer;
+  return { seen: seen.answer, reduced: { ...reduced.data, toml: fitted.data.toml }, segments,
     fitted: { from: fitted.id, data: fitted.data } };
 }
 

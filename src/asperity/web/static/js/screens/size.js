@@ -1,19 +1,26 @@
 /** Gearsets for a ratio, a torque and a speed; and what efficiency a higher torque costs. */
-import { html } from "../../vendor/preact.js";
+import { html, useRef } from "../../vendor/preact.js";
 import { call, useAsked, useCaseFile, useLive } from "../api.js";
 import { STANDARDS, Verdict } from "../bars.js";
 import { Box, Field, useValue, words } from "../form.js";
 import { Plot } from "../plot.js";
 import { ReportNow } from "../report.js";
 import { Screen } from "../shell.js";
-import { caseParams, go, route, setParam, useCase } from "../state.js";
+import { caseParams, fault, go, route, setParam, useCase } from "../state.js";
 import { Table } from "../table.js";
-import { digits, split } from "../units.js";
+import { useChecked } from "../taken.js";
+import { digits, ratioOf, split } from "../units.js";
 import { amount, headed, withUnitOf, written } from "../us.js";
-import { useJob, useTaken, WorkPanel } from "../work.js";
+import { Later, useJob, WorkPanel } from "../work.js";
 
-const ASKED = [["ratio", "ratio", "15"], ["output_torque", "torque of the wheel", "300 N m"],
-  ["worm_speed", "speed of the worm", "1500 rpm"]];
+/**
+ * What is asked: its key, what it is called, what is asked where nothing is said, and what may be, as far as the
+ * series goes.
+ * @type {[string, string, string, object][]}
+ */
+const ASKED = [["ratio", "ratio", "15", { minimum: 4, maximum: 100 }],
+  ["output_torque", "torque of the wheel", "300 N m", { unit: "N m", minimum: 0, open: true }],
+  ["worm_speed", "speed of the worm", "1500 rpm", { unit: "rpm", minimum: 0, open: true }]];
 /** @type {[string, string, number][]} */
 const COLUMNS = [
   ["centre_distance_mm", "a (mm)", 5], ["starts", "z₁", 3], ["wheel_teeth", "z₂", 4],
@@ -109,13 +116,13 @@ function Proposals({ found, options, through, parts }) {
   const open = (one) => html`<button type="button" onClick=${() => take(one)} aria-label=${`take
     a = ${amount(one.centre_distance_mm, "mm", 12)}, ${one.wheel_teeth}:${one.starts}, m = ${
     amount(one.axial_module_mm, "mm", 12)}`}>take</button>`;
-  return html`<${Table} region="proposals" wide="whole proposals" kind="middle" rows=${sorted} columns=${[
-    ["open", open], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
+  return html`<${Table} region="proposals" wide="whole proposals cards" kind="middle" rows=${sorted} columns=${[
+    ["open", open, "taking"], ["verdict", (one) => html`<${Verdict} ok=${one.holds} />`],
     ...COLUMNS.map(([key, said, count]) => ({ key, count, ...headed(said) })).map(({ key, count, head, of }) => [
       html`<button type="button" class="quiet" onClick=${() => sort(key)}>
         ${head}${by === key ? (way === "up" ? " ▲" : " ▼") : ""}</button>`,
       (one) => digits((PERCENT.includes(key) ? 100 : 1) * of(one[key]), count), "right",
-      { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none" },
+      { "aria-sort": by === key ? `${way === "up" ? "a" : "de"}scending` : "none", "data-head": head },
     ]),
     ...(found.some(({ hob }) => hob) ? [["hob", ({ hob }) => hob]] : []),
     ["least safety", (one) => limit(one.limited_by)], ["locks itself", ({ locks }) => locks],
@@ -174,8 +181,8 @@ function TradeOff({ answer }) {
         { label: "most efficient designs", unit: "%", values: curve.eta_z1_2.map((eta) => 100 * eta), points: "round" },
         single(designs[0], 1), single(designs[1], 2)]} />
     <p class="says to-press">A click on the curve opens that gearset.</p>
-    <${Table} region="designs" wide="whole designs" kind="middle" rows=${designs} columns=${[
-      ["open", take], ["design", ({ says }) => says],
+    <${Table} region="designs" wide="whole designs cards" kind="middle" rows=${designs} columns=${[
+      ["open", take, "taking"], ["design", ({ says }) => says],
       [permitted.head, ({ torque }) => digits(permitted.of(torque), 4), "right"],
       ["efficiency of the teeth (%)", ({ efficiency }) => digits(100 * efficiency, 4), "right"], ["verdict", verdict],
     ]} />`;
@@ -211,42 +218,59 @@ function Kept({ rest }) {
     </details>`;
 }
 
+const bearings = () => import("../bearings.js");
+
+/** What gives the screen again. */
+const again = (file) => `The command gives the proposals again, by itself. Save the case as ${file}, and asperity \
+optimise ${file} finds what a higher torque costs.`;
+
 export function view() {
   const { name, settings } = useCase();
   const { params } = route.value;
   const { rest, asked, through, parts, loads } = useRest();
-  const options = Object.fromEntries(ASKED.map(([key, , usual]) =>
-    [key, params[key] || asked?.[key] || usual]));
+  const others = Object.fromEntries(ASKED.map(([key, said, most, bounds]) => {
+    const usual = asked?.[key] || most;
+    const put = (text) => setParam(key, text);
+    return [key, { said, usual, put, text: params[key] || usual, field: { ...bounds, example: usual } }];
+  }));
+  const options = Object.fromEntries(Object.entries(others).map(([key, { text }]) => [key, text]));
+  options.ratio = ratioOf(options.ratio);
   const rank = params.rank ?? "size";
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
+  // What stands there is of what was asked last, as long as the next is not answered.
+  const last = useRef(options);
+  if (sized.now) last.current = options;
+  const of = last.current;
   const body = name ? { case: name, settings } : null;
   const write = rest && (() => call("size", { settings: rest, options: { ...options, rank }, report: true }));
   const work = useJob("optimise", body);
-  const { toml } = useTaken(work, "optimise", body);
+  const { toml, error: wrong } = useChecked(body);
   const answer = sized.data?.answer;
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
-      answer=${{ toml, ...sized.data }} error=${sized.error ?? work.error} busy=${sized.busy} now=${sized.now}
+      answer=${{ toml, ...sized.data, again }} error=${sized.error ?? wrong ?? work.error} busy=${sized.busy}
+      now=${sized.now && !wrong} others=${others}
       actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
     ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold ${
-      written(options.output_torque)} at ${options.ratio}:1 and ${options.worm_speed} by every standard${
+      written(of.output_torque)} at ${of.ratio}:1 and ${of.worm_speed} by every standard${
       smallest(answer.proposals)}.</p>` : null}
     <section class="panel" aria-label="what is asked"><div class="row asks-for">
-      ${ASKED.map(([key, said]) => html`<label class="asked">${said}
-        <${Box} text=${written(options[key])} label=${said}
-          onSet=${(text) => setParam(key, withUnitOf(text, options[key]))} /></label>`)}
+      ${Object.entries(others).map(([key, { said, text, usual, put }]) => html`<label class="asked">${said}
+        <${Box} text=${written(options[key])} label=${said} invalid=${fault.value.startsWith(`${key} is `)}
+          onSet=${(typed) => put(withUnitOf(typed, Number.isNaN(split(text)[0]) ? usual : text))} /></label>`)}
       <span class="asked"><label for="rank">best in</label>
         <select id="rank" value=${rank} onChange=${(event) => setParam("rank", event.target.value)}>
           ${RANKS.map((each) => html`<option value=${each}>${each}</option>`)}</select></span>
       </div>
       <${Loads} loads=${loads} /><${Kept} rest=${rest} />
+      <div class="to-press"><${Later} load=${bearings} part="ShaftBearings" name=${name} /></div>
       ${answer ? html`<p class="says">Shown are those that no other beats in size, efficiency (of the gearbox)
           and margin. Oil, materials, roughness and life are the case's${loads
           ? html`, and so are its loads (${loads}), which
           wear, pitting and heat are judged by; strength is by the torque above` : null}${through
           ? html`; its torque through the travel, ${written(through)}, is not, since it goes with another torque: ${
           parts === 3 ? "a third" : "all"} of the torque above is taken, as where none is given` : null}.</p>
-        <${Proposals} found=${answer.proposals} options=${options} through=${through} parts=${parts} />`
+        <${Proposals} found=${answer.proposals} options=${of} through=${through} parts=${parts} />`
         : sized.error ? null : html`<p class="wait">One moment.</p>`}
     </section>
     <${WorkPanel} title=${`What a higher torque costs ${name}`} name="trade-off" work=${work}

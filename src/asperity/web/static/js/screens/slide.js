@@ -2,7 +2,6 @@
 import { html, useEffect, useMemo, useState } from "../../vendor/preact.js";
 import { call, useLive } from "../api.js";
 import { AllKeys, Amplitude, Field, Folded, Slider, useValue, words } from "../form.js";
-import { Flow } from "../flow.js";
 import { AllNumbers, byKey, Num } from "../number.js";
 import { Plot } from "../plot.js";
 import { ReportOf } from "../report.js";
@@ -56,13 +55,16 @@ const GROUPS = {
   ],
 };
 
+const flow = () => import("../flow.js");
+
 export function view() {
   const { name, settings } = useCase();
   const point = useLive("slide", name ? { case: name, settings } : null);
   const numbers = byKey(point.data?.entries);
   const answer = point.data?.answer ?? {};
   const drawn = useMemo(() => html`<div class="grid">
-    <${Waves} series=${point.data?.series} /><${Flow} numbers=${numbers} /></div>`, [point.data]);
+    <${Waves} series=${point.data?.series} />
+    <${Later} load=${flow} part="Flow" numbers=${numbers} /></div>`, [point.data]);
   return html`<${Screen} title="Sliding body"
     lead="Shake what a body slides on, and less force pulls it. Drag a slider; every number opens where it comes from."
     kinds=${["slide"]} first="body-shaken-along" start=${START}

@@ -34,8 +34,10 @@ export function view() {
   const texts = ["x", "y"].map((key, place) => params[key] ?? kind.axes[place]);
   const axes = texts.flatMap((text) => axisOf(text) ?? []);
   const points = axes.reduce((product, { count }) => product * count, 1);
-  const [wrong] = axes.flatMap((axis) => refusals(axis).map(([what, why]) => ({ axis, what, why })));
-  const refused = wrong && { message: `${wrong.what} of ${words(wrong.axis.path.split(".")[1])}: ${wrong.why}` };
+  const [wrong] = ["x", "y"].flatMap((key, place) => [axisOf(texts[place]) ?? []].flat()
+    .flatMap((axis) => refusals(axis).map(([what, why]) => ({ key, axis, what, why }))));
+  const refused = wrong && { message: `${saidOf(wrong)}: ${wrong.why}`, of: `${wrong.key}.${wrong.what}` };
+  const others = Object.fromEntries(["x", "y"].flatMap((key, place) => endsOf(key, axisOf(texts[place]))));
   const body = name && axes.length && !wrong ? { case: name, settings, options: { over: axes.map(over) } } : null;
   const work = useJob("sweep", body);
   // One point is solved at once: it refuses what cannot be, and tells how long the others take.
@@ -51,7 +53,7 @@ export function view() {
       command: body && commandLine("sweep", body) }}
     actions=${html`<${Report} work=${work} />`}
     error=${refused ?? work.error ?? (one.error?.status === SLOW ? null : one.error)} busy=${one.busy}
-    now=${one.now && !refused}>
+    now=${one.now && !refused} others=${others}>
     <div class="columns answer-first">
       <section class="controls" aria-label="the grid">
         ${["x", "y"].map((key, place) => html`<${AxisForm} key=${key} name=${key} tables=${kind.tables}
@@ -76,6 +78,16 @@ const refusals = (axis) => /** @type {[string, string][]} */ ([["from", refusedE
   ["to", refusedEnd(axis, "to")],
   ["points", axis.count ? "" : `${JSON.stringify(axis.points)}; it must be a whole number from 1 to ${MOST}`],
 ]).filter(([, why]) => why);
+
+/** What is refused of an axis, in words. */
+const saidOf = ({ what, axis }) => `${what} of ${words(axis.path.split(".")[1])}`;
+const COUNT = { example: "11", minimum: 1, maximum: MOST };
+
+/** What of an axis may be refused, as a screen tells of it. @returns {[string, import("../shell.js").Other][]} */
+const endsOf = (key, axis) => (axis ? ["from", "to", "points"].map((what) => [`${key}.${what}`, {
+  said: saidOf({ what, axis }), text: axis[what] ?? "", field: what === "points" ? COUNT : fieldOf(axis.path) ?? {},
+  put: (text) => setParam(key, textOf({ ...axis, [what]: text })),
+}]) : []);
 
 function AxisForm({ name, label, axis, tables, file }) {
   const change = (more) => setParam(name, textOf({ ...axis, ...more }));

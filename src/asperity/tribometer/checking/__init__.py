@@ -1,1 +1,0 @@
-"""The command ``asperity rig check``: what a recording says of its own sensors, with pictures."""
