@@ -17,7 +17,8 @@ KEYS = (
 def test_the_best_row_is_marked_and_an_error_is_shown_in_microradians(best):
     axes = (SimpleNamespace(path="modification.tip_relief", key="tip_relief", unit="um"),)
     rows = [
-        {key: 100.0 * n + m for m, key in enumerate(KEYS)} | {"transmission_error_rad": n * 1.5e-6}
+        {key: 100.0 * n + m for m, key in enumerate(KEYS)}
+        | {"transmission_error_rad": n * 1.5e-6, "k_h_beta": 1.0 + n}
         for n in range(1, 4)
     ]
     fake = SimpleNamespace(
@@ -28,5 +29,7 @@ def test_the_best_row_is_marked_and_an_error_is_shown_in_microradians(best):
     assert [row[-1] for row in text] == ["best" if n == best else "" for n in range(3)]
     for n, row in enumerate(text):
         assert [float(cell) for cell in row[1:8]] == [
-            *(100.0 * (n + 1) + m for m in range(6)), (n + 1) * 1.5,
-        ]  # fmt: skip
+            *(100.0 * (n + 1) + m for m in range(6)),
+            (n + 1) * 1.5,
+        ]
+        assert float(row[8]) == n + 2.0  # fmt: skip
