@@ -184,6 +184,10 @@ def test_an_even_load_has_factors_of_one_and_an_uneven_one_what_it_is_above_it()
     assert even.centre == pytest.approx((0.0, 0.5e-3))
     assert even.line_load == pytest.approx(3.0 / 1e-3)
     assert sloped.k_h_beta == pytest.approx(1.95)
+    # However small it is.
+    light = Spread(flank)
+    light.take(strip(np.full(STRIPS, 3e-6), z))
+    assert (light.k_h_beta, light.line_load) == pytest.approx((1.0, 3e-3))
     # A load that grows to twice the mean has its middle a sixth of the width off.
     assert sloped.centre[0] == pytest.approx(-20e-3 / 6.0, rel=5e-3)
     assert k_h_alpha(np.full((4, 2), 7.0)) == pytest.approx(1.0)
