@@ -37,7 +37,7 @@ foot over the fillet, whose stress then is 6 % larger.
 """
 
 COARSER = COUNTS._replace(thickness=5)
-"""Of another mesh, by which that of `COUNTS` is judged: coarser where the fillet's stress varies."""
+"""Of another mesh, by which that of `COUNTS` is judged: coarser where the stress varies most."""
 
 GRADING = 2.0
 """How much thinner hexahedra are towards the fillets: a twentieth of the tooth and of the rim.
