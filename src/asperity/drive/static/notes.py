@@ -41,7 +41,8 @@ def cold(problem: DriveProblem) -> Iterator[str]:
     values = found.values
     yield (
         f"cold: tolerances.temperatures add {found.told} to what [mount] and [modification] say, "
-        "which is not in this; asperity misalign has it, and so has this command with mount.centre_distance_error="
+        "which is not in this; asperity misalign has it, and so has this command with "
+        "mount.centre_distance_error="
         f"'{_MICRO * values['mount.centre_distance_error']:.6g} um' and "
         "modification.lead_correction="
         f"'{_MICRO * values['modification.lead_correction']:.6g} urad'"
