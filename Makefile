@@ -8,7 +8,7 @@ BIN := .venv/bin
 INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check -c constraints.txt
 # On all cores, what pip does on one: half of the time it takes. Some packages hold files that are
 # no Python to this version; pip is silent about them too. The tests of the packages, a third of
-# all of it, nobody imports.
+# all of it, nobody imports; of the tools' packages little is, and Python compiles that as it goes.
 BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 -x '/tests/' .venv/lib || true
 PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder --durations 25 --durations-min 5
 # Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.
@@ -25,6 +25,9 @@ run: .venv/.runtime  ## reproduce the thesis: claims, figures and tables into ou
 
 # One worker more than cores, since many of these wait for processes, servers and browsers.
 test slow: export PYTEST_XDIST_AUTO_NUM_WORKERS = $(shell $(PYTHON) -c 'import os; print(os.cpu_count() + 1)')
+
+test: KERNELS = $(BIN)/python tests/warm.py &
+slow: KERNELS = $(BIN)/python tests/warm.py --slow &
 
 test: .venv/.dev  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
@@ -79,7 +82,7 @@ clean:  ## remove everything that was made
 	@$(BYTES)
 	@touch $@
 
-.venv/.dev: pyproject.toml constraints.txt | .venv/bin/python
-	$(INSTALL) -e '.[dev]'
-	@$(BYTES)
-	@touch $@ .venv/.runtime
+# Kernels are compiled, if they are to be, on the core that pip leaves free.
+.venv/.dev: .venv/.runtime
+	$(KERNELS) $(INSTALL) -e '.[dev]' && wait
+	@touch $@

@@ -8,7 +8,8 @@ nothing; frames a second of the moving body, drawn by software; the longest task
 dragged, by the processor's time, since others who have the cores make any task long; and how soon
 each screen opens with its answer, on this machine and on one that has compiled nothing, beside an
 empty page that the same browser opens from the same server; and what three walks from a question to
-its answer and on to the shared file take, in clicks and seconds. What runs besides is told as the load.
+its answer and on to the shared file take, in clicks and seconds. What runs besides is told as the
+load.
 """
 
 import contextlib

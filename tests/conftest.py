@@ -158,4 +158,4 @@ def pytest_sessionstart(session: pytest.Session) -> None:
     # Before the workers start, each of which would compile the same kernels at the same time.
     workers = getattr(session.config.option, "numprocesses", None)
     if workers and not session.config.option.collectonly:
-        warm.compile_kernels()
+        warm.compile_kernels(slow=session.config.option.markexpr != "not slow")

@@ -127,7 +127,9 @@ class FineTeeth:
                 np.stack([a + low, b + low, b + up, c + up]),
                 np.stack([a + low, a + up, b + up, c + up]),
             ]
-        space = np.concatenate([sites, np.broadcast_to(levels[:, None, None], (*sites.shape[:2], 1))], 2)
+        space = np.concatenate(
+            [sites, np.broadcast_to(levels[:, None, None], (*sites.shape[:2], 1))], 2
+        )
         space[..., :2] = _plane(space[..., :2])
         space *= 1e-3
         corners = space[::2, :count].reshape(-1, 3)
@@ -136,9 +138,7 @@ class FineTeeth:
         dofs = skfem.Dofs(straight, skfem.ElementTetP2())
         level, plane = np.divmod(straight.edges, count)
         between = {tuple(edge): count + k for k, edge in enumerate(np.sort(flat.facets, axis=0).T)}
-        own = [
-            i if i == j else between[min(i, j), max(i, j)] for i, j in plane.T
-        ]
+        own = [i if i == j else between[min(i, j), max(i, j)] for i, j in plane.T]
         places = mesh.doflocs.copy()
         places[:, dofs.edge_dofs[0]] = space[level.sum(axis=0), own].T
         mesh = dataclasses.replace(mesh, doflocs=places)
@@ -174,12 +174,10 @@ class FineTeeth:
         (x, y), weights = skfem.quadrature.get_quadrature(skfem.refdom.RefTri, 8)
         corner = np.stack([1.0 - x - y, x, y])
         slopes = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])[:, :, None]
-        shapes = np.concatenate([corner * (2.0 * corner - 1.0), [4.0 * corner[a] * corner[b] for a, b in _SIDES]])
-        turns = np.concatenate(
-            [slopes * (4.0 * corner - 1.0),
-             np.stack([4.0 * (slopes[:, a] * corner[b] + slopes[:, b] * corner[a]) for a, b in _SIDES], axis=1)],
-            axis=1,
-        )  # fmt: skip
+        middles = [4.0 * corner[a] * corner[b] for a, b in _SIDES]
+        shapes = np.concatenate([corner * (2.0 * corner - 1.0), middles])
+        steep = [4.0 * (slopes[:, a] * corner[b] + slopes[:, b] * corner[a]) for a, b in _SIDES]
+        turns = np.concatenate([slopes * (4.0 * corner - 1.0), np.stack(steep, axis=1)], axis=1)
         for tooth, vertices in enumerate(self.flanks):
             share = np.full(self.mesh.nvertices, np.nan)
             share[vertices] = self.shares
@@ -205,7 +203,9 @@ class FineTeeth:
         moved[free] = own.solve(work[free])
         return forces, np.array([self._at_fillet(u, lame, basis) for u in moved.T])
 
-    def _at_fillet(self, moved: FloatArray, lame: tuple[float, float], basis: skfem.Basis) -> FloatArray:
+    def _at_fillet(
+        self, moved: FloatArray, lame: tuple[float, float], basis: skfem.Basis
+    ) -> FloatArray:
         """Principal stresses at the fillet's vertices: means of the elements about them."""
         wanted = np.zeros(self.mesh.p.shape[1], dtype=bool)
         wanted[self.fillet] = True
@@ -231,9 +231,7 @@ def _plane(polar: FloatArray) -> FloatArray:
     return np.stack([radius * np.sin(angle), radius * np.cos(angle)], axis=-1)
 
 
-def _filled(
-    border: FloatArray, fillet: FloatArray, size: float
-) -> tuple[FloatArray, IntArray]:
+def _filled(border: FloatArray, fillet: FloatArray, size: float) -> tuple[FloatArray, IntArray]:
     """Points and triangles of a polygon, its corners first."""
     from matplotlib.path import Path
 
@@ -245,7 +243,9 @@ def _filled(
     def wanted(places: FloatArray) -> FloatArray:
         away, near = sides.query(places)
         grown = np.minimum(size + _GROWING * tree.query(places)[0], _LARGEST)
-        return np.maximum(np.minimum(grown, lengths[near] + _GROWING * away), lengths[near] - 0.6 * away)
+        return np.maximum(
+            np.minimum(grown, lengths[near] + _GROWING * away), lengths[near] - 0.6 * away
+        )
 
     def free(places: FloatArray) -> npt.NDArray[np.bool_]:
         """Outside of the circles over the sides, which so are sides of triangles."""
@@ -273,7 +273,13 @@ def _filled(
     for _ in range(_SMOOTHING):
         triangles = _inside(points, border, path)
         force = np.zeros_like(points)
-        bars = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [0, 2]]]), axis=1), axis=0)
+        bars = np.unique(
+            np.sort(
+                np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [0, 2]]]),
+                axis=1,
+            ),
+            axis=0,
+        )
         way = points[bars[:, 1]] - points[bars[:, 0]]
         length = np.linalg.norm(way, axis=1)
         h = wanted(points[bars].mean(axis=1))

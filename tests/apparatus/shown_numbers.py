@@ -4,7 +4,7 @@ import re
 
 PREFIXES = {"": 1.0, "G": 1e9, "M": 1e6, "k": 1e3, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
 SUPERSCRIPT = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-EVERY = """() => [...document.querySelectorAll("main .num [data-key]")].map((one) => ({
+EVERY = """(place) => [...document.querySelectorAll(`${place} .num [data-key]`)].map((one) => ({
   key: one.dataset.key, value: one.dataset.value, of: one.dataset.unit,
   text: one.querySelector("b").textContent,
   unit: (one.querySelector("i")?.textContent.trim() ?? "")
@@ -13,11 +13,11 @@ EVERY = """() => [...document.querySelectorAll("main .num [data-key]")].map((one
 }))"""
 
 
-def numbers(page):
-    """Return every number of the screen that opens: its key, what it is, how it is shown."""
+def numbers(page, place="main"):
+    """Return every number of a place that opens: its key, what it is, how it is shown."""
     found = [
         one
-        for one in page.evaluate(EVERY)
+        for one in page.evaluate(EVERY, place)
         if re.fullmatch(r"-?\d+(\.\d+)?(e[-+]?\d+)?", one["value"])
     ]
     return {f"{n} {one['key']}": one for n, one in enumerate(found)}

@@ -27,7 +27,7 @@ LONG = {
 SAYS = {
     "slide": "--set vibration.direction=37 deg", "sweep": "Sliding body over a grid",
     "gear": "<h2>Verdict", "size": "200 N m", "thesis": "Of 94 claims", "flanks": "Pattern",
-    "drive": "torque_ratio", "block": "Elastic block",
+    "drive": "torque_ratio", "block": "slider_ratio",
 }  # fmt: skip
 
 
@@ -52,7 +52,9 @@ def test_a_screen_hands_its_report_over_which_prints_and_asks_for_nothing(
     text = path.read_text("utf-8")
     assert SAYS[screen] in text
     read = reports.Page(text)
-    assert all(place.startswith("data:") for place in read.asked)
+    # Of a gearset's flanks it names the file in space, which stands beneath on the screen.
+    beside = {"gearset.glb"} if screen == "flanks" else set()
+    assert all(place.startswith("data:") for place in set(read.asked) - beside)
     assert not {"script", "iframe", "object", "form"} & set(read.tags)
     asked = []
     paper = browser.new_page(viewport={"width": 794, "height": 900})

@@ -137,6 +137,7 @@ def test_no_ringing_is_told_of_where_it_fades_or_nothing_wakes_it(calm):
     assert not any("rings" in note for note in marched.notes)
 
 
+@pytest.mark.slow
 def test_bodies_that_are_marched_together_tell_of_a_contact_without_damping():
     model = Model.from_case(
         read_case("normal-pin", TABLES, ["solve.method=march", "normal.damping_ratio=0"])

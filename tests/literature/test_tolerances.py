@@ -11,6 +11,7 @@ import math
 import pytest
 from apparatus.duties import A100
 
+from asperity.gearset.keys import key_of
 from asperity.gearset.tolerancing.allowances import FITS, Allowances, fit_backlash
 from asperity.gearset.tolerancing.backlash import backlash
 from asperity.gearset.tolerancing.grades import graded
@@ -67,6 +68,37 @@ def test_standard_tolerances():
         for grade, units in ((6, 10), (7, 16), (8, 25), (9, 40), (10, 64), (11, 100)):
             assert 1e3 * standard_tolerance(high, grade) == pytest.approx(units * unit, rel=0.06)
     assert standard_tolerance(100.0, 7) == 0.035
+
+
+@pytest.mark.parametrize("grade", range(5, 13))
+def test_a_range_of_sizes_ends_where_the_next_begins(grade):
+    sizes = (3, 6, 10, 18, 30, 50, 80, 120, 180, 250, 315, 400, 500)
+    just = [standard_tolerance(size, grade) for size in sizes]
+    above = [standard_tolerance(size + 1e-6, grade) for size in sizes[:-1]]
+    assert above == just[1:]
+    # From grade 6 up they are ten times as large five grades on, but for one that is rounded.
+    if grade in (6, 7):
+        tenfold = [10.0 * one for one in just]
+        tenfold[1] -= 0.005 if grade == 6 else 0.0
+        assert [standard_tolerance(s, grade + 5) for s in sizes] == pytest.approx(tenfold)
+
+
+def test_both_depths_of_a_key_are_its_height_and_a_clearance():
+    # DIN 6885-1: up to a diameter of the shaft, width and height, mm.
+    keys = (
+        (8, 2, 2), (10, 3, 3), (12, 4, 4), (17, 5, 5), (22, 6, 6), (30, 8, 7), (38, 10, 8),
+        (44, 12, 8), (50, 14, 9), (58, 16, 10), (65, 18, 11), (75, 20, 12), (85, 22, 14),
+        (95, 25, 14), (110, 28, 16), (130, 32, 18),
+    )  # fmt: skip
+    before = 6.0
+    for most, width, height in keys:
+        clearance = 0.2 if height < 4 else 0.3 if height < 11 else 0.4
+        for diameter in (before + 1e-6, float(most)):
+            key = key_of(diameter, "bore")
+            assert key.width == width
+            assert key.in_shaft + key.in_hub == pytest.approx(height + clearance)
+            assert 0.5 * height <= key.in_shaft <= 0.65 * height
+        before = float(most)
 
 
 def test_grade_8_of_the_actuator():

@@ -4,13 +4,19 @@ Of those the first are of files that import the function by its name: they look 
 
 ``python tests/mutants/near.py`` runs the ordinary tests, notes which functions of the package each
 calls (``reach.py``) and writes ``near.json.gz``; with files or names of tests it runs those, and
-keeps what stands there of others. A function that is not in it, since it has come later, has the
-tests of its module's others; a module that is not, the files of tests that name it or its room.
+keeps what stands there of others; ``--jobs N`` runs N at a time. A function that is not in it,
+since it has come later, has the tests of its module's others; a module that is not, the files of
+tests that name it or its room.
+
+What has come since cannot be noted there: a file of tests that is not what it was when the map was
+made is near to each module that it imports, and comes behind the others.
 """
 
+import argparse
 import ast
 import functools
 import gzip
+import hashlib
 import json
 import os
 import re
@@ -29,12 +35,18 @@ TESTS = HERE.parent
 ROOT = TESTS.parent
 KEPT = HERE / "near.json.gz"
 ANSWERS = "tests/acceptance/test_same_answers.py"
+TABLES = "tests/unit/test_tables.py"
 
 # What is about processes, files, texts or the page, and what needs programs of others.
 _LEFT_OUT = re.compile(
-    r"test_(web|docs|house|processes|rig_|terminal|store|interrupts|runs|casefile|compiled|errors|"
-    r"units|thesis_run|thesis_figures|fric_subroutine|calculix|python_units|sweep_axes|mutants)"
+    r"test_(web|docs|house|processes|terminal|store|interrupts|runs|compiled|mutants|thesis_run|"
+    r"thesis_figures|fric_subroutine|calculix|docstrings|language|questions|"
+    r"rig_(acquisition|contract|guardian|instruments|plan|preview|procedure|twin|off|kills|package)|"
+    r"cli_(rig_run|streams|cache|instruments|help))"
 )
+_FOLDERS = {
+    "unit": "test_*", "literature": "test_*", "property": "test_*", "acceptance": "test_cli_*",
+}  # fmt: skip
 _OF_A_FUNCTION = 2  # tests that differ in their parameters alone
 _OF_A_FILE = 4
 _NEAREST = 20
@@ -66,7 +78,36 @@ def nearest(mutant) -> list[str]:
         named = _naming(mutant.module)
         own = [name for name in named if Path(mutant.module).stem in name]
         chosen = list(dict.fromkeys(own[:1] + named[:1])) + chosen
-    return chosen if len(chosen) >= _FEW else chosen + _naming(mutant.module)
+    chosen += _come_since(mutant.module)
+    if len(chosen) < _FEW:
+        chosen += _naming(mutant.module)
+    if not _is_called(mutant):
+        # A table or a default; what an answer says of it comes first.
+        chosen.append(TABLES)
+    return list(dict.fromkeys(chosen))
+
+
+def _is_called(mutant):
+    tree = ast.parse((SOURCE / "asperity" / mutant.module).read_text("utf-8"))
+    return mutant.function in dict(_functions(tree))
+
+
+def _come_since(module):
+    """Files of tests that import a module and are not what they were when the map was made."""
+    room, _, last = ".".join(("asperity", *module.removesuffix(".py").split("/"))).rpartition(".")
+    known = _kept().get("files", {})
+    return [
+        file
+        for file, (imported, _) in _imports().items()
+        if (f"{room}.{last}" in imported or last in imported.get(room, ()))
+        and not _LEFT_OUT.match(Path(file).name)
+        and known.get(file) != _digest(file)
+    ]
+
+
+@functools.cache
+def _digest(file):
+    return hashlib.sha256((ROOT / file).read_bytes()).hexdigest()[:8]
 
 
 @functools.cache
@@ -247,16 +288,22 @@ def _few_of_each(tests, of_a_file, most):
     return chosen[:most]
 
 
-def measure(reached: Path, names=()) -> None:
-    """Run the ordinary tests, or those named, and note what they reach."""
-    if not names:
-        names = [
+def _ordinary():
+    """Files of the tests that the map is made of."""
+    return [
+        *(
             path.relative_to(ROOT).as_posix()
-            for folder in ("unit", "literature", "property")
-            for path in sorted((TESTS / folder).glob("test_*.py"))
+            for folder, names_of in _FOLDERS.items()
+            for path in sorted((TESTS / folder).glob(f"{names_of}.py"))
             if not _LEFT_OUT.match(path.name)
-        ]
-        names.append(ANSWERS)
+        ),
+        ANSWERS,
+    ]
+
+
+def measure(reached: Path, names=(), jobs: int = 1) -> None:
+    """Run the ordinary tests, or those named, and note what they reach."""
+    shared = ["-n", str(jobs), "--dist", "loadfile"] if jobs > 1 else []
     environment = os.environ | {
         "PYTHONPATH": os.pathsep.join((str(SOURCE), str(TESTS))),
         "OPENBLAS_NUM_THREADS": "1",
@@ -264,7 +311,7 @@ def measure(reached: Path, names=()) -> None:
     }
     subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "mutants.reach", "-p", "no:cacheprovider",
-         *names],
+         *shared, *(names or _ordinary())],
         cwd=ROOT, env=environment, check=False,
     )  # fmt: skip
 
@@ -273,12 +320,19 @@ def write(reached: Path, names=()) -> None:
     """Write the map, the same bytes for the same tests; of others than these as it stands."""
     lines = [json.loads(line) for line in reached.read_text("utf-8").splitlines()]
     found = make([*(_noted(_kept(), names) if names else ()), *lines])
+    known = {file: is_it for file, is_it in _kept().get("files", {}).items() if names}
+    known |= {file: _digest(file) for file in names or _ordinary() if (ROOT / file).is_file()}
+    found["files"] = dict(sorted(known.items()))
     KEPT.write_bytes(gzip.compress(json.dumps(found, separators=(",", ":")).encode(), mtime=0))
     print(f"{KEPT}: {len(found['near'])} functions, {len(found['tests'])} tests")
 
 
 if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--jobs", type=int, default=1, help="so many at a time")
+    parser.add_argument("names", nargs="*", help="files or names of tests, instead of all")
+    asked = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         noted = Path(folder) / "reached.jsonl"
-        measure(noted, sys.argv[1:])
-        write(noted, sys.argv[1:])
+        measure(noted, asked.names, asked.jobs)
+        write(noted, asked.names)

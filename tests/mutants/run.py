@@ -8,6 +8,9 @@ nothing had noticed, ``--count N`` the first N; ``--share`` tries nothing and te
 begins none after that time, ``--told`` takes the list of what is told, marked and ranked, and
 ``--results FILE`` keeps what is known elsewhere: lines of JSON, of which the last on a mutant
 holds as long as its line is what it was.
+
+Of a line that kernels follow from the tests are run with kernels as plain Python first
+(``plain.py``), and with what Numba compiles only if nothing has noticed it.
 """
 
 import argparse
@@ -40,6 +43,7 @@ _NO_SUCH_TEST, _NONE_CHOSEN = 4, 5
 
 _MEMORY = 8 * 2**30
 _FIRST = 26  # tests that are tried first
+_SPARE, _PLAIN = 2.0, 40.0  # s of a test and of all, with kernels as plain Python
 
 
 class Copy:
@@ -70,10 +74,7 @@ class Copy:
             env=self._environment, cwd=near.ROOT, capture_output=True, text=True, check=True,
         ).stdout.strip()  # fmt: skip
         assert Path(used).parent == self.package, used
-        self._server = subprocess.Popen(
-            [sys.executable, near.HERE / "server.py"], stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE, cwd=near.ROOT, env=self._environment, text=True,
-        )  # fmt: skip
+        self._servers = {}
 
     def text(self, module: str) -> str:
         """Source of a module as it should be."""
@@ -90,14 +91,15 @@ class Copy:
         finally:
             shutil.copy2(whole, path)
 
-    def fails(self, tests, longest=LONGEST):
+    def fails(self, tests, longest=LONGEST, spare=None):
         """Run tests until one fails; return its name, "" for none, None where time was up.
 
-        The name is that of a file where it cannot be read at all.
+        The name is that of a file where it cannot be read at all. With ``spare`` kernels are plain
+        Python, and tests that take longer are skipped; 0 skips none.
         """
         tests = list(tests)
         while tests:
-            code, output = self._pytest(tests, longest)
+            code, output = self._pytest(tests, longest, spare)
             if code is None:
                 return None
             if code == _NO_SUCH_TEST and (gone := set(_NOT_FOUND.findall(output))):
@@ -115,23 +117,38 @@ class Copy:
             return failed.group(1) if failed else f"exit {code}: {output.strip()[-300:]}"
         return ""
 
-    def _pytest(self, tests, longest):
+    def _pytest(self, tests, longest, spare):
         options = [
             "-q", "-x", "--no-header", "--tb=no", "-rfE", "-p", "no:cacheprovider",
             "-m", "slow or not slow", f"--basetemp={self._folder / 'pytest'}",
         ]  # fmt: skip
+        if spare is not None:
+            options += ["-p", "mutants.plain", "--spare", str(spare), "-W", "ignore"]
         output = self._folder / "output"
         asked = {
             "arguments": [*options, *tests], "output": str(output), "cpu": round(longest),
             "seconds": _AT_ALL * longest, "bytes": _MEMORY,
         }  # fmt: skip
-        print(json.dumps(asked), file=self._server.stdin, flush=True)
-        code = json.loads(self._server.stdout.readline())
+        server = self._server(plain=spare is not None)
+        print(json.dumps(asked), file=server.stdin, flush=True)
+        code = json.loads(server.stdout.readline())
         return code, output.read_text("utf-8", "replace")
 
+    def _server(self, plain):
+        if plain not in self._servers:
+            extra = {"NUMBA_DISABLE_JIT": "1", "ASPERITY_NATIVE": "0"} if plain else {}
+            tests = os.pathsep.join((self._environment["PYTHONPATH"], str(near.TESTS)))
+            self._servers[plain] = subprocess.Popen(
+                [sys.executable, near.HERE / "server.py"], stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE, cwd=near.ROOT, text=True,
+                env=self._environment | extra | ({"PYTHONPATH": tests} if plain else {}),
+            )  # fmt: skip
+        return self._servers[plain]
+
     def close(self):
-        """End the process that tests."""
-        self._server.communicate()
+        """End the processes that test."""
+        for server in self._servers.values():
+            server.communicate()
 
     def _new_cache(self):
         """Forget all but kernels, which are kept under what they follow from."""
@@ -157,15 +174,20 @@ def _linked(folder, copy):
         shutil.copytree(folder, copy)
 
 
-def tried(copy: Copy, mutant, longest: float = LONGEST, without=frozenset()) -> dict:
-    """Break a line and tell whether it was noticed, by other tests than those named."""
+def tried(
+    copy: Copy, mutant, longest: float = LONGEST, without=frozenset(), spare: float | None = None
+) -> dict:
+    """Break a line and tell whether it was noticed, by other tests than those named.
+
+    With ``spare`` by tests that take no longer while kernels are plain Python.
+    """
     tests = _others(mutant, without)
     began = time.perf_counter()
     with copy.broken(mutant):
         # Most are caught by the first: the files of the others are not read then.
-        failed = copy.fails(tests[:_FIRST], longest)
+        failed = copy.fails(tests[:_FIRST], longest, spare)
         if failed == "":
-            failed = copy.fails(tests[_FIRST:], longest)
+            failed = copy.fails(tests[_FIRST:], longest, spare)
     outcome = {None: "timeout", "": "survived"}.get(failed, "caught")
     return {
         "key": mutant.key, "name": mutant.name, "outcome": outcome, "by": failed or "",
@@ -293,8 +315,11 @@ class Trial:
         self._file, self._longest, self._ends = file, longest, ends
         file.parent.mkdir(parents=True, exist_ok=True)
         self._lock = threading.Lock()
-        self._passed = {line["by"] for line in results(file).values()}
-        self._failing = set()
+        # Of kernels that are compiled and, True, of those that are plain Python.
+        self._passed = {False: set(), True: set()}
+        self._failing = {False: set(), True: set()}
+        for line in results(file).values():
+            self._passed[line.get("plain", False)].add(line["by"])
 
     def of(self, mutants, jobs: int) -> None:
         """Try mutants, so many at a time."""
@@ -331,23 +356,33 @@ class Trial:
             return next(left, None) if time.monotonic() < self._ends else None
 
     def _tried(self, copy, mutant):
-        line = tried(copy, mutant, self._longest, self._failing.copy())
+        if _compiled_anew({mutant.module})[mutant.module]:
+            line = self._tried_as(copy, mutant, True)
+            if line["outcome"] == "caught":
+                return line
+        return self._tried_as(copy, mutant, False)
+
+    def _tried_as(self, copy, mutant, plain):
+        passed, failing = self._passed[plain], self._failing[plain]
+        longest, spare, any_time = (_PLAIN, _SPARE, 0.0) if plain else (self._longest, None, None)
+        line = tried(copy, mutant, longest, failing.copy(), spare)
         # A test that fails of itself has noticed nothing.
-        while line["by"].startswith("tests/") and line["by"] not in self._passed:
+        while line["by"].startswith("tests/") and line["by"] not in passed:
             failed = line["by"]
             # Of a file that could not be read any test tells whether it can be.
             of_it = [t for t in near.nearest(mutant) if t.startswith(f"{failed}::")]
-            if copy.fails([*of_it, failed][:1], 10 * self._longest) == "":
-                self._passed.add(failed)
+            if copy.fails([*of_it, failed][:1], 10 * self._longest, any_time) == "":
+                passed.add(failed)
             else:
-                print(f"fails where nothing is broken: {failed}", flush=True)
-                self._failing.add(failed)
-                line = tried(copy, mutant, self._longest, self._failing.copy())
+                if not plain:
+                    print(f"fails where nothing is broken: {failed}", flush=True)
+                failing.add(failed)
+                line = tried(copy, mutant, longest, failing.copy(), spare)
         if line["by"].startswith("exit"):
-            whole = _others(mutant, self._failing)[:1]
-            if whole and copy.fails(whole) != "":
+            whole = _others(mutant, failing)[:1]
+            if whole and copy.fails(whole, spare=any_time) != "":
                 raise SystemExit(f"tests do not run where nothing is broken: {line['by']}")
-        return line
+        return line | ({"plain": True} if plain else {})
 
     def _keep(self, mutant, line):
         with self._file.open("a", encoding="utf-8") as file:

@@ -2,6 +2,7 @@
 
 import functools
 import math
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.static.loaded import Loaded, loaded
+from asperity.drive.static.notes import cold
 from asperity.drive.static.spread import STRIPS, Spread, k_h_alpha
 from asperity.drive.studies import misalign, points
 from asperity.drive.studies.misalign_plots import over_axes
@@ -184,6 +186,10 @@ def test_an_even_load_has_factors_of_one_and_an_uneven_one_what_it_is_above_it()
     assert even.centre == pytest.approx((0.0, 0.5e-3))
     assert even.line_load == pytest.approx(3.0 / 1e-3)
     assert sloped.k_h_beta == pytest.approx(1.95)
+    # However small it is.
+    light = Spread(flank)
+    light.take(strip(np.full(STRIPS, 3e-6), z))
+    assert (light.k_h_beta, light.line_load) == pytest.approx((1.0, 3e-3))
     # A load that grows to twice the mean has its middle a sixth of the width off.
     assert sloped.centre[0] == pytest.approx(-20e-3 / 6.0, rel=5e-3)
     assert k_h_alpha(np.full((4, 2), 7.0)) == pytest.approx(1.0)
@@ -229,6 +235,28 @@ def test_a_warm_gearset_is_a_point_of_its_own(cached):
     assert found.name[1].startswith("warm: centre distance ")
     assert found.to_json()["points"][1]["values"] == {"mount.axial_offset [um]": None}
     assert any("the second row is the gearset warm" in each for each in found.tables()[0].remarks)
+
+
+def test_what_is_said_of_a_cold_gearset_makes_it_warm():
+    made = study(*WARM, "mount.centre_distance_error=10 um", over=["mount.axial_offset=0,20 um"])
+    cold_one, warm_one = made.places[0].problem, made.places[1].problem
+    (said,) = cold(cold_one)
+    assert said.startswith("cold: tolerances.temperatures add centre distance -")
+    settings = [
+        f"{key}={value}"
+        for key, value in re.findall(r"((?:mount|modification)\.\w+)='([^']+)'", said)
+    ]
+    assert len(settings) == 2
+    again = misalign.prepare(made.case.replace(settings), over=["mount.axial_offset=0,20 um"])
+    set_so = again.places[0].problem
+    assert set_so.mount.centre_distance_error == pytest.approx(
+        warm_one.mount.centre_distance_error, rel=1e-5
+    )
+    assert set_so.modification.lead_correction == pytest.approx(
+        warm_one.modification.lead_correction, rel=1e-5
+    )
+    # Without temperatures nothing is said.
+    assert not list(cold(study(over=["mount.axial_offset=0,20 um"]).places[0].problem))
 
 
 def test_gears_and_housing_of_one_material_at_one_temperature_mesh_as_cold():

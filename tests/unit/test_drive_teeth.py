@@ -324,6 +324,7 @@ def test_a_screw_near_the_resonance_begins_of_elastic_teeth_as_of_these_reduced(
     assert teeth.open_share == 0.0
 
 
+@pytest.mark.slow
 def test_a_vibration_of_nothing_changes_nothing_of_elastic_teeth():
     model = model_of(
         "drive.flanks=driving", "vibration.frequency=20 kHz", "vibration.velocity_ratio=1e-6",

@@ -191,6 +191,12 @@ def test_it_ends_after_so_many_turns():
     found = solve.answer(solve.prepare(case(), revolutions="10"), Run())
     assert found.revolutions == pytest.approx(10.0, rel=1e-12)
     assert found.depth_max < 1.0
+    # Worn or not, what is lost is what friction takes at the mean circle or near it.
+    problem = found.problem
+    torque = problem.point(None).worm_torque(problem.load, problem.friction.mu)
+    expected = problem.load / problem.geometry.gear_ratio / torque
+    assert found.efficiency_new == pytest.approx(expected, rel=0.05)
+    assert found.efficiency == pytest.approx(found.efficiency_new, rel=0.02)
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ from asperity.casefile import read_case
 from asperity.errors import InputError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, solve
+from asperity.slider.parameters import in_proportion
 from asperity.vibration import Vibration
 
 BODY = {"drive_velocity": 0.5e-3, "normal_force": 55.0}
@@ -248,3 +249,23 @@ def test_a_square_wave_needs_a_fine_step_only_for_its_flanks():
 def test_what_a_changing_normal_force_is_needed_for_is_refused_under_a_constant_one(entry):
     told = refusal(body, friction=DAHL | entry)
     assert "[normal]" in told or "the normal force of [slider] is constant" in told
+
+
+@pytest.mark.parametrize("raised", [OverflowError, ZeroDivisionError, ValueError])
+def test_numbers_out_of_proportion_are_refused_in_a_function_and_in_lines(raised):
+    @in_proportion()
+    def fails(error):
+        raise error
+
+    with pytest.raises(InputError, match="too far apart"):
+        fails(raised("of Python's own"))
+    with pytest.raises(InputError, match="too far apart"), in_proportion():
+        raise raised("of Python's own")
+    # What says why by itself, and what is a fault of ours, come through as they are.
+    for error in InputError("why"), KeyError("ours"):
+        with pytest.raises(type(error)) as told:
+            fails(error)
+        assert told.value is error
+        with pytest.raises(type(error)) as told, in_proportion():
+            raise error
+        assert told.value is error

@@ -2,6 +2,7 @@
 
 import importlib
 import inspect
+import math
 import os
 import subprocess
 import sys
@@ -10,7 +11,10 @@ from collections import namedtuple
 import numba
 import numpy as np
 import pytest
+from numba.core import ir
+from numba.core.compiler import run_frontend
 
+from asperity.kernels.building import quicker
 from asperity.kernels.building.specs import UnknownTypeError, numba_type, spec
 from asperity.kernels.native.entries import likely, listed
 from asperity.kernels.native.types import UnlistedTypeError, types_of
@@ -88,3 +92,60 @@ def test_an_entry_is_compiled_linked_and_called():
         check=False,
     )
     assert (done.stdout, done.stderr) == ("True NotImplemented\n", "")
+
+
+def _stepped(x, table, n):
+    total, both = 0.0, (x, 2.0)
+    for k in range(n):
+        if table[k] > both[0] and k != 3:
+            total += math.sin(table[k]) * both[1]
+        elif k % 2:
+            total = -total
+    return total, [x, total]
+
+
+def test_variables_of_instructions_are_those_that_numba_finds():
+    blocks = run_frontend(_stepped).blocks.values()
+    parts = [one for block in blocks for one in block.body]
+    parts += [one.value for one in parts if isinstance(one, ir.Assign)]
+    assert {type(one) for one in parts} >= {ir.Assign, ir.Branch, ir.Expr, ir.Return}
+    found = 0
+    for one in parts:
+        if isinstance(one, ir.Inst):
+            held = one._kws if isinstance(one, ir.Expr) else one.__dict__
+            theirs = one.list_vars()
+            assert quicker._variables(held.values()) == theirs
+            assert quicker._variables([one, None, "word", (one,)]) == [*theirs, *theirs]
+            found += len(theirs)
+    assert found > 50
+
+
+COMPILED = """
+import hashlib
+from asperity.kernels.building import lean, link, making, quicker
+from asperity.kernels.native.entries import listed
+if not {quicker}:
+    quicker.begin = lambda: None
+making.began()
+for name in ("asperity.vibration.waveform.fill_increments", "asperity.slider.kernels.prime"):
+    (entry, *_) = listed().named(name)
+    made = lean.make(making.kernel(entry), entry.arguments, link.symbol(entry))
+    print(hashlib.sha256(made.code).hexdigest())
+"""
+
+
+@pytest.mark.slow
+def test_what_is_compiled_in_fewer_steps_is_the_same_to_the_byte():
+    environment = os.environ | {"ASPERITY_NATIVE": "0"}
+    told = [
+        subprocess.run(
+            [sys.executable, "-c", COMPILED.format(quicker=quicker)],
+            env=environment,
+            check=True,
+            capture_output=True,
+            text=True,
+        ).stdout.split()
+        for quicker in (False, True)
+    ]
+    assert len(told[0]) == 2
+    assert told[0] == told[1]

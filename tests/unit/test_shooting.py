@@ -279,3 +279,50 @@ def test_friction_at_the_start_of_a_cycle_is_the_mean_over_the_asperities():
     shooting._forces._function(state, springs, p, q, np.array([0.0, 0.1, 0.0]))
     assert [state.friction_x, state.friction_y] == pytest.approx(springs @ weights)
     assert state.drive_force == pytest.approx(2.0 * 0.3 + 0.5 * (1.0 - 0.2))
+
+
+@pytest.mark.parametrize(
+    ("aim", "tried"),
+    [((2.4, 3.2), (0.72, 0.96)), ((-3.2, 2.4), (-0.96, 0.72)), ((1.02, -1.36), (1.02, -1.36))],
+)
+def test_newton_brings_what_is_beyond_the_limit_back_along_its_direction(monkeypatch, aim, tried):
+    # A plain map of which Newton's step is exact; friction holds up to 1.2, and half as much
+    # again is left to the search.
+    kept = np.dtype([("deflection_x", float), ("deflection_y", float)])
+    start, end, trial, trial_end = (np.zeros(1, kept).view(np.recarray) for _ in range(4))
+    seen = []
+
+    def read(state, springs, p, q, out):
+        out[:] = state.deflection_x, state.deflection_y
+
+    def write(given, p, q, state, springs):
+        state.deflection_x, state.deflection_y = given
+
+    def defect_of(state, *others):
+        seen.append(tuple(state[0].item()))
+        others[-1][:] = np.subtract(seen[-1], aim)
+        return np.abs(others[-1]).max()
+
+    def differentiate(*arguments):
+        arguments[-1][:] = np.eye(2)
+
+    def eliminate(matrix, step, count, least):
+        step[:] = np.linalg.solve(matrix, step)
+        return True
+
+    for name, plain in {
+        "read_unknowns": read, "write_unknowns": write, "defect_of": defect_of,
+        "differentiate": differentiate, "eliminate": eliminate,
+        "mean_drive": lambda *_: 0.0, "copy": lambda *_: None,
+    }.items():  # fmt: skip
+        monkeypatch.setattr(shooting, name, plain)
+    arrays = {name: np.zeros(2) for name in ("here", "there", "defect", "trial_defect", "step")}
+    room = SimpleNamespace(
+        trial=trial, trial_end=trial_end, trial_springs=None, trial_end_springs=None,
+        scales=np.ones(2), matrix=np.zeros((2, 2)), **arrays,
+    )  # fmt: skip
+    p = SimpleNamespace(model=SPRINGS, static_ratio=1.2)
+    shooting._newton._function(
+        start, None, p, None, None, None, None, 2, np.zeros((2, 2)), room, end, None
+    )
+    assert seen[1] == pytest.approx(tried)

@@ -25,6 +25,7 @@ from asperity.cli.registry_commands import (
     folder_of,
 )
 from asperity.cli.rig_look import looking
+from asperity.kernels.native import makers
 
 app = typer.Typer(
     add_completion=False,
@@ -352,6 +353,8 @@ def run(arguments: list[str] | None = None) -> int:
     # What makes the tables of case files looks through all installed packages for its plugins.
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     arguments = looking(sys.argv[1:] if arguments is None else arguments)
+    if arguments:
+        makers.begin_for(arguments[0])
     command: Any = made(app, arguments)
     as_written(command)
     # Left without a value, the option for help would load all of pydantic to convert none.

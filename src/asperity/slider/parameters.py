@@ -1,9 +1,9 @@
 """The `[slider]` and `[solve]` tables: the body, its drive, and how to find the answer."""
 
-import contextlib
+import functools
 import math
-from collections.abc import Iterator
-from typing import Annotated, ClassVar, Literal
+from collections.abc import Callable
+from typing import Annotated, Any, ClassVar, Literal, ParamSpec, TypeVar
 
 from pydantic import model_validator
 
@@ -13,6 +13,9 @@ from asperity.friction import Friction
 from asperity.normal import Normal
 from asperity.units import Quantity
 from asperity.vibration import Vibration
+
+_Given = ParamSpec("_Given")
+_Answer = TypeVar("_Answer")
 
 FAR_APART = (
     "the numbers of this case are too far apart to calculate with; look for a value with a wrong "
@@ -213,12 +216,34 @@ def unit_vector(angle: float) -> tuple[float, float]:
     return math.cos(angle), math.sin(angle)
 
 
-@contextlib.contextmanager
-def in_proportion() -> Iterator[None]:
-    """Refuse numbers that overflow or vanish when they are put together."""
-    try:
-        yield
-    except AsperityError:
-        raise
-    except (ArithmeticError, ValueError):
-        raise InputError(FAR_APART) from None
+class in_proportion:  # noqa: N801
+    """Refuse numbers that overflow or vanish when they are put together.
+
+    Around lines, or around a function: without a context of each call, which takes longer than most
+    of those functions do.
+    """
+
+    def __call__(self, function: Callable[_Given, _Answer]) -> Callable[_Given, _Answer]:
+        """Return the function that refuses them."""
+
+        @functools.wraps(function)
+        def refusing(*given: _Given.args, **named: _Given.kwargs) -> _Answer:
+            try:
+                return function(*given, **named)
+            except AsperityError:
+                raise
+            except (ArithmeticError, ValueError):
+                raise InputError(FAR_APART) from None
+
+        return refusing
+
+    def __enter__(self) -> None:
+        """Begin the lines."""
+
+    def __exit__(
+        self, _: type[BaseException] | None, error: BaseException | None, *of: Any
+    ) -> None:
+        """End them."""
+        strange = isinstance(error, ArithmeticError | ValueError)
+        if strange and not isinstance(error, AsperityError):
+            raise InputError(FAR_APART) from None

@@ -10,7 +10,7 @@ from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.root_stress.loads import Load
 from asperity.drive.root_stress.model import RootModel, Roots
-from asperity.drive.static.notes import few_phases
+from asperity.drive.static.notes import cold, few_phases
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.results.words import Number
@@ -170,7 +170,11 @@ class RootStress(OfDrive):
             fillet_radius=np.hypot(places[..., 0], places[..., 1]),
             fillet_face=hand * places[..., 2],
             teeth=model.teeth,
-            notes=(*_notes(model.teeth, load.foot, mesh_change), *few_phases(problem)),
+            notes=(
+                *_notes(model.teeth, load.foot, mesh_change),
+                *few_phases(problem),
+                *cold(problem),
+            ),
         )
 
     def heading(self) -> str:

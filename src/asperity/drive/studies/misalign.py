@@ -21,11 +21,11 @@ from asperity.drive.static.notes import few_phases, rigid_parts
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.studies.misaligned import Misaligned
 from asperity.drive.studies.points import solve_points
+from asperity.drive.warmed import warmed
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.parameters import Modification, Mount
+from asperity.flanks.parameters import Mount
 from asperity.gearset.tolerancing.allowances import Allowances
 from asperity.gearset.tolerancing.table import Tolerances
-from asperity.gearset.tolerancing.warmth import Warmth
 from asperity.runs import Run
 from asperity.sweep.axes import parse_axes
 from asperity.sweep.axis import Axis, spanned
@@ -154,18 +154,10 @@ def _values(axes: Sequence[Axis], where: tuple[int, ...]) -> list[float]:
 
 def _warm(case: Case, problem: DriveProblem) -> Place | None:
     """Return the gearset as it runs warm; None where no temperatures are given."""
-    given = case.get(Tolerances)
-    if given is None or given.temperatures is None:
+    found = warmed(problem)
+    if found is None:
         return None
-    warmth = Warmth.of(problem.gearset, given.temperatures, given.housing)
-    mount, own = problem.mount or Mount(), problem.modification or Modification()
-    apart = warmth.apart / _MILLIMETRES
-    lead = warmth.lead_correction(problem.geometry.lead_angle)
-    name = f"warm: centre distance {_MICRO * apart:+.3g} um, lead {_MICRO * warmth.pitch:+.3g} um/m"
-    values = {
-        "mount.centre_distance_error": mount.centre_distance_error + apart,
-        "modification.lead_correction": own.lead_correction + lead,
-    }
+    name, values = f"warm: {found.told}", found.values
     try:
         return Place((), DriveProblem.from_case(case.replace_values(values), shaken=False), name)
     except InputError as error:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.notes import few_phases
+from asperity.drive.static.notes import cold, few_phases
 from asperity.drive.studies.points import table_of_points, told_points
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -124,7 +124,7 @@ class Relieved(OfDrive):
             notes=(
                 "each design at the worst of: " + "; ".join(stands),
                 *(f"{each.name}: {each.failed}" for each in designs if each.failed),
-                *few_phases(problem),
+                *few_phases(problem), *cold(problem),
             ),
             **{
                 key: np.array([getattr(each, key) for each in designs])

@@ -19,7 +19,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces
 from asperity.drive.resolved.strip import FLANK
 from asperity.drive.static.loaded import loaded_of
-from asperity.drive.static.notes import few_phases, rigid_parts
+from asperity.drive.static.notes import cold, few_phases, rigid_parts
 from asperity.drive.static.solve import StaticModel, TooMuchError
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.wear.model import Taken, node_area, worn_model
@@ -196,6 +196,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             "all teeth wear alike, the worm does not; pressures of the course are those of the "
             "first strips of patches",
             *few_phases(problem),
+            *cold(problem),
             *rigid_parts(problem),
         ),
         **columns,

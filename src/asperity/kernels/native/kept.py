@@ -7,10 +7,8 @@ as soon as it is called for, with what is likely to be called for next made besi
 import atexit
 import contextlib
 import functools
-import os
 import shutil
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -20,18 +18,17 @@ from typing import Any
 from asperity.kernels import folder as kernel_folder
 from asperity.kernels.native import keys, load, table
 from asperity.kernels.native.entries import Entry, likely, listed, shared_out
+from asperity.kernels.native.makers import MADE_HERE as _MADE_HERE
+from asperity.kernels.native.makers import begun as _begun
+from asperity.kernels.native.makers import most_makers
 from asperity.kernels.native.target import FEATURES
 from asperity.kernels.native.types import UnlistedTypeError, types_of
 
 UNFIT = "unfit"
 """Stands in place of machine code where there can be none; says why."""
 
-_MADE_HERE = "x86_64-linux"
 _PATIENCE = 0.01
 _REMIND = 1.0
-_MOST = 8
-_MEMORY = 1 << 30
-"""Bytes of the machine for each process: several times what one needs."""
 
 Native = Callable[[tuple[Any, ...]], Any]
 
@@ -282,27 +279,3 @@ def _makers(kernels: Path) -> _Makers:
     makers = _Makers(kernels)
     atexit.register(makers.leave)
     return makers
-
-
-def _begun(kernels: Path) -> subprocess.Popen[str]:
-    alone = "-I" if sys.flags.isolated else "-P"
-    # What is kept is for everybody: how Numba compiles for this one run is not.
-    environment = {name: os.environ[name] for name in os.environ if not name.startswith("NUMBA_")}
-    return subprocess.Popen(
-        [
-            *(sys.executable, alone, "-m", "asperity.kernels.building.worker"),
-            *(str(kernels), str(most_makers())),
-        ],
-        env=environment,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
-
-
-def most_makers() -> int:
-    """Return how many processes make entries at a time: as many as have cores and memory."""
-    cores = len(os.sched_getaffinity(0))
-    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    return max(1, min(cores, _MOST, memory // _MEMORY))

@@ -55,7 +55,7 @@ function seen(body) {
   copy.querySelectorAll(".num button, td button, th button, li button").forEach((each) => {
     const plain = copy.ownerDocument.createElement("span");
     plain.append(...each.childNodes);
-    Object.assign(plain.dataset, each.dataset);
+    Object.assign(plain.dataset, /** @type {HTMLElement} */ (each).dataset);
     each.replaceWith(plain);
   });
   copy.querySelectorAll("button, .all, .stage .row > label").forEach((each) => each.remove());

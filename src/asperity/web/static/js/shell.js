@@ -174,7 +174,8 @@ function Mends({ error, now, others }) {
 /** What a reader of the numbers should know. @param {{notes: string[] | undefined}} props */
 export const Notes = ({ notes }) => notes?.length ? html`<details class="notes">
   <summary>${notes.length === 1 ? "1 note" : `${notes.length} notes`}</summary>
-  <ul aria-label="notes">${notes.map((note) => html`<li key=${note}>${inWords(note)}</li>`)}</ul></details>` : null;
+  <ul aria-label="notes">${notes.map((note) =>
+    html`<li key=${note}>${inWords(printed(note))}</li>`)}</ul></details>` : null;
 
 /** Put a text on the clipboard, or show it where there is none. */
 export async function copy(text) {

@@ -192,7 +192,8 @@ export function Work({ work, label }) {
   useTicking(running);
   const said = asking ? "begun" : running ? left(job)
     : job?.shipped ? shippedSays(job, stale)
-    : stale && job ? "something was set since; this is the answer to what was asked before"
+    : stale && job ? (work.data ? "something was set since; this is the answer to what was asked before"
+      : `${left(job)}; something was set since`)
     : job ? left(job) : "";
   return html`<div class="work">
     <button type="button" disabled=${running || asking || !can}

@@ -3,7 +3,6 @@ import { html, useState } from "../../vendor/preact.js";
 import { about, get, job as submit, loadAbout, upload, useAsked, useLive } from "../api.js";
 import { Field, words } from "../form.js";
 import { Law } from "../law.js";
-import { Live } from "../live.js";
 import { Plot } from "../plot.js";
 import { Report } from "../report.js";
 import { Screen, tell } from "../shell.js";
@@ -13,7 +12,7 @@ import { Table } from "../table.js";
 import { useChecked } from "../taken.js";
 import { digits } from "../units.js";
 import { headed } from "../us.js";
-import { Files, placeOf, useJob, useShipped, Work, WorkPanel } from "../work.js";
+import { Files, Later, placeOf, useJob, useShipped, Work, WorkPanel } from "../work.js";
 
 const EXPORTS = ".csv,.txt,.asc,.lvm,.dat,.mat,.tdms,.wav,.sr,.mf4,.nc";
 /** What a page can record by itself: one file of a few cells on the simulated rig. */
@@ -31,6 +30,8 @@ const FINDING = ["settling", "speed_settling", "least_window", "threshold", "blo
 
 /** Signals of the recording whose answer ships. */
 const SEEN = "signals.json";
+
+const live = () => import("../live.js");
 
 export function view() {
   const { name, settings } = useCase();
@@ -53,7 +54,7 @@ gives what vibration did again. Save the case as ${file}, and asperity fit measu
         : example && { ...example.reduced, notes: [], again }}
       error=${(rec ? seen.error : null) ?? wrong ?? (rec ? reduced.error : null)}
       actions=${html`<${Report} work=${reduced} />`}>
-    <${Live} />
+    <${Later} load=${live} part="Live" />
     ${found || example ? html`<${Most} segments=${(found ?? example).segments} />` : null}
     <${Bring} name=${name} rec=${rec} />
     ${example ? html`<section class="panel" aria-label="signals">

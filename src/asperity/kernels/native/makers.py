@@ -1,0 +1,112 @@
+"""The processes that make entries, begun; known without NumPy, so that they can begin at once.
+
+On an empty cache a command waits for them longest, and they take a while to load a compiler: they
+do so while the command loads its own.
+"""
+
+import atexit
+import contextlib
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from asperity.files.folders import cache_root
+from asperity.kernels.native.target import platform_name
+
+MADE_HERE = "x86_64-linux"
+"""Where entries are made so far."""
+
+_MOST = 8
+_MEMORY = 1 << 30
+"""Bytes of the machine for each process: several times what one needs."""
+
+_SHIPPED = Path(__file__).parent / "made"
+
+_EARLY: list[tuple[Path, subprocess.Popen[str]]] = []
+
+
+def begin_for(command: str) -> None:
+    """Begin them for a command that mostly calls kernels, where none is kept or ships.
+
+    Parameters
+    ----------
+    command : str
+        The first word of a command line.
+    """
+    if not _is_wanted() or _is_any_kept():
+        return
+    from asperity.kernels.folder import kernels as kernel_folder
+    from asperity.kernels.native.entries import listed
+
+    asked = [numbers for line, numbers in listed().lines.items() if line.split()[0] == command]
+    if 2 * sum(map(bool, asked)) <= len(asked) or (kernels := kernel_folder()) is None:
+        return
+    with contextlib.suppress(OSError, ValueError):
+        for _ in range(most_makers()):
+            _EARLY.append((kernels, _new(kernels)))
+    atexit.register(_leave)
+
+
+def _is_wanted() -> bool:
+    said = os.environ.get("ASPERITY_NATIVE", ""), os.environ.get("NUMBA_DISABLE_JIT", "0")
+    is_off = said[0] == "0" or said[1] not in ("", "0")
+    return not is_off and platform_name() == MADE_HERE and not _SHIPPED.exists()
+
+
+def _is_any_kept() -> bool:
+    root = cache_root()
+    with contextlib.suppress(OSError):
+        return root is None or any(len(name) == 32 for name in os.listdir(root / "kernels"))
+    return False
+
+
+def begun(kernels: Path) -> subprocess.Popen[str]:
+    """Return a process that makes what it is asked for: one that has begun already, or another.
+
+    Parameters
+    ----------
+    kernels : path
+        The folder of the cache.
+    """
+    for early in _EARLY:
+        if early[0] == kernels:
+            _EARLY.remove(early)
+            return early[1]
+    return _new(kernels)
+
+
+def _new(kernels: Path) -> subprocess.Popen[str]:
+    alone = "-I" if sys.flags.isolated else "-P"
+    # What is kept is for everybody: how Numba compiles for this one run is not.
+    environment = {name: os.environ[name] for name in os.environ if not name.startswith("NUMBA_")}
+    return subprocess.Popen(
+        [
+            *(sys.executable, alone, "-m", "asperity.kernels.building.worker"),
+            *(str(kernels), str(most_makers())),
+        ],
+        env=environment,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+    )
+
+
+def _leave() -> None:
+    """Let those end that nothing was asked of."""
+    for _, process in _EARLY:
+        for each in (process.stdin, process.stdout):
+            if each is not None:
+                with contextlib.suppress(OSError):
+                    each.close()
+        # Or Python warns that it runs on.
+        process.returncode = process.poll() or 0
+    _EARLY.clear()
+
+
+def most_makers() -> int:
+    """Return how many processes make entries at a time: as many as have cores and memory."""
+    cores = len(os.sched_getaffinity(0))
+    memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    return max(1, min(cores, _MOST, memory // _MEMORY))

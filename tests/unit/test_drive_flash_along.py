@@ -1,0 +1,97 @@
+"""Flash temperatures along a contact: each band by its own load, width, place and speeds."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from asperity.drive.static.flash import SHARE, Flash, Line
+from asperity.drive.static.reduction import _along
+
+ACROSS, ALONG = 2e-4, 1e-3
+SLIDING, WORM, WHEEL = np.array([3.0, 5.0]), np.array([-0.4, 0.9]), np.array([0.16, 0.25])
+
+
+def flash():
+    # A flank of two points, below half of its height and above.
+    asked = []
+
+    def nearest(share, z):
+        asked.append((share, z))
+        return (share > 0.5).astype(int)
+
+    one = Flash.__new__(Flash)
+    one._flank, one._friction, one._effusivities = (
+        SimpleNamespace(nearest=nearest),
+        0.05,
+        (2e4, 9e3),
+    )
+    one.course, one.worst = [], Line(np.zeros(0), np.zeros(0))
+    one.__dict__["_motion"] = (SLIDING, WORM, WHEEL)
+    return one, asked
+
+
+def tooth(force, share):
+    rows, columns = np.shape(force)
+    z = np.tile(np.arange(columns) * ALONG, (rows, 1))
+    z[-1] += 0.3e-3
+    points = np.stack([np.zeros(z.size), np.ones(z.size), z.ravel()], axis=1)
+    frame = SimpleNamespace(shape=(rows, columns), spacing=(ACROSS, ALONG))
+    strip = SimpleNamespace(frame=frame, points=points, share=np.ravel(share))
+    return SimpleNamespace(force=np.ravel(np.array(force, dtype=float)), strip=strip)
+
+
+def test_a_band_is_as_hot_as_blok_has_it():
+    one, asked = flash()
+    force = [[1.0, 0.0, 4.0], [3.0, 0.0, 0.0], [0.0, 0.0, 4.0]]
+    share = [[0.2, 0.9, 0.6], [0.4, 0.9, 0.9], [0.9, 0.9, 0.8]]
+    line = one._along(tooth(force, share))
+    # Columns that bear nothing are left out; the others stand where their forces' middle is.
+    assert line.face == pytest.approx([0.0, 2e-3 + 0.5 * 0.3e-3])
+    assert asked[0][0] == pytest.approx([0.25 * 0.2 + 0.75 * 0.4, 0.7])
+    assert asked[0][1] == pytest.approx(line.face)
+    for n, (whole, wide, at) in enumerate(((4.0, 2, 0), (8.0, 2, 1))):
+        carried = 2e4 * abs(WORM[at]) ** 0.5 + 9e3 * WHEEL[at] ** 0.5
+        rise = SHARE * 0.05 * whole / ALONG * SLIDING[at] / carried / (wide * ACROSS) ** 0.5
+        assert line.rise[n] == pytest.approx(rise)
+
+
+def test_the_hottest_tooth_of_a_phase_counts_and_the_hottest_phase_is_kept():
+    one, _ = flash()
+    share = [[0.2], [0.2], [0.2]]
+    mild, hot = tooth([[1.0], [0.0], [0.0]], share), tooth([[4.0], [0.0], [0.0]], share)
+    none = tooth([[0.0], [0.0], [0.0]], share)
+    for teeth in ([mild, none], [mild, hot], [none], [mild]):
+        one.take(SimpleNamespace(teeth=teeth))
+    assert one.course[1] == pytest.approx(4.0 * one.course[0])
+    assert one.course[2:] == [0.0, one.course[0]]
+    assert one.worst.rise == pytest.approx([one.course[1]])
+
+
+def test_friction_s_work_is_of_what_lies_in_the_surface_alone():
+    # Teeth of a body of three nodes, each its own spring for each direction.
+    compliances = np.arange(1.0, 10.0)
+    force, normal = np.zeros((3, 8, 3)), np.zeros((3, 8, 3))
+    normal[..., 2] = 1.0
+    force[0, 0], force[0, 1] = (3.0, 0.0, 50.0), (1.0, 4.0, 20.0)
+    force[2, :4] = 0.0, 0.0, 9.0
+
+    def spread(k, along, nodal):
+        nodal.reshape(-1, 3)[k] += along.sum(axis=0)
+
+    contact = SimpleNamespace(
+        slots=3, sector=SimpleNamespace(
+            body=SimpleNamespace(nodes=3, flexibility=np.diag(compliances))
+        ),
+        candidates=SimpleNamespace(counts=np.array([[2], [0], [1]])),
+        answer=SimpleNamespace(force=force, normal=normal), spread=spread,
+    )  # fmt: skip
+    work, squares = _along(contact)
+    assert work == pytest.approx(1.0 * 4.0**2 + 2.0 * 4.0**2)
+    assert squares == pytest.approx(4.0**2 + 4.0**2)
+    force[1] = force[0]
+    contact.candidates.counts[1] = 1
+    # Teeth that share the friction: its square is of the sum.
+    work, squares = _along(contact)
+    assert work == pytest.approx(48.0 + (4.0 + 5.0) * 4.0**2)
+    assert squares == pytest.approx(4.0 * 32.0)
