@@ -124,7 +124,7 @@ def test_without_friction_the_standard_s_deflection_is_that_of_1_1_root_diameter
 def test_without_friction_every_part_is_symmetric_in_force_and_turn(geometry):
     frictionless = at(geometry, 0.0)
     part = compliances(
-        frictionless.radius, span=SPAN, place=0.06, bending=90.0, bearing_radial=1e8
+        frictionless.radius, span=SPAN, position=0.06, bending=90.0, bearing_radial=1e8
     )["bending"]
     assert part == pytest.approx(part.T)
     forces = np.array([frictionless.worm_torque, *frictionless.force])

@@ -27,9 +27,9 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.clearance import cut_root
 from asperity.drive.static.equilibrium import Equilibrium
+from asperity.drive.static.recorder import Pattern, contact_means
 from asperity.drive.static.reduction import teeth_reduced
 from asperity.drive.static.result import PATTERNS
-from asperity.drive.static.seen import Pattern, contact_means
 from asperity.drive.static.solve import (
     StaticModel,
     _back_patterns,
@@ -75,7 +75,7 @@ def model_of(*settings, phases=PHASES):
 def test_one_tooth_takes_the_torque_of_another_implementation():
     model = model_of(*ONE_TOOTH)
     asked = [LoadCase(LOAD, sense) for sense in (1, FRICTIONLESS, REVERSED)]
-    found = [course.worm_torque.mean() for course in model.courses(asked)]
+    found = [pitch_sweep.worm_torque.mean() for pitch_sweep in model.sweeps(asked)]
     assert found[0] == pytest.approx(34.73, abs=0.03)
     # Without friction no work is lost over a pitch.
     assert found[1] == pytest.approx(LOAD / 15.0, abs=0.005)
@@ -85,13 +85,13 @@ def test_one_tooth_takes_the_torque_of_another_implementation():
 def test_the_torque_is_that_of_an_involute_worm_at_the_radius_of_its_force():
     model = model_of(*ONE_TOOTH)
     means = []
-    (course,) = model.courses(
+    (pitch_sweep,) = model.sweeps(
         [LoadCase(LOAD, evaluate=lambda _, b: means.append(contact_means(b.contact, b)))]
     )
     force, radius, way = np.array(means).T
     point = model.problem.point(float(force @ radius / force.sum()))
     assert point.worm_torque(LOAD, OWN_FRICTION) == pytest.approx(
-        course.worm_torque.mean(), rel=2e-3
+        pitch_sweep.worm_torque.mean(), rel=2e-3
     )
     # Forces of the teeth are not quite parallel.
     assert point.normal_force(LOAD, OWN_FRICTION) == pytest.approx(force.mean(), rel=5e-3)
@@ -235,18 +235,18 @@ def test_a_sector_of_five_takes_the_torque_of_another_implementation():
 @pytest.mark.slow
 def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_stand_off():
     model = model_of("drive.teeth=5", phases=24)
-    (on_flank,) = model.courses([LoadCase(LOAD)])
+    (on_flank,) = model.sweeps([LoadCase(LOAD)])
     sector = model.sector
     faces = Body.of(sector.surface, sector.body.flexibility)
     contact = TeethContact(dataclasses.replace(sector, body=faces), model.friction, coupled=False)
     phases = phases_of(contact, 24)
     touching = touching_angles(contact, phases)
-    (course,) = sweep(Equilibrium(contact), phases, touching, [LoadCase(LOAD)])
+    (pitch_sweep,) = sweep(Equilibrium(contact), phases, touching, [LoadCase(LOAD)])
     pair = sector.wheel.pair
     exact = transmission(pair, sector.wheel.flank(1)).mean
-    assert exact - course.error.mean() == pytest.approx(365e-6, abs=20e-6)
+    assert exact - pitch_sweep.error.mean() == pytest.approx(365e-6, abs=20e-6)
     assert on_flank.mean_deflection > 400e-6
-    assert np.ptp(on_flank.touching) < 0.25 * np.ptp(course.touching)
+    assert np.ptp(on_flank.touching) < 0.25 * np.ptp(pitch_sweep.touching)
 
 
 @pytest.mark.slow
@@ -254,7 +254,7 @@ def test_faces_in_place_of_the_flank_take_as_much_off_the_deflection_as_they_sta
 @pytest.mark.parametrize(("density", "peak"), [("intermediate", 83.5e-6), ("fine", 77.5e-6)])
 def test_torque_deflection_and_transmission_error_agree_on_three_meshes(density, peak):
     coarse, finer = (model_of(f"drive.density={each}", phases=24) for each in ("coarse", density))
-    one, other = (model.courses([LoadCase(LOAD)])[0] for model in (coarse, finer))
+    one, other = (model.sweeps([LoadCase(LOAD)])[0] for model in (coarse, finer))
     assert one.worm_torque.mean() == pytest.approx(other.worm_torque.mean(), rel=1e-3)
     assert one.mean_deflection == pytest.approx(other.mean_deflection, rel=0.05)
     assert np.ptp(one.error) == pytest.approx(np.ptp(other.error), rel=0.15)
@@ -268,7 +268,9 @@ def test_gearset_2_locks_itself():
     problem = problem_of("drive.phases=8", case="gearset-2", own=GEARSET_2)
     model = StaticModel(problem, Run())
     asked = [LoadCase(problem.load, sense) for sense in (1, FRICTIONLESS, REVERSED)]
-    forward, frictionless, back = (course.worm_torque.mean() for course in model.courses(asked))
+    forward, frictionless, back = (
+        pitch_sweep.worm_torque.mean() for pitch_sweep in model.sweeps(asked)
+    )
     assert forward == pytest.approx(4.72, abs=0.03)
     assert frictionless == pytest.approx(100.0 / 60.0, abs=1e-3)
     assert back == pytest.approx(-1.30, abs=0.03)
@@ -278,7 +280,7 @@ def test_gearset_2_locks_itself():
 def patterns_of(*settings):
     model = model_of(*ONE_TOOTH, *settings, phases=2)
     forward = Pattern(model.resolved)
-    model.courses([LoadCase(PATTERNS[-1] * LOAD, evaluate=forward.evaluate)])
+    model.sweeps([LoadCase(PATTERNS[-1] * LOAD, evaluate=forward.evaluate)])
     back = _back_patterns(model, 0, 2)
     return forward.largest, back
 

@@ -12,7 +12,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.harmonics import ErrorHarmonics, exact_error, harmonics
-from asperity.drive.static.sweep import Course
+from asperity.drive.static.sweep import PitchSweep
 from asperity.flanks.meshing.transmission import transmission
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.setting import Pair
@@ -70,11 +70,11 @@ def test_what_the_mesh_makes_by_itself_is_told_beside_the_orders():
     angle = np.arange(8) * (2.0 * math.pi / 60.0 * 15.0 / 8)
     exact = exact_error(wheel, angle)
     own = 1e-6 * np.cos(2.0 * math.pi * np.arange(8) / 8)
-    course = Course(
+    pitch_sweep = PitchSweep(
         100.0, angle, exact + own, np.full(8, 4e-4), np.ones(8), np.ones((8, 6)), np.ones((8, 1)),
         0.0,
     )  # fmt: skip
-    found = ErrorHarmonics.of(wheel, [course])
+    found = ErrorHarmonics.of(wheel, [pitch_sweep])
     assert found.torque.tolist() == [0.0, 100.0]
     np.testing.assert_allclose(found.unloaded, exact, atol=1e-12)
     np.testing.assert_allclose(found.noise, [1e-6, 0.0, 0.0], atol=1e-11)

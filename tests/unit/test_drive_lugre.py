@@ -13,7 +13,7 @@ from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.lugre import LuGre, deflect_damped
 from asperity.drive.reduced.model import ReducedModel
-from asperity.drive.reduced.reduction import kept_under, reduction
+from asperity.drive.reduced.reduction import reduction, teeth_key
 from asperity.drive.static.solve import friction_of
 from asperity.errors import InputError
 from asperity.friction.dahl import VECTOR
@@ -197,7 +197,7 @@ def test_elastic_teeth_are_not_marched_with_it_but_loaded():
     assert friction_of(still, speed) > 0.1344
     assert friction_of(still, 0.01 * speed) > friction_of(still, speed)
     others = DriveProblem.from_case(read.replace(["operation.worm_speed=300 rpm"]), shaken=False)
-    assert kept_under(others) != kept_under(still)
+    assert teeth_key(others) != teeth_key(still)
 
 
 def test_with_the_standard_s_friction_its_dampings_stay():

@@ -6,7 +6,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.parameters import Drive, Shaft
 from asperity.drive.problem import DriveProblem
-from asperity.drive.reduced.reduction import kept_under
+from asperity.drive.reduced.reduction import teeth_key
 from asperity.errors import InputError
 from asperity.slider.slide import prepare
 from asperity.vibration import Vibration
@@ -140,7 +140,7 @@ def test_by_the_standard_friction_is_its_own_whatever_the_table_says_or_lacks():
 
 def test_teeth_rated_otherwise_are_kept_apart_where_friction_is_the_standard_s():
     def kept(*settings):
-        return kept_under(
+        return teeth_key(
             DriveProblem.from_case(read_case("gearset-3b", case_tables(), settings), shaken=False)
         )
 

@@ -17,12 +17,12 @@ class ToldError(Exception):
 def test_of_few_phases_the_slope_is_taken_at_each_and_of_many_at_every_third(
     phases, every, monkeypatch
 ):
-    def courses(asked, _step):
+    def sweeps(asked, _step):
         raise ToldError({one.every for one in asked if one.torque != 366.0})
 
     body = SimpleNamespace(body=SimpleNamespace(nodes=1))
     model = SimpleNamespace(
-        sector=body, contact=None, friction=0.1, phases=range(phases), courses=courses,
+        sector=body, contact=None, friction=0.1, phases=range(phases), sweeps=sweeps,
         resolved=SimpleNamespace(flank=SimpleNamespace(nodes=1, sector=body)),
     )  # fmt: skip
     monkeypatch.setattr(solve, "StaticModel", lambda *_: model)

@@ -88,7 +88,7 @@ def model_of(*settings):
 def moved(model, count, way):
     """Poses and rates of a worm that turns, the wheel behind it by a deflection and a motion."""
     ratio, speed = model.point.ratio, model.problem.worm_speed
-    behind = float(model.courses[0].deflection[0])
+    behind = float(model.sweeps[0].deflection[0])
     t = STEP * np.arange(count + 1)
     q, v = np.zeros((count + 1, POSES)), np.zeros((count + 1, POSES))
     q[:, 0], v[:, 0] = speed * t, speed
@@ -339,9 +339,9 @@ def test_by_the_standard_s_friction_teeth_are_loaded_as_without_vibration():
     settings = ("drive.friction=iso14521", "drive.flanks=driving", "drive.phases=8")
     model = model_of(*settings, "vibration.displacement_amplitude=1e-6 um", "drive.window=1")
     static = StaticModel(model.problem, Run())
-    (course,) = static.courses([LoadCase(model.problem.load)])
+    (pitch_sweep,) = static.sweeps([LoadCase(model.problem.load)])
     assert static.friction == pytest.approx(model.friction, rel=0.01)
-    wanted = float(course.worm_torque.mean())
+    wanted = float(pitch_sweep.worm_torque.mean())
     point = model.point
     slope = point.worm_torque(1.0, static.friction) / point.worm_torque(1.0, model.friction)
     assert model.worm_torque * slope == pytest.approx(wanted, rel=1e-3)
@@ -410,7 +410,7 @@ def test_an_open_tooth_tells_how_fast_it_comes_near_before_it_touches():
 
     q, v = moved(model, last, way)
     # It ends with the flank that drives just touched.
-    q[:, 2] += float(model.courses[0].deflection[0]) - play
+    q[:, 2] += float(model.sweeps[0].deflection[0]) - play
     outs, _ = marched(model, q, v)
     free = outs[:, AT.driving] == 0.0
     told = outs[free, AT.approach]

@@ -117,9 +117,9 @@ def test_a_flank_worn_evenly_bears_as_it_did_the_wheel_turned_after():
 def test_what_is_taken_off_is_the_work_of_the_forces():
     new = model()
     taken = Taken(new.resolved, float(new.phases[1]))
-    (course,) = new.courses([LoadCase(new.problem.load, evaluate=taken.evaluate)])
+    (pitch_sweep,) = new.sweeps([LoadCase(new.problem.load, evaluate=taken.evaluate)])
     assert taken.moved.sum() == pytest.approx(taken.work, rel=1e-12)
-    lost = (course.worm_torque.mean() - new.problem.load / 15.0) * 2.0 * new.phases[1]
+    lost = (pitch_sweep.worm_torque.mean() - new.problem.load / 15.0) * 2.0 * new.phases[1]
     # The balance of the condensed teeth has another share of teeth, and their mesh.
     assert new.friction * taken.work == pytest.approx(lost, rel=0.02)
 
@@ -159,16 +159,16 @@ def test_a_flank_that_wears_no_further_ends_with_the_cause_and_what_is_known(
     full, why, monkeypatch
 ):
     asked = solve.prepare(case(), depth="6 um")
-    own, tried = StaticModel.courses, []
+    own, tried = StaticModel.sweeps, []
 
-    def courses(self, cases, *args):
+    def sweeps(self, cases, *args):
         tried.append(self)
         # The new wheel's pressures and two steps' pitches are found, the third step's is not.
         if len(tried) == 4:
             raise too_much(self.problem, full=full)
         return own(self, cases, *args)
 
-    monkeypatch.setattr(StaticModel, "courses", courses)
+    monkeypatch.setattr(StaticModel, "courses", sweeps)
     found = solve.answer(asked, Run())
     assert found.depth_max == pytest.approx(1.0, rel=1e-6)
     assert len(found.turns) == 2

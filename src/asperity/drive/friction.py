@@ -66,13 +66,13 @@ def rating_inputs(case: Case) -> Inputs:
 
 
 def tooth_friction(
-    given: Inputs, speed: npt.ArrayLike, temperature: float | None = None
+    inputs: Inputs, speed: npt.ArrayLike, temperature: float | None = None
 ) -> FloatArray:
     """Return the coefficient of tooth friction at sliding speeds.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         Gearset and operation.
     speed : array_like
         Sliding speed of the flanks, m/s, from 0.
@@ -84,37 +84,37 @@ def tooth_friction(
     ndarray, shape of ``speed``
         At most the standard's cap, which holds at rest.
     """
-    rated = rated_efficiency(given)
-    factors = rated["Y_S"] * rated["Y_G"] * rated["Y_W"] * rated["Y_R"] * given.friction_factor
-    thicker = 1.0 if temperature is None else viscosity_ratio(given, temperature)
-    operation = given.operation
+    rated = rated_efficiency(inputs)
+    factors = rated["Y_S"] * rated["Y_G"] * rated["Y_W"] * rated["Y_R"] * inputs.friction_factor
+    thicker = 1.0 if temperature is None else viscosity_ratio(inputs, temperature)
+    operation = inputs.operation
     base = base_friction(
         np.asarray(speed, float) * thicker,
-        family=given.gearset.wheel_material.family,
+        family=inputs.gearset.wheel_material.family,
         lubrication=operation.lubrication,
         base_oil=operation.lubricant.base_oil,
     )
     return np.asarray(factors * base, float)
 
 
-def viscosity_ratio(given: Inputs, temperature: float) -> float:
+def viscosity_ratio(inputs: Inputs, temperature: float) -> float:
     """Return the oil's dynamic viscosity at a temperature, K, over that at the rating's."""
-    rated = rated_capacity(given, rated_efficiency(given))
-    lubricant = given.operation.lubricant
+    rated = rated_capacity(inputs, rated_efficiency(inputs))
+    lubricant = inputs.operation.lubricant
     celsius = temperature - _ZERO_CELSIUS
     viscosity = oil.kinematic_viscosity(
         celsius, _MM2 * lubricant.viscosity_40, _MM2 * lubricant.viscosity_100
     )
-    density = oil.density(celsius, given.density_15, lubricant.base.density_coefficient)
+    density = oil.density(celsius, inputs.density_15, lubricant.base.density_coefficient)
     return float(viscosity * density / _MM2 / rated["eta_0M_Pas"])
 
 
-def friction_curve(given: Inputs, fastest: float) -> FrictionCurve:
+def friction_curve(inputs: Inputs, fastest: float) -> FrictionCurve:
     """Return the coefficient of tooth friction as a kernel looks it up.
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         Gearset and operation.
     fastest : float
         Sliding speed up to which it is to be right, m/s.
@@ -122,7 +122,7 @@ def friction_curve(given: Inputs, fastest: float) -> FrictionCurve:
     if not fastest > 0.0:
         raise InputError(f"the fastest sliding speed is {fastest:g} m/s; it must be positive")
     speeds = np.linspace(0.0, fastest, _POINTS)
-    return FrictionCurve(float(speeds[1]), tooth_friction(given, speeds))
+    return FrictionCurve(float(speeds[1]), tooth_friction(inputs, speeds))
 
 
 def mesh_friction(case: Case, gearset: Gearset, operation: Operation, drive: Drive) -> Friction:

@@ -46,7 +46,7 @@ class Life:
 
 
 def life(
-    given: Inputs,
+    inputs: Inputs,
     share: float = 0.0,
     path_ratio: float = 1.0,
     other_heat: float = 0.0,
@@ -58,7 +58,7 @@ def life(
 
     Parameters
     ----------
-    given : Inputs
+    inputs : Inputs
         Gearset and operation.
     share : float
         Of the time that it is shaken, 0..1.
@@ -88,7 +88,7 @@ def life(
             upper = "" if math.isinf(high) else f" and at most {high:g}"
             raise InputError(f"the {name} is {value:g}; it must be 0 or more{upper}")
     path = 1.0 - share + share * path_ratio
-    parts = given.each() or (given,)
+    parts = inputs.each() or (inputs,)
     found = [_worn(part, path, share * other_heat) for part in parts]
     wear = math.fsum(float(each["delta_Wn_mm"]) * path for each in found)
     safety = float(found[0]["delta_Wlim_mm"]) / wear if wear > 0.0 else math.inf
@@ -102,18 +102,18 @@ def life(
     )
 
 
-def _worn(given: Inputs, path: float, other_heat: float) -> Values:
+def _worn(inputs: Inputs, path: float, other_heat: float) -> Values:
     """Rate one load with the heat of a path so many times as long, and other heat, W."""
-    plain = rated_efficiency(given)
+    plain = rated_efficiency(inputs)
     between = plain["loss_meshing_W"]
     meshing = between * path
-    operation = given.operation
+    operation = inputs.operation
     if operation.oil_temperature is None:
-        still = rated_capacity(given, plain)
+        still = rated_capacity(inputs, plain)
         total = plain["loss_total_W"] + meshing - between + other_heat
-        rise = still["theta_S_degC"] - given.ambient_temperature
-        sump = given.ambient_temperature + rise * total / plain["loss_total_W"]
+        rise = still["theta_S_degC"] - inputs.ambient_temperature
+        sump = inputs.ambient_temperature + rise * total / plain["loss_total_W"]
         kelvin = sump + _ZERO_CELSIUS
         operation = operation.model_copy(update={"oil_temperature": kelvin}, units="SI")
-    warmer = dataclasses.replace(given, operation=operation)
+    warmer = dataclasses.replace(inputs, operation=operation)
     return rated_capacity(warmer, plain | {"loss_meshing_W": meshing})

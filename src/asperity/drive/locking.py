@@ -244,7 +244,7 @@ class _Search:
         marched : sequence of _Marched
             What it does at each of them.
         """
-        self._keep(amplitudes, marched)
+        self._save(amplitudes, marched)
         low, high, loose = self._bounds()
         if not math.isfinite(high):
             if loose:
@@ -268,9 +268,9 @@ class _Search:
         return math.sqrt(low * high), (told,) if high in self._unsteady else ()
 
     def _try(self, amplitudes: FloatArray) -> None:
-        self._keep(amplitudes, self.marches(amplitudes))
+        self._save(amplitudes, self.marches(amplitudes))
 
-    def _keep(self, amplitudes: FloatArray, marched: Sequence[_Marched]) -> None:
+    def _save(self, amplitudes: FloatArray, marched: Sequence[_Marched]) -> None:
         for amplitude, each in zip(amplitudes.tolist(), marched, strict=True):
             creeps = bool(each.creep > (least := _CREEPS * self._unit * amplitude))
             self._moves[amplitude] = creeps if each.settled else None
@@ -289,14 +289,16 @@ class _Search:
         return low, high, loose
 
 
-def _marched(found: DriveResult | AsperityError, point: MeshPoint) -> _Marched:
-    if isinstance(found, AsperityError):
-        raise found
-    if found.creep is None:
+def _marched(outcome: DriveResult | AsperityError, point: MeshPoint) -> _Marched:
+    if isinstance(outcome, AsperityError):
+        raise outcome
+    if outcome.creep is None:
         raise ConvergenceError("a march without a motor told no creep", reached={})
-    apart = math.inf if found.spread is None else found.spread
-    apart *= max(least_creep(found.problem, point), abs(found.creep))
-    return _Marched(-found.creep + 0.0, apart, found.settled, found.settled_by, found.step_error)
+    apart = math.inf if outcome.spread is None else outcome.spread
+    apart *= max(least_creep(outcome.problem, point), abs(outcome.creep))
+    return _Marched(
+        -outcome.creep + 0.0, apart, outcome.settled, outcome.settled_by, outcome.step_error
+    )
 
 
 def _between(low: float, high: float, loose: Sequence[float]) -> str:

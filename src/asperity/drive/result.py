@@ -66,7 +66,7 @@ class Bands(Quantities):
     open: FloatArray = quantity("", "", "share of a stretch without contact", dims=_OVER_TIME)
 
 
-class Course(Quantities):
+class CycleMeans(Quantities):
     """Means of whole cycles, from the start of the vibration on."""
 
     cycle_end: FloatArray = quantity("t", "s", "end of the cycle", dims=_CYCLES, coordinate=True)
@@ -179,7 +179,7 @@ class DriveResult(OfDrive):
     residual: float = quantity(
         "", "", "largest residual of the mesh's own equations, over full friction", default=0.0
     )
-    course: Course | None = part(Course, default=None)
+    course: CycleMeans | None = part(CycleMeans, default=None)
     bands: Bands | None = part(Bands, default=None)
     steps: int = quantity("", "", "time steps", shown=False, default=0)
     seconds: float = quantity(

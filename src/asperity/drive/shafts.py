@@ -97,7 +97,7 @@ class MeshAction:
 
 
 def beam_with_ends(
-    span: float, place: float, stiffness: float, first: float, second: float
+    span: float, position: float, stiffness: float, first: float, second: float
 ) -> FloatArray:
     """Return deflection and slope of a beam under a force and a moment at one place.
 
@@ -108,8 +108,8 @@ def beam_with_ends(
     ----------
     span : float
         Between the ends, m.
-    place : float
-        Distance of the load from the first end, m; 0 < place < span.
+    position : float
+        Distance of the load from the first end, m; 0 < position < span.
     stiffness : float
         Bending stiffness E I, N m2; infinite for a rigid beam.
     first, second : float
@@ -121,12 +121,12 @@ def beam_with_ends(
         Deflection and slope (rows) per force and moment (columns): m/N, rad/N; m/(N m), rad/(N m).
         The moment works along the slope.
     """
-    if not 0.0 < place < span:
+    if not 0.0 < position < span:
         raise InputError(
-            f"place is {_MILLIMETRES * place:g} mm; it must lie between the bearings, "
+            f"place is {_MILLIMETRES * position:g} mm; it must lie between the bearings, "
             f"{_MILLIMETRES * span:g} mm apart"
         )
-    a, b = place, span - place
+    a, b = position, span - position
     bent = np.array([[a**2 * b**2, a * b * (b - a)], [a * b * (b - a), a**2 - a * b + b**2]]) / (
         3.0 * stiffness * span
     )
@@ -146,7 +146,7 @@ def compliances(
     radius: float,
     *,
     span: float | None = None,
-    place: float | None = None,
+    position: float | None = None,
     bending: float | None = None,
     bearing_radial: float | None = None,
     bearing_axial: float | None = None,
@@ -162,7 +162,7 @@ def compliances(
         Of the point of contact from the worm's axis, m: the axial force bends the shaft by it.
     span : float, optional
         Between the worm's bearings, m. Needed for bending and radial bearings.
-    place : float, optional
+    position : float, optional
         Distance of the wheel's middle from the first bearing, m; half the span if left out.
     bending : float, optional
         Bending stiffness E I of the worm's shaft, N m2.
@@ -207,7 +207,7 @@ def compliances(
     if bending is not None or bearing_radial is not None:
         if span is None:
             raise InputError("span is missing; a shaft bends, and bearings yield, over their span")
-        at = 0.5 * span if place is None else place
+        at = 0.5 * span if position is None else position
         rigid = math.inf
         if bending is not None:
             stiffness = _positive("bending", bending)

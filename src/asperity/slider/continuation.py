@@ -131,17 +131,17 @@ def _from_there(cycle: Cycle, model: Model, steps: int, step: float) -> tuple[Cy
 
 
 def _shortest(
-    found: Cycle, growth: float, model: Model, steps: int, step: float
+    cycle: Cycle, growth: float, model: Model, steps: int, step: float
 ) -> tuple[Cycle, bool, float]:
     """Return the state over the shortest of the cycles after which it repeats itself."""
-    for period in _PERIODS[: _PERIODS.index(found.period)]:
+    for period in _PERIODS[: _PERIODS.index(cycle.period)]:
         trial = Cycle(model, steps, step)
         trial.repeat(period)
-        _put(trial, found.body.kept["state"], found.springs)
-        same = trial.find(1) and abs(_ratio(trial) - _ratio(found)) <= _SAME
+        _put(trial, cycle.body.kept["state"], cycle.springs)
+        same = trial.find(1) and abs(_ratio(trial) - _ratio(cycle)) <= _SAME
         if same and (smaller := trial.multiplier()) <= UNSTABLE:
             return trial, True, smaller
-    return found, True, growth
+    return cycle, True, growth
 
 
 def _ratio(cycle: Cycle) -> float:

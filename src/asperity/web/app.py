@@ -171,20 +171,20 @@ class Page:
         return StreamingResponse(events, media_type="text/event-stream")
 
 
-def _told(found: Callable[[dict[str, str]], object]) -> Endpoint:
+def _told(look_up: Callable[[dict[str, str]], object]) -> Endpoint:
     """Return what tells what is found by what stands in the address."""
 
     async def answer(request: Request) -> Response:
-        return JSONResponse(found(request.path_params))
+        return JSONResponse(look_up(request.path_params))
 
     return answer
 
 
-def _file(found: Callable[[dict[str, str]], Path]) -> Endpoint:
+def _file(look_up: Callable[[dict[str, str]], Path]) -> Endpoint:
     """Return what hands out the file that is found by what stands in the address."""
 
     async def answer(request: Request) -> Response:
-        path = found(request.path_params)
+        path = look_up(request.path_params)
         if path.is_symlink() or not path.is_file():
             raise Refused(404, f"{path.name} is not there")
         return FileResponse(path, filename=path.name)

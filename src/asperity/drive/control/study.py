@@ -176,13 +176,13 @@ def _summarised(
     return dataclasses.replace(answer, notes=notes)
 
 
-def _notes(found: Controlled, seat: float, between: float) -> list[str]:
-    control, notes = found.control, []
-    if found.closure > NOTED:
-        notes.append(f"the powers of a stroke close to {found.closure:.1g} only")
+def _notes(controlled: Controlled, seat: float, between: float) -> list[str]:
+    control, notes = controlled.control, []
+    if controlled.closure > NOTED:
+        notes.append(f"the powers of a stroke close to {controlled.closure:.1g} only")
     thrust = control.kind == "clutch" or control.sensor == "thrust"
-    most = seat if thrust else found.torque_static
-    least = between if thrust else found.torque_static_between
+    most = seat if thrust else controlled.torque_static
+    least = between if thrust else controlled.torque_static_between
     if not control.on < most:
         notes.append(
             f"control.on is {control.on:g} N m, but the seat reads {most:.4g} N m without "
@@ -193,9 +193,9 @@ def _notes(found: Controlled, seat: float, between: float) -> list[str]:
             f"control.off is {control.off:g} N m, but between the seats {least:.4g} N m are read "
             "without vibration: it need not go"
         )
-    if found.switched > _CHATTERS:
+    if controlled.switched > _CHATTERS:
         notes.append(
-            f"it chatters: on {found.switched} times in a stroke of two seats. "
+            f"it chatters: on {controlled.switched} times in a stroke of two seats. "
             + (
                 "The motor's torque falls by the vibration itself, so off must lie below what it "
                 "leaves of the seat's; the thrust does not fall"
@@ -203,7 +203,7 @@ def _notes(found: Controlled, seat: float, between: float) -> list[str]:
                 else "off and on are nearer to each other than the reading's swing"
             )
         )
-    notes += _of_dogs(found)
+    notes += _of_dogs(controlled)
     if control.begins_on and control.kind == "electronic":
         notes.append(
             "the stroke begins when the vibration is there: the motor would else start against the "
@@ -216,13 +216,13 @@ def _notes(found: Controlled, seat: float, between: float) -> list[str]:
         )
     if not control.interlock and control.kind == "electronic":
         notes.append("control.interlock is false: nothing but the controller cuts the vibration")
-    notes += [f"{name}: {FAILURES[name]}" for name in found.names if name in FAILURES]
+    notes += [f"{name}: {FAILURES[name]}" for name in controlled.names if name in FAILURES]
     return notes
 
 
-def _of_dogs(found: Controlled) -> list[str]:
+def _of_dogs(controlled: Controlled) -> list[str]:
     """Return the line about a clutch whose places are too far apart for a seat."""
-    control, problem = found.control, found.problem
+    control, problem = controlled.control, controlled.problem
     if control.kind != "clutch":
         return []
     turn = 2.0 * math.pi / problem.worm_speed

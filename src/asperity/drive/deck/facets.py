@@ -10,25 +10,25 @@ import numpy as np
 from asperity.arrays import FloatArray, IntArray
 
 
-def on_faces(place: FloatArray) -> FloatArray:
+def on_faces(position: FloatArray) -> FloatArray:
     r"""Return nodes between which straight faces lie on a flank where they press.
 
     Parameters
     ----------
-    place : ndarray, shape (rows, columns, 3)
+    position : ndarray, shape (rows, columns, 3)
         Places on the flank, row by row, any unit.
 
     Returns
     -------
     ndarray, shape (rows, columns, 3)
-        As `place`, moved along the normal by a twelfth of the second differences along rows and
+        As `position`, moved along the normal by a twelfth of the second differences along rows and
         columns, :math:`\kappa h^2/12`; right to fourth order in a face's size.
     """
-    normal = np.cross(np.gradient(place, axis=0), np.gradient(place, axis=1))
+    normal = np.cross(np.gradient(position, axis=0), np.gradient(position, axis=1))
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
-    bow = _second(place, 0) + _second(place, 1)
+    bow = _second(position, 0) + _second(position, 1)
     along = np.sum(bow * normal, axis=-1, keepdims=True) / 12.0
-    return np.asarray(place - along * normal)
+    return np.asarray(position - along * normal)
 
 
 def rows_of(quads: IntArray) -> IntArray:
@@ -52,10 +52,10 @@ def rows_of(quads: IntArray) -> IntArray:
     return np.vstack([first, last])
 
 
-def _second(place: FloatArray, axis: int) -> FloatArray:
+def _second(position: FloatArray, axis: int) -> FloatArray:
     """Second differences along an axis; at its ends those beside them."""
-    if place.shape[axis] < 3:
-        return np.zeros_like(place)
-    inner = np.diff(place, 2, axis=axis)
-    ends = [(1, 1) if n == axis else (0, 0) for n in range(place.ndim)]
+    if position.shape[axis] < 3:
+        return np.zeros_like(position)
+    inner = np.diff(position, 2, axis=axis)
+    ends = [(1, 1) if n == axis else (0, 0) for n in range(position.ndim)]
     return np.pad(inner, ends, mode="edge")

@@ -28,8 +28,8 @@ from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.solve import condensed
 from asperity.drive.static.sweep import (
     REVERSED,
-    Course,
     LoadCase,
+    PitchSweep,
     phases_of,
     sweep,
     touching_angles,
@@ -83,7 +83,7 @@ class TeethModel(MeshModel):
         return TeethContact(self.sector, self.friction)
 
     @functools.cached_property
-    def courses(self) -> tuple[Course, Course, float]:
+    def sweeps(self) -> tuple[PitchSweep, PitchSweep, float]:
         """Forward and reversed without vibration, and the mean pressure where it touches, Pa."""
         contact = self.contact
         phases = phases_of(contact, _PHASES)
@@ -104,7 +104,7 @@ class TeethModel(MeshModel):
     @property
     def worm_torque(self) -> float:
         """Without vibration, mean over a pitch, N m."""
-        return float(self.courses[0].worm_torque.mean())
+        return float(self.sweeps[0].worm_torque.mean())
 
     def torque_over(self, first: float, last: float) -> float:
         """Mean without vibration over angles of the worm, N m."""
@@ -119,7 +119,7 @@ class TeethModel(MeshModel):
     @property
     def reversed_torque(self) -> float:
         """Of the worm if all friction were turned round, mean over a pitch, N m."""
-        return float(self.courses[1].worm_torque.mean())
+        return float(self.sweeps[1].worm_torque.mean())
 
     @functools.cached_property
     def teeth(self) -> Mesh:
@@ -128,7 +128,7 @@ class TeethModel(MeshModel):
         count = contact.slots
         flanks = 2 if problem.drive.flanks == "both" else 1
         places = flanks * count
-        pressure = self.courses[2]
+        pressure = self.sweeps[2]
         table = problem.friction
         limit, exponent = _BRITTLE, 0.0
         if table.model == "dahl":
@@ -247,14 +247,16 @@ class TeethModel(MeshModel):
             move = float(np.clip(move, -_FALL, _FALL))
         return out
 
-    def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
-        """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""
-        return self._slid(pose, 1.0 if share >= 0.0 else -1.0)[0]
+    def settled_in(self, pose: FloatArray, traction_ratio: float) -> FloatArray:
+        """Return what the mesh remembers, loaded at a pose and slid to a traction ratio."""
+        return self._slid(pose, 1.0 if traction_ratio >= 0.0 else -1.0)[0]
 
-    def stored(self, approach: float, share: float) -> float:
-        """Elastic energy of the driving flank at an approach, slid to a share of friction, J."""
-        roll = -approach / (self.point.normal_z * self.point.arm)
-        out = self._slid(np.array([0.0, 0.0, roll, 0.0, 0.0]), 1.0 if share >= 0.0 else -1.0)[1]
+    def stored(self, indentation: float, traction_ratio: float) -> float:
+        """Elastic energy of the driving flank at an indentation, slid to a traction ratio, J."""
+        roll = -indentation / (self.point.normal_z * self.point.arm)
+        out = self._slid(
+            np.array([0.0, 0.0, roll, 0.0, 0.0]), 1.0 if traction_ratio >= 0.0 else -1.0
+        )[1]
         return float(out[AT.stored])
 
 

@@ -106,15 +106,15 @@ def beside(off: StepError, march: March, measure: str, spread: float) -> StepErr
     """
     if not math.isfinite(march.told):
         return off
-    other = march.told / told_of(march, measure)
+    other = march.told / measure_of(march, measure)
     if abs(other - 1.0) <= _EXPECTED * WANTED * march.off + 2.0 * spread:
         return off
     return StepError(max(off.ratio, abs(other - 1.0)), off.powers, other)
 
 
-def told_of(march: March, measure: str) -> float:
+def measure_of(march: March, measure: str) -> float:
     """Return what is told of a march by its last blocks; NaN of a wheel that should stand."""
-    return math.nan if measure == "rolled" else _told(march.rows[march.marked.row :], measure)
+    return math.nan if measure == "rolled" else _reading(march.rows[march.marked.row :], measure)
 
 
 def sensitive(march: March, measure: str, scale: float, power: float) -> bool:
@@ -135,13 +135,13 @@ def _apart(
         before = mean(one, measure)
         ratio = (mean(other, measure) - before) / max(scale, abs(before))
     else:
-        ratio = _told(other, measure) / _told(one, measure) - 1.0
+        ratio = _reading(other, measure) / _reading(one, measure) - 1.0
     most = max(*(abs(float(one[name].sum())) for name in _POWERS), power * one["time"].sum())
     powers = max(abs(float(other[name].sum() - one[name].sum())) for name in _POWERS)
     return StepError(abs(ratio), float(powers / most))
 
 
-def _told(rows: Records, measure: str) -> float:
+def _reading(rows: Records, measure: str) -> float:
     """What is told of rows; of the worm's torque what it is over the wheel's."""
     found = mean(rows, measure)
     return found / mean(rows, "wheel_torque") if measure == "torque" else found

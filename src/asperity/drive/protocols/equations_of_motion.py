@@ -129,7 +129,7 @@ def system(
         frequency=shape.frequency,
         corners=corners_of(shape) if shaken else _SMOOTH,
         longest=problem.step,
-        landing=_LANDING * model.approach,
+        landing=_LANDING * model.indentation,
     )
     return found._replace(longest=_longest(problem, model, found))
 
@@ -138,29 +138,29 @@ _RIGID = Bending(np.zeros(3), np.ones(3))
 SHAKES = ("shake_worm_turn", "shake_worm_shift", "shake_seat", "shake_wheel", "shake_motor")
 
 
-def _longest(problem: DriveProblem, model: MeshModel, found: System) -> float:
+def _longest(problem: DriveProblem, model: MeshModel, system: System) -> float:
     """Return the longest step that is stable and lands well, or refuse the one asked for."""
     normal, along = model.stiffness
     normal *= _STIFFER
     point = model.point
     n_z, tilt = point.normal_z, point.lead / point.length
     squares = [0.0]
-    if found.turns:
+    if system.turns:
         turning = (n_z * point.lead) ** 2 * normal + (point.radius**2 / point.length) ** 2 * along
-        squares.append((found.torsion + turning) / found.worm_inertia)
-    if found.shifts:
-        squares.append((found.seat + n_z**2 * normal + tilt**2 * along) / found.worm_mass)
-    if found.bends:
+        squares.append((system.torsion + turning) / system.worm_inertia)
+    if system.shifts:
+        squares.append((system.seat + n_z**2 * normal + tilt**2 * along) / system.worm_mass)
+    if system.bends:
         across = point.normal_across * tilt, point.normal_radial, point.normal_across
         sides = (
             n_z**2 * normal + tilt**2 * along,
             across[0] ** 2 * normal + (point.radius / point.length) ** 2 * along,
             across[1] ** 2 * normal + across[2] ** 2 * along,
         )
-        squares += list((found.bent_stiffness + np.array(sides)) / found.bent_mass)
-    if found.rolls:
+        squares += list((system.bent_stiffness + np.array(sides)) / system.bent_mass)
+    if system.rolls:
         wheel = point.arm**2 * (n_z**2 * normal + tilt**2 * along)
-        squares.append(wheel / found.wheel_inertia)
+        squares.append(wheel / system.wheel_inertia)
     fastest = math.sqrt(sum(squares))
     stable = _STABLE / fastest if fastest > 0.0 else math.inf
     given = problem.solve.step
@@ -171,11 +171,11 @@ def _longest(problem: DriveProblem, model: MeshModel, found: System) -> float:
             f"solve.step is {given:g} s, too coarse for the mesh's own vibration of "
             f"{fastest / (2.0 * math.pi):.3g} Hz; it may be at most {4.0 * stable:.3g} s"
         )
-    if given * problem.approach_speed > found.landing:
+    if given * problem.approach_speed > system.landing:
         raise InputError(
             f"solve.step is {given:g} s, too coarse for flanks that approach at "
             f"{problem.approach_speed:.3g} m/s; it may be at most "
-            f"{found.landing / problem.approach_speed:.3g} s, a twentieth of their approach under "
+            f"{system.landing / problem.approach_speed:.3g} s, a twentieth of their approach under "
             "the load"
         )
     return given

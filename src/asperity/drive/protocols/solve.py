@@ -13,7 +13,7 @@ from asperity.drive.lugre import of_speed
 from asperity.drive.motion.system import System
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
-from asperity.drive.protocols.accuracy import StepError, beside, sensitive, step_error, told_of
+from asperity.drive.protocols.accuracy import StepError, beside, measure_of, sensitive, step_error
 from asperity.drive.protocols.equations_of_motion import switched_off, system
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March, Records, bands_of, mean, refined
@@ -21,7 +21,7 @@ from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
 from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.model import ReducedModel
-from asperity.drive.result import Bands, Course, DriveLedger, DriveResult, HeldWheel
+from asperity.drive.result import Bands, CycleMeans, DriveLedger, DriveResult, HeldWheel
 from asperity.errors import ConvergenceError
 from asperity.results.ledger import guard
 from asperity.runs import Run
@@ -127,7 +127,7 @@ def _settled(
             if off is not None:
                 off = beside(off, march, measure, judged.spread)
             return judged, off, rest
-        told = math.nan if off is None else told_of(march, measure)
+        told = math.nan if off is None else measure_of(march, measure)
         rest = at_rest(problem, model, refined(march.system, finer), stop)
         march.restart(
             finer, math.inf if off is None else off.off, told, rest.states, rest.committed
@@ -260,7 +260,7 @@ def _summarise(
         efficiency_static=problem.load / (model.point.ratio * torque),
         **_resonances(model, moving),
         tooth_mode=model.tooth_mode,
-        course=Course(
+        course=CycleMeans(
             cycle_end=np.cumsum(rows["time"]),
             cycle_torque=rows["torque"] / rows["time"],
             cycle_wheel=rows["wheel_torque"] / rows["time"],

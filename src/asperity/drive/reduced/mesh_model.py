@@ -83,12 +83,12 @@ class MeshModel(abc.ABC):
         """March so many stretches as there are rows, see `asperity.drive.reduced.march.march`."""
 
     @abc.abstractmethod
-    def stored(self, approach: float, share: float) -> float:
-        """Elastic energy of the driving flank at an approach, slid to a share of friction, J."""
+    def stored(self, indentation: float, traction_ratio: float) -> float:
+        """Elastic energy of the driving flank at an indentation, slid to a traction ratio, J."""
 
     @abc.abstractmethod
-    def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
-        """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""
+    def settled_in(self, pose: FloatArray, traction_ratio: float) -> FloatArray:
+        """Return what the mesh remembers, loaded at a pose and slid to a traction ratio."""
 
     @abc.abstractmethod
     def balanced(self, pose: FloatArray, load: float) -> FloatArray | None:
@@ -154,7 +154,7 @@ class MeshModel(abc.ABC):
         return NormalLaw.of(self.point, self.reduction.deflection, self.friction)
 
     @functools.cached_property
-    def approach(self) -> float:
+    def indentation(self) -> float:
         """Of the flanks without vibration, m."""
         return self.law.approach_at(self.normal_force)
 
@@ -164,13 +164,13 @@ class MeshModel(abc.ABC):
         full = self.kinetic * self.normal_force
         bending = self.reduction.compliance * full
         if self.problem.friction.model == "coulomb":
-            return bending or _GIVE * self.approach
+            return bending or _GIVE * self.indentation
         return bending + self.problem.friction.deflection_limit(self.normal_force)
 
     @property
     def stiffness(self) -> tuple[float, float]:
         """Of the mesh without vibration along the normal and along the flank, N/m."""
-        slope = float(self.law.exact(np.array([self.approach]))[1][0])
+        slope = float(self.law.exact(np.array([self.indentation]))[1][0])
         full, law = self.kinetic * self.normal_force, self.problem.friction
         along = full / self.elastic_slip
         damping = law.contact_damping + law.viscous_damping

@@ -101,34 +101,34 @@ class ReducedModel(MeshModel):
         done: int = march(self.mesh, system, states, committed, *room, stretch, rows, stop)
         return done
 
-    def stored(self, approach: float, share: float) -> float:
-        """Elastic energy of the driving flank at an approach, slid to a share of friction, J."""
+    def stored(self, indentation: float, traction_ratio: float) -> float:
+        """Elastic energy of the driving flank at an indentation, slid to a traction ratio, J."""
         mesh = self.mesh
-        force, energy = force_and_energy(mesh.cell, mesh.rows, approach)
-        asperities, dampings, _ = self._shares(share)
+        force, energy = force_and_energy(mesh.cell, mesh.rows, indentation)
+        asperities, dampings, _ = self._traction_ratios(traction_ratio)
         bent, damped = (each * force / mesh.reference for each in (asperities, dampings))
         unit = mesh.friction * mesh.reference * mesh.limit
         teeth = mesh.compliance_ratio * damped * (2.0 * bent + damped)
         return float(energy + 0.5 * unit * ((1.0 + mesh.compliance_ratio) * bent * bent + teeth))
 
-    def _shares(self, share: float) -> tuple[float, float, float]:
-        """A share of full friction over the kinetic one: of asperities, dampings, and Stribeck's.
+    def _traction_ratios(self, traction_ratio: float) -> tuple[float, float, float]:
+        """A traction ratio over the kinetic one: of asperities, dampings, and Stribeck's.
 
-        Flanks that hold, which have a share below 0, do not slide.
+        Flanks that hold, which have one below 0, do not slide.
         """
         law = self.lugre
         if not law.damps:
-            return share, 0.0, 1.0
-        whole = share * self.friction / self.kinetic
-        if share < 0.0:
+            return traction_ratio, 0.0, 1.0
+        whole = traction_ratio * self.friction / self.kinetic
+        if traction_ratio < 0.0:
             return whole, 0.0, law.static_ratio
         stribeck = stribeck_share(self.sliding_speed, law.static_ratio, law.stribeck_speed)
-        return share * stribeck, whole - share * stribeck, stribeck
+        return traction_ratio * stribeck, whole - traction_ratio * stribeck, stribeck
 
-    def settled_in(self, pose: FloatArray, share: float) -> FloatArray:
-        """Return what the mesh remembers, loaded at a pose and slid to a share of friction."""
+    def settled_in(self, pose: FloatArray, traction_ratio: float) -> FloatArray:
+        """Return what the mesh remembers, loaded at a pose and slid to a traction ratio."""
         committed = np.zeros(STATES)
-        settle_in(self.mesh, committed, pose, *self._shares(share))
+        settle_in(self.mesh, committed, pose, *self._traction_ratios(traction_ratio))
         return committed
 
     @property

@@ -69,7 +69,7 @@ def reduction(problem: DriveProblem, run: Run) -> Reduction:
 _BEARS = ("model", "teeth", "density", "wheel_body", "threads", "friction", "effective_radius")
 
 
-def kept_under(problem: DriveProblem) -> str:
+def teeth_key(problem: DriveProblem) -> str:
     """Return what the teeth of a problem are kept under, whatever shakes them."""
     drive = problem.drive.model_dump(mode="json", include=set(_BEARS))
     case = problem.case
@@ -91,7 +91,7 @@ def _teeth(problem: DriveProblem, run: Run) -> "TeethReduced":
     from asperity.drive.static.reduction import TeethReduced, teeth_reduced
 
     cache = Cache.of_this_user("reduced", run.notify)
-    name = kept_under(problem)
+    name = teeth_key(problem)
     kept = cache.get(name)
     if kept is not None:
         return from_tree(TeethReduced, kept)

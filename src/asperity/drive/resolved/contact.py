@@ -22,7 +22,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.contact.halfspace.conjugate_gradients import Bearing, bear
 from asperity.contact.halfspace.influence import HalfSpace, HalfSpaces
 from asperity.drive.resolved.flank import ExactFlank
-from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Approach, Frame, Strip
+from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Frame, Strip, ToothPose
 from asperity.drive.teeth.contact import TeethContact
 from asperity.errors import ConvergenceError
 
@@ -185,7 +185,7 @@ class _Teeth:
     contact: ResolvedContact
     numbers: tuple[int, ...]  #: In their row
     order: IntArray  #: As the condensed teeth give way to each other: numbers times the side
-    approaches: tuple[Approach, ...]
+    approaches: tuple[ToothPose, ...]
     rubbed: FloatArray  #: (K, n): Inward motion of the nodes under friction, m
     moment: float  #: Of the normal forces about the wheel's axis, N m
 
@@ -228,7 +228,7 @@ class _Teeth:
         rubbed = _response(body.flexibility, contact.blocks, order, np.array(rubbing))
         inward = -np.einsum("kni,ni->kn", rubbed, normals)
         approaches = tuple(
-            Approach(rotation[k], translation[k], worm, moved[k]) for k in range(contact.slots)
+            ToothPose(rotation[k], translation[k], worm, moved[k]) for k in range(contact.slots)
         )
         return cls(owner, numbers, order, approaches, inward, moment)
 
@@ -263,7 +263,7 @@ class _Teeth:
         return Strip.of(self.contact.flank, frame, self.approaches[k])
 
     def pressures(
-        self, strips: list[Strip | None], found: Bearing, done: list[bool]
+        self, strips: list[Strip | None], bearing: Bearing, done: list[bool]
     ) -> list[ToothPressure | None]:
         """Return the pressures on each tooth; None where it bears nothing."""
         teeth: list[ToothPressure | None] = []
@@ -272,7 +272,7 @@ class _Teeth:
             if strip is None:
                 teeth.append(None)
                 continue
-            force = found.force[at : at + len(strip.area)]
+            force = bearing.force[at : at + len(strip.area)]
             at += len(strip.area)
             some = ToothPressure(number, strip, force / strip.area, force, resolved)
             teeth.append(some if force.any() else None)

@@ -31,7 +31,7 @@ ZONES = ("flank", "worm_tip", "wheel_tip", "face_end")
 """Where a patch bears, by number."""
 
 
-class Approach(NamedTuple):
+class ToothPose(NamedTuple):
     """How the worm stands to a tooth, and how the tooth is deformed there."""
 
     rotation: FloatArray  #: (3, 3): Of the worm, as the tooth sees it
@@ -133,7 +133,7 @@ class Strip:
     off: float  #: By which exact points lie off the patches' surface, m
 
     @classmethod
-    def of(cls, flank: ExactFlank, frame: Frame, approach: Approach) -> Strip:
+    def of(cls, flank: ExactFlank, frame: Frame, pose: ToothPose) -> Strip:
         """Return the patches of a frame, with their gaps."""
         made = flank.heights(frame.origin, frame.axes, frame.x, frame.y)
         x, y = (a.ravel() for a in np.meshgrid(frame.x, frame.y, indexing="ij"))
@@ -144,11 +144,11 @@ class Strip:
         share = flank.share_at(points)
         inside = (share >= 0.0) & (share <= 1.0) & (np.abs(points[:, 2]) <= flank.half_face)
         nodes = flank.interpolation(np.clip(share, 0.0, 1.0), points[:, 2])
-        moved = nodes @ approach.moved
+        moved = nodes @ pose.moved
         gap = np.full(len(points), BESIDE)
         kinds = np.zeros(len(points), dtype=np.int64)
         below = np.full(len(points), np.inf)
-        gap[inside], kinds[inside], below[inside] = approach.gaps((points + moved)[inside])
+        gap[inside], kinds[inside], below[inside] = pose.gaps((points + moved)[inside])
         gap[inside] += np.einsum("ki,ki->k", moved, normals)[inside]
         if flank.worn is not None:
             gap[inside] += flank.depth_at(share[inside], points[inside, 2])

@@ -32,7 +32,7 @@ def loads_of(static: StaticModel) -> list[Load]:
     low = _low_rows(sector)
     found: list[Load] = []
 
-    def keep(number: int, balance: Balance) -> None:
+    def take_loads(number: int, balance: Balance) -> None:
         contact, action = balance.contact, balance.action
         own = contact.nodal_forces().reshape(contact.slots, -1, 3)
         none = np.zeros_like(own[0])
@@ -53,7 +53,7 @@ def loads_of(static: StaticModel) -> list[Load]:
                 )
             )
 
-    static.courses([LoadCase(static.problem.load, evaluate=keep)])
+    static.sweeps([LoadCase(static.problem.load, evaluate=take_loads)])
     return found
 
 

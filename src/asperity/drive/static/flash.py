@@ -123,9 +123,9 @@ class Flash:
         one, other = motion.worm_rolling, motion.wheel_rolling
         return _MILLI * motion.sliding_speed.ravel(), _MILLI * one.ravel(), _MILLI * other.ravel()
 
-    def take(self, found: Resolved) -> None:
+    def take(self, resolved_pressure: Resolved) -> None:
         """Take the pressures of a phase."""
-        lines = [self._along(tooth) for tooth in found.teeth]
+        lines = [self._along(tooth) for tooth in resolved_pressure.teeth]
         hottest = max(lines, key=lambda line: float(line.rise.max(initial=0.0)))
         self.course.append(float(hottest.rise.max(initial=0.0)))
         if self.course[-1] >= max(self.course):

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.drive.static.sweep import Course
+from asperity.drive.static.sweep import PitchSweep
 from asperity.errors import ConvergenceError
 from asperity.flanks.meshing.transmission import ToothSearch
 from asperity.flanks.wheel.enveloped import Wheel
@@ -101,15 +101,15 @@ class ErrorHarmonics:
     noise_range: float  #: The same, peak to peak, rad
 
     @classmethod
-    def of(cls, wheel: Wheel, courses: Sequence[Course]) -> ErrorHarmonics:
+    def of(cls, wheel: Wheel, sweeps: Sequence[PitchSweep]) -> ErrorHarmonics:
         """Return it of courses over the same phases under rising loads."""
-        first = courses[0]
+        first = sweeps[0]
         unloaded = exact_error(wheel, first.worm_angle)
         off = first.touching - unloaded
-        found = [harmonics(error) for error in (unloaded, *(each.error for each in courses))]
+        found = [harmonics(error) for error in (unloaded, *(each.error for each in sweeps))]
         amplitude, phase = (np.array(part) for part in zip(*found, strict=True))
         return cls(
-            np.array([0.0, *(each.torque for each in courses)]),
+            np.array([0.0, *(each.torque for each in sweeps)]),
             np.arange(1, amplitude.shape[1] + 1, dtype=np.int64), amplitude, phase, unloaded,
             harmonics(off)[0], float(np.ptp(off)),
         )  # fmt: skip

@@ -11,7 +11,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP
-from asperity.drive.static.seen import Seen
+from asperity.drive.static.recorder import PhaseRecord
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.static.spread import LOADED, k_h_alpha
 from asperity.drive.static.sweep import LoadCase
@@ -74,10 +74,10 @@ def loaded(problem: DriveProblem, run: Run) -> Loaded:
 
 def loaded_of(model: StaticModel) -> Loaded:
     """Return the same of a model that stands already."""
-    seen = Seen(model.resolved)
-    (course,) = model.courses([LoadCase(model.problem.load, evaluate=seen.evaluate)])
+    seen = PhaseRecord(model.resolved)
+    (pitch_sweep,) = model.sweeps([LoadCase(model.problem.load, evaluate=seen.evaluate)])
     peaks, forces = np.max(seen.peaks, axis=0), np.max(seen.forces, axis=0)
-    share = course.tooth_force / course.tooth_force.sum(axis=1, keepdims=True)
+    share = pitch_sweep.tooth_force / pitch_sweep.tooth_force.sum(axis=1, keepdims=True)
     face, radial = seen.spread.centre
     return Loaded(
         pressure_flank=float(peaks[FLANK]),
@@ -87,15 +87,15 @@ def loaded_of(model: StaticModel) -> Loaded:
         force_worm_tip=float(forces[WORM_TIP]),
         force_wheel_tip=float(forces[WHEEL_TIP]),
         force_face_end=float(forces[FACE_END]),
-        normal_force=float(course.tooth_force.sum(axis=1).mean()),
+        normal_force=float(pitch_sweep.tooth_force.sum(axis=1).mean()),
         flow_depth=max(seen.depths),
-        transmission_error=float(np.ptp(course.error)),
-        deflection=course.mean_deflection,
-        input_torque=float(course.worm_torque.mean()),
+        transmission_error=float(np.ptp(pitch_sweep.error)),
+        deflection=pitch_sweep.mean_deflection,
+        input_torque=float(pitch_sweep.worm_torque.mean()),
         load_share=float(share.max()),
         loaded_teeth=float((share > LOADED).sum(axis=1).mean()),
         k_h_beta=seen.spread.k_h_beta,
-        k_h_alpha=k_h_alpha(course.tooth_force),
+        k_h_alpha=k_h_alpha(pitch_sweep.tooth_force),
         line_load=seen.spread.line_load,
         centre_face=face,
         centre_radial=radial,

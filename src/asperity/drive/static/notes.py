@@ -6,8 +6,8 @@ import numpy as np
 
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP
-from asperity.drive.static.seen import Seen
-from asperity.drive.static.sweep import Course
+from asperity.drive.static.recorder import PhaseRecord
+from asperity.drive.static.sweep import PitchSweep
 from asperity.drive.warmed import warmed
 
 _MEGA, _MICRO = 1e6, 1e6
@@ -23,12 +23,14 @@ _EDGES = {
 }
 
 
-def notes_of(problem: DriveProblem, seen: Seen, forward: Course, noise: float) -> tuple[str, ...]:
+def notes_of(
+    problem: DriveProblem, record: PhaseRecord, forward: PitchSweep, noise: float
+) -> tuple[str, ...]:
     """Return the notes of a loaded gearset; ``noise`` is the mesh's part of the error, rad."""
     return (
         *rigid_parts(problem),
         *cold(problem),
-        *_pressures(problem, seen),
+        *_pressures(problem, record),
         *_error(problem, forward, noise),
     )
 
@@ -90,8 +92,8 @@ def rigid_parts(problem: DriveProblem) -> Iterator[str]:
     )
 
 
-def _pressures(problem: DriveProblem, seen: Seen) -> Iterator[str]:
-    peaks, forces = np.array(seen.peaks), np.array(seen.forces)
+def _pressures(problem: DriveProblem, record: PhaseRecord) -> Iterator[str]:
+    peaks, forces = np.array(record.peaks), np.array(record.forces)
     whole = forces.sum(axis=1)
     wheel = problem.gearset.wheel_material
     cap = wheel.flow_pressure if problem.drive.plastic else None
@@ -123,11 +125,11 @@ def _pressures(problem: DriveProblem, seen: Seen) -> Iterator[str]:
             "the wheel's edges are sharp: their elastic pressures grow with finer patches, their "
             "forces do not"
         )
-    if not seen.resolved:
+    if not record.resolved:
         yield "a peak still changed by more than 5 % with the finest patches"
 
 
-def _error(problem: DriveProblem, forward: Course, noise: float) -> Iterator[str]:
+def _error(problem: DriveProblem, forward: PitchSweep, noise: float) -> Iterator[str]:
     if problem.drive.phases < _FEW:
         yield from few_phases(problem)
         return

@@ -10,7 +10,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.equilibrium import Balance
-from asperity.drive.static.seen import contact_means
+from asperity.drive.static.recorder import contact_means
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.teeth.contact import TeethContact
@@ -59,18 +59,18 @@ def teeth_reduced(problem: DriveProblem, run: Run, *, phases: int = _PHASES) -> 
     upto[-1] = upto[-1]._replace(evaluate=evaluate)
     # Of little friction the torque says next to nothing of the radius that it acts at.
     much = max(model.friction, _TELLING)
-    courses = model.courses(upto)
+    sweeps = model.sweeps(upto)
     # Beyond the load as far as the teeth carry.
     with contextlib.suppress(InputError):
-        courses += model.courses([LoadCase(SHARES[-1] * load)])
-    torque = float(courses[len(upto) - 1].worm_torque.mean())
+        sweeps += model.sweeps([LoadCase(SHARES[-1] * load)])
+    torque = float(sweeps[len(upto) - 1].worm_torque.mean())
     if much > model.friction:
-        torque = float(model.rubbing(much).courses([LoadCase(load)])[0].worm_torque.mean())
+        torque = float(model.rubbing(much).sweeps([LoadCase(load)])[0].worm_torque.mean())
     whole, moment, work, friction = np.array(give).sum(axis=0)
     compliance = work / friction if friction > 0.0 else 0.0
     return TeethReduced(
-        torque=np.array([course.torque for course in courses]),
-        deflection=np.array([course.mean_deflection for course in courses]),
+        torque=np.array([pitch_sweep.torque for pitch_sweep in sweeps]),
+        deflection=np.array([pitch_sweep.mean_deflection for pitch_sweep in sweeps]),
         radius=_closed_form_radius(problem, much, torque, moment / whole),
         compliance=float(compliance),
         normal_force=float(whole / phases),

@@ -25,14 +25,14 @@ from asperity.drive.static.flash import Flash
 from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
 from asperity.drive.static.pressure import hertz_pressure, modulus_of
+from asperity.drive.static.recorder import Pattern, PhaseRecord, contact_means
 from asperity.drive.static.result import PATTERNS, StaticResult
-from asperity.drive.static.seen import Pattern, Seen, contact_means
 from asperity.drive.static.spread import LOADED, k_h_alpha
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
-    Course,
     LoadCase,
+    PitchSweep,
     phases_of,
     sweep,
     touching_angles,
@@ -192,15 +192,15 @@ class StaticModel:
         other.equilibrium = Equilibrium(other.contact, self.equilibrium.compliance)
         return other
 
-    def courses(
-        self, asked: Sequence[LoadCase], step: Callable[[int], None] = lambda _number: None
-    ) -> list[Course]:
+    def sweeps(
+        self, cases: Sequence[LoadCase], step: Callable[[int], None] = lambda _number: None
+    ) -> list[PitchSweep]:
         """Return the balances over a pitch; refuses torques that teeth cannot carry.
 
         Parameters are as in `asperity.drive.static.sweep.sweep`.
         """
         try:
-            return sweep(self.equilibrium, self.phases, self.touching, asked, step)
+            return sweep(self.equilibrium, self.phases, self.touching, cases, step)
         except TooDeepError as error:
             raise too_much(self.problem, full=error.full) from None
 
@@ -218,13 +218,13 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     model = StaticModel(problem, run)
     load, sector_, contact = problem.load, model.sector, model.contact
     flash = Flash(problem, model.resolved.flank, model.friction)
-    seen = Seen(model.resolved, flash)
+    seen = PhaseRecord(model.resolved, flash)
     less_loaded = [Pattern(model.resolved) for _ in PATTERNS[:-1]]
     count = len(model.phases)
     total = (3 if run.detailed else 2) * count
     every = _EVERY if count >= _MANY else 1
     with run.interruptible():
-        forward, more, less, frictionless, reversed_ = model.courses(
+        forward, more, less, frictionless, reversed_ = model.sweeps(
             [
                 LoadCase(load, evaluate=seen.evaluate),
                 *(LoadCase((1.0 + sign * _BESIDE) * load, every=every) for sign in (1.0, -1.0)),
@@ -233,7 +233,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
             ],
             lambda done: run.checkpoint(done, total, what="phases"),
         )
-        lighter = model.courses(
+        lighter = model.sweeps(
             [
                 LoadCase(share * load, evaluate=part.evaluate)
                 for share, part in zip(PATTERNS[:-1], less_loaded, strict=True)
@@ -328,36 +328,38 @@ def _back_patterns(model: StaticModel, done: int, total: int) -> FloatArray | No
     return np.array([part.largest for part in seen])
 
 
-def _pressures(model: StaticModel, seen: Seen) -> dict[str, Any]:
+def _pressures(model: StaticModel, record: PhaseRecord) -> dict[str, Any]:
     """What a result has of the resolved pressures, MPa, N, mm and um."""
-    cap, worst = model.resolved.cap, seen.worst
+    cap, worst = model.resolved.cap, record.worst
     assert worst is not None
     zones = {
         key: value
-        for name, (peak, force) in seen.largest().items()
+        for name, (peak, force) in record.largest().items()
         for key, value in ((f"pressure_{name}", peak / _MEGA), (f"force_{name}", force))
     }
     del zones["force_flank"]
-    courses = {
+    by_phase = {
         f"{what}_{name}_course": np.array(values)[:, k]
         for k, name in enumerate(ZONES)
-        for what, values in (("pressure", seen.peaks), ("force", seen.forces))
+        for what, values in (("pressure", record.peaks), ("force", record.forces))
     }
-    del courses["force_flank_course"]
+    del by_phase["force_flank_course"]
     length, width = worst.extent()
     return {
         **zones,
-        **courses,
-        "pressure_mean": seen.mean / _MEGA,
+        **by_phase,
+        "pressure_mean": record.mean / _MEGA,
         "flow_pressure": None if cap is None else cap / _MEGA,
-        "flow_depth": None if cap is None else _MICRO * max(seen.depths),
+        "flow_depth": None if cap is None else _MICRO * max(record.depths),
         "contact_length": _MILLIMETRES * length,
         "contact_width": _MILLIMETRES * width,
-        "pressure_nodal": seen.nodal / _MEGA,
+        "pressure_nodal": record.nodal / _MEGA,
     }
 
 
-def _parts(model: StaticModel, turns: FloatArray, more: Course, less: Course) -> dict[str, float]:
+def _parts(
+    model: StaticModel, turns: FloatArray, more: PitchSweep, less: PitchSweep
+) -> dict[str, float]:
     """Stiffness at the wheel by what gives way, N m/rad: what shafts leave is the teeth's.
 
     ``turns`` (p, 4) are those of the wheel by which the worm's yielding is made up for.

@@ -37,10 +37,10 @@ class Spread:
         self.line_load = 0.0  #: Largest force by length along a contact, N/m
         self._moments = np.zeros(2)
 
-    def take(self, found: Resolved) -> None:
+    def take(self, resolved_pressure: Resolved) -> None:
         """Take the pressures of a phase."""
         half = self._flank.half_face
-        for tooth in found.teeth:
+        for tooth in resolved_pressure.teeth:
             on = tooth.force > 0.0
             points, force = tooth.strip.points[on], tooth.force[on]
             strip = (points[:, 2] + half) * (0.5 * STRIPS / half)

@@ -18,7 +18,7 @@ FORWARD, FRICTIONLESS, REVERSED = 1, 0, -1
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Course:
+class PitchSweep:
     """Balances over a pitch under one torque; all arrays have a row for each phase."""
 
     torque: float  #: Of the wheel, N m
@@ -79,9 +79,9 @@ def sweep(
     equilibrium: Equilibrium,
     phases: FloatArray,
     touching: FloatArray,
-    asked: Sequence[LoadCase],
+    cases: Sequence[LoadCase],
     step: Callable[[int], None] = lambda _number: None,
-) -> list[Course]:
+) -> list[PitchSweep]:
     """Solve for the balance at all phases under some torques, one after the other at each phase.
 
     Like torques beside each other begin with what the one before has found.
@@ -92,14 +92,14 @@ def sweep(
         Of the drive.
     phases, touching : ndarray
         Angles of the worm, and of the wheel without load there, rad.
-    asked : sequence of LoadCase
+    cases : sequence of LoadCase
         Torques.
     step : callable, optional
         Called with the number of phases that are done.
     """
-    found: list[list[Balance]] = [[] for _ in asked]
+    found: list[list[Balance]] = [[] for _ in cases]
     for number, (beta, free) in enumerate(zip(phases, touching, strict=True)):
-        for load, balances in zip(asked, found, strict=True):
+        for load, balances in zip(cases, found, strict=True):
             if number % load.every:
                 continue
             balance = equilibrium.balance(
@@ -110,11 +110,11 @@ def sweep(
             balances.append(balance)
         step(number + 1)
     ratio = equilibrium.contact.stand.ratio
-    courses = []
-    for load, balances in zip(asked, found, strict=True):
+    sweeps = []
+    for load, balances in zip(cases, found, strict=True):
         some, free_angles = phases[:: load.every], touching[:: load.every]
-        courses.append(
-            Course(
+        sweeps.append(
+            PitchSweep(
                 torque=load.torque,
                 worm_angle=some,
                 touching=free_angles - some / ratio,
@@ -127,7 +127,7 @@ def sweep(
                 residual=max(b.residual for b in balances),
             )
         )
-    return courses
+    return sweeps
 
 
 def _in_one_row(numbers: list[tuple[int, ...]], forces: list[FloatArray]) -> FloatArray:

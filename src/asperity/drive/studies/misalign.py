@@ -42,7 +42,7 @@ _EXAMPLE = (
 )
 
 
-class Place(NamedTuple):
+class StudyPoint(NamedTuple):
     """A point of the study."""
 
     where: tuple[int, ...]  #: Value of each axis by number; empty where it is off another way
@@ -55,7 +55,9 @@ class Study(NamedTuple):
 
     case: Case
     axes: tuple[Axis, ...]
-    places: tuple[Place, ...]  #: The case as it is first; where temperatures are given, warm then
+    places: tuple[
+        StudyPoint, ...
+    ]  #: The case as it is first; where temperatures are given, warm then
 
 
 def prepare(case: Case, *, over: Sequence[str] | None = ()) -> Study:
@@ -80,7 +82,7 @@ def prepare(case: Case, *, over: Sequence[str] | None = ()) -> Study:
         raise InputError(
             f"there are {math.prod(shape)} points; a study has at most {MOST}: take fewer values"
         )
-    places = [Place((), nominal, described(axes, ()))]
+    places = [StudyPoint((), nominal, described(axes, ()))]
     if (warm := _warm(case, nominal)) is not None:
         places.append(warm)
     for index in itertools.product(*map(range, shape)):
@@ -89,9 +91,9 @@ def prepare(case: Case, *, over: Sequence[str] | None = ()) -> Study:
         try:
             problem = DriveProblem.from_case(case.replace_values(values), shaken=False)
         except InputError as error:
-            places.append(Place(where, str(error), described(axes, where)))
+            places.append(StudyPoint(where, str(error), described(axes, where)))
         else:
-            places.append(Place(where, problem, described(axes, where)))
+            places.append(StudyPoint(where, problem, described(axes, where)))
     return Study(case, axes, tuple(places))
 
 
@@ -123,7 +125,7 @@ def answer(study: Study, run: Run) -> Misaligned:
     )  # fmt: skip
 
 
-def _notes(places: Sequence[Place]) -> Iterator[str]:
+def _notes(places: Sequence[StudyPoint]) -> Iterator[str]:
     """Yield what should be known of the points; where it is not true of all, with those it is."""
     of: dict[str, list[str]] = {}
     solved = [(p.name, p.problem) for p in places if not isinstance(p.problem, str)]
@@ -152,16 +154,18 @@ def _values(axes: Sequence[Axis], where: tuple[int, ...]) -> list[float]:
     return [float(axis.shown[n]) for axis, n in zip(axes, where, strict=True)]
 
 
-def _warm(case: Case, problem: DriveProblem) -> Place | None:
+def _warm(case: Case, problem: DriveProblem) -> StudyPoint | None:
     """Return the gearset as it runs warm; None where no temperatures are given."""
     found = warmed(problem)
     if found is None:
         return None
     name, values = f"warm: {found.told}", found.values
     try:
-        return Place((), DriveProblem.from_case(case.replace_values(values), shaken=False), name)
+        return StudyPoint(
+            (), DriveProblem.from_case(case.replace_values(values), shaken=False), name
+        )
     except InputError as error:
-        return Place((), str(error), name)
+        return StudyPoint((), str(error), name)
 
 
 def _flank(problem: DriveProblem) -> tuple[FloatArray, FloatArray, IntArray]:

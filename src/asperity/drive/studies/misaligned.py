@@ -10,7 +10,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded
-from asperity.drive.studies.points import table_of_points, told_points
+from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.sweep.axis import Axis
@@ -181,7 +181,7 @@ class Misaligned(OfDrive):
             "shift_face_mm": _MILLI * self.shift_face,
             "shift_radial_mm": _MILLI * self.shift_radial,
         }
-        return told_points(self.axes, self.name, self.value, columns)
+        return points_for_json(self.axes, self.name, self.value, columns)
 
     def to_json(self) -> dict[str, Any]:
         """Return every point with its numbers."""

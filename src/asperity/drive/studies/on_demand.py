@@ -224,15 +224,15 @@ def _of_life(problem: DriveProblem, told: bool) -> tuple[str, ...]:
     )
 
 
-def _exchanged(found: Exchange) -> dict[str, Any]:
+def _exchanged(exchange: Exchange) -> dict[str, Any]:
     return {
-        "motor_plain": found.before.name,
-        "motor_shaken": found.after.name,
-        "motor_plain_mass": found.before.mass,
-        "motor_shaken_mass": found.after.mass,
-        "actuator_mass": found.actuator_mass,
-        "saved_mass": found.saved_mass,
-        "saved_cost": found.saved_cost,
+        "motor_plain": exchange.before.name,
+        "motor_shaken": exchange.after.name,
+        "motor_plain_mass": exchange.before.mass,
+        "motor_shaken_mass": exchange.after.mass,
+        "actuator_mass": exchange.actuator_mass,
+        "saved_mass": exchange.saved_mass,
+        "saved_cost": exchange.saved_cost,
     }
 
 

@@ -101,7 +101,7 @@ def _name(problem: DriveProblem) -> str:
     return key(code_key(_LOADED), problem.case.canonical())
 
 
-def told_points(
+def points_for_json(
     axes: Iterable[Any],
     names: Iterable[Any],
     values: Iterable[Any],
@@ -135,7 +135,7 @@ def table_of_points(
     """Return a table of points: where each is on the axes, its numbers, and a mark.
 
     Columns are key, format and what it is shown over, by headings; ``answer`` has axes, value and
-    rows as `told_points` gives them, which stand in JSON at a place.
+    rows as `points_for_json` gives them, which stand in JSON at a place.
     """
     names = [_SHORT.get(axis.path, axis.key.replace("_", " ")) for axis in answer.axes]
     units = [f" ({axis.unit})" if axis.unit else "" for axis in answer.axes]

@@ -12,7 +12,7 @@ from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.notes import cold, few_phases
-from asperity.drive.studies.points import table_of_points, told_points
+from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.sweep.axis import Axis
@@ -198,7 +198,7 @@ class Relieved(OfDrive):
             "transmission_error_rad": self.error,
             "k_h_beta": self.k_h_beta,
         }
-        return told_points(self.axes, self.name, self.value, columns)
+        return points_for_json(self.axes, self.name, self.value, columns)
 
     def to_json(self) -> dict[str, Any]:
         """Return every design with its numbers."""

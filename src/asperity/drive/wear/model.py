@@ -23,7 +23,7 @@ from asperity.drive.resolved.contact import ResolvedContact
 from asperity.drive.resolved.flank import ExactFlank, grid_faces
 from asperity.drive.resolved.strip import ZONES
 from asperity.drive.static.equilibrium import Balance, Equilibrium
-from asperity.drive.static.seen import resolved
+from asperity.drive.static.recorder import resolved
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.static.sweep import touching_angles
 from asperity.drive.teeth.contact import TeethContact

@@ -136,7 +136,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             model = worn_model(new, now.depth, phases)
             taken = Taken(model.resolved, step)
             try:
-                (course,) = model.courses([LoadCase(problem.load, evaluate=taken.evaluate)])
+                (pitch_sweep,) = model.sweeps([LoadCase(problem.load, evaluate=taken.evaluate)])
             except TooMuchError as error:
                 if before is None:
                     raise
@@ -145,8 +145,8 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
                 break
             now.rows.append(np.array([
                 now.turns, now.depth.max(), now.depth @ area / area.sum(), taken.force / taken.area,
-                taken.peaks[FLANK], np.ptp(course.error), course.worm_torque.mean(),
-                course.mean_deflection, taken.area / len(phases),
+                taken.peaks[FLANK], np.ptp(pitch_sweep.error), pitch_sweep.worm_torque.mean(),
+                pitch_sweep.mean_deflection, taken.area / len(phases),
             ]))  # fmt: skip
             rate = asked.coefficient * taken.depth
             left = asked.revolutions - now.turns

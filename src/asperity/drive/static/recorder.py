@@ -52,18 +52,18 @@ class Pattern:
 
     def evaluate(self, _number: int, balance: Balance) -> None:
         """Keep what a balance presses, resolved by its first strips alone."""
-        self.keep(resolved(self.owner, balance, finer=False))
+        self.add(resolved(self.owner, balance, finer=False))
 
-    def keep(self, found: Resolved) -> None:
+    def add(self, resolved_pressure: Resolved) -> None:
         """Keep what was resolved."""
         flank = self.owner.flank
-        for tooth in found.teeth:
+        for tooth in resolved_pressure.teeth:
             on = tooth.force > 0.0
             nearest = flank.nearest(tooth.strip.share[on], tooth.strip.points[on, 2])
             np.maximum.at(self.largest, nearest, tooth.pressure[on])
 
 
-class Seen:
+class PhaseRecord:
     """What is taken from each phase under the load."""
 
     def __init__(self, owner: ResolvedContact, flash: Flash | None = None) -> None:
@@ -94,7 +94,7 @@ class Seen:
         self.radius += force * radius
         self.speed += force * speed
         found = resolved(self.owner, balance)
-        self.pattern.keep(found)
+        self.pattern.add(found)
         self.spread.take(found)
         if self.flash is not None:
             self.flash.take(found)
