@@ -189,14 +189,14 @@ def bare(cell):
 
 def test_a_table_that_a_command_tells_is_that_of_the_command_line(seen):
     from asperity import rate
-    from asperity.results.payload import as_told
+    from asperity.results.payload import as_shown
     from asperity.results.unit_systems import shown_table
 
     result = rate("gearset-3")
     page = seen.open("home")
     settled(page)
     choose(page, "us")
-    told = as_told(result)["tables"]
+    told = as_shown(result)["tables"]
     made = page.evaluate(
         "(all) => import('/js/told.js').then(({ inUnits }) => all.map(inUnits))", told
     )

@@ -8,7 +8,7 @@ import pytest
 from asperity.errors import InputError
 from asperity.processes import sessions
 from asperity.processes.alone import alone
-from asperity.web import jobs, live
+from asperity.web import jobs, warm_worker
 from asperity.web.folder import Folder
 
 SAYS = "is ours; take another"
@@ -67,7 +67,7 @@ def test_a_worker_that_could_not_begin_is_begun_at_the_next_question(tmp_path, m
         return False
 
     async def asked_twice():
-        lookup = live.Live("lookup", tmp_path)
+        lookup = warm_worker.WarmWorker("lookup", tmp_path)
         with monkeypatch.context() as patched:
             patched.setattr(sessions, "begun", cannot)
             first = await lookup.ask("forms", b"{}", nobody)

@@ -29,14 +29,14 @@ class Drawn(Result):
         """Return the scalars by key, each key with its unit, the notes and the geometry."""
         return super().to_json() | {"geometry": self.geometry.to_json()}
 
-    def seen(self) -> Views:
+    def both_views(self) -> Views:
         """Return both views of it, each as SVG with its caption."""
         return views_of(self.geometry, self.hand)
 
     def sections(self, folder: Path | None = None) -> tuple[Section, ...]:
         """Return what its report says, the gearset drawn to scale ahead of the results."""
         heading, *others = super().sections(folder)
-        return heading, drawn(self.seen()), *others
+        return heading, drawn(self.both_views()), *others
 
 
 def views_of(g: Geometry, hand: str = "right") -> Views:

@@ -203,9 +203,9 @@ class Rated(Result):
 
     def views(self) -> dict[str, str]:
         """Return the gearset drawn to scale."""
-        from asperity.rating.report import seen
+        from asperity.rating.report import both_views
 
-        along, through = seen(self)
+        along, through = both_views(self)
         return {"gearset": along[0], "section": through[0]}
 
     def heading(self) -> str:

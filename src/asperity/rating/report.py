@@ -39,11 +39,11 @@ Reported = Any
 """A `asperity.rating.rate.Rated`, whose module imports this one."""
 
 
-def seen(rated: Reported) -> Views:
+def both_views(rated: Reported) -> Views:
     """Return both views of a gearset that is rated, with its shafts where there are any."""
     if rated.shafts is None:
         return views_of(rated.geometry, rated.gearset.hand)
-    views: Views = rated.shafts.seen()
+    views: Views = rated.shafts.both_views()
     return views
 
 
@@ -52,7 +52,7 @@ def sections(rated: Reported) -> Iterator[Section]:
     cited: dict[Source, int] = {}
     verdict = (*_verdict(rated), *beside(rated.rows))
     yield Section("Verdict", tuple(_come_to(rated)), tables=verdict)
-    yield dataclasses.replace(drawn(seen(rated)), tables=(_geometry(rated),))
+    yield dataclasses.replace(drawn(both_views(rated)), tables=(_geometry(rated),))
     if rated.iso14521 is not None:
         flow = Picture("", svg=power_flow(rated.iso14521),
                        caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip

@@ -21,7 +21,7 @@ class Shafts(Protocol):
     def lacking(self) -> tuple[str, ...]:
         """What is to be said of what they lack."""
 
-    def seen(self) -> "Views":
+    def both_views(self) -> "Views":
         """Return both views of the gearset with its shafts, each as SVG with its caption."""
 
     def sheets(

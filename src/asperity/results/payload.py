@@ -30,7 +30,7 @@ def as_payload(result: Result) -> dict[str, Any]:
     }
 
 
-def as_told(result: Result) -> dict[str, Any]:
+def as_shown(result: Result) -> dict[str, Any]:
     """Return what people are told of a result.
 
     Returns

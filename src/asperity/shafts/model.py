@@ -104,7 +104,7 @@ class Model(NamedTuple):
         )
         return first, second
 
-    def pulls(self, torque: float) -> tuple[PointLoad, ...]:
+    def other_loads(self, torque: float) -> tuple[PointLoad, ...]:
         """Return what else pulls at it under a torque of the shaft, N m."""
         made = []
         for each in self.table.load:

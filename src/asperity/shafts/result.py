@@ -217,7 +217,7 @@ class ShaftStudy(Drawn):
         assert self.rating_inputs is not None
         return self.rating_inputs.gearset.hand
 
-    def seen(self) -> "Views":
+    def both_views(self) -> "Views":
         """Return both views of the gearset with its shafts, each as SVG with its caption.
 
         Returns

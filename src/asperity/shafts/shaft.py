@@ -257,7 +257,7 @@ def find_shaft(
             condition = load.within(case)
             point = teeth(load, condition)
             turned = 1e-3 * point.couple[0]
-            found = Loaded(model, load, condition, (point, *model.pulls(turned)))
+            found = Loaded(model, load, condition, (point, *model.other_loads(turned)))
             _ = found.axial
             own.append(found)
         every.append(tuple(own))

@@ -206,7 +206,7 @@ class _Shaft:
     def _loaded(self, load: Load, case: Condition) -> tuple[list[PointLoad], Any, Any]:
         """Return the forces on it under a load, what its bearings carry, and the axial loads."""
         point = self._teeth(load, load.within(case))
-        every = [point, *self.found.model.pulls(1e-3 * point.couple[0])]
+        every = [point, *self.found.model.other_loads(1e-3 * point.couple[0])]
         carried = reactions(every, *self._bearings)
         return every, carried, self.found.model.axial_of(carried, carried.radial)
 

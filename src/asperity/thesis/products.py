@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol, get_args
 from asperity import __version__
 from asperity.files.store import write_atomically, write_dataset, write_text
 from asperity.results.files import csv_text
-from asperity.thesis.said import listed
+from asperity.thesis.said import exhibit_entry
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -119,7 +119,7 @@ class Grid:
     @classmethod
     def listed(cls, number: str, *how: How) -> "Grid":
         """Return a table of words alone, as it is listed by its number."""
-        found = listed(f"table {number}")
+        found = exhibit_entry(f"table {number}")
         rows = tuple(map(tuple, found["rows"]))
         return cls(tuple(found["columns"]), rows, tuple(_lines(how)))
 

@@ -85,7 +85,7 @@ def _read() -> Mapping[str, Any]:
     return said | exhibits
 
 
-def listed(name: str) -> Mapping[str, Any]:
+def exhibit_entry(name: str) -> Mapping[str, Any]:
     """Return what is listed of an exhibit, by its kind and number: ``figure 4.17``."""
     kind, _, number = name.partition(" ")
     found: Mapping[str, Any] = _read()[kind].get(number, {})
@@ -99,7 +99,7 @@ def words_of(name: str) -> Mapping[str, Any]:
     thesis's own number or word, and what `said_of` has.
     """
     kind, _, number = name.partition(" ")
-    found = listed(name)
+    found = exhibit_entry(name)
     if kind != "claim":
         return {"title": found.get("title", ""), "caption": found.get("caption", "")}
     claimed = {key: found.get(key, "") for key in ("section", "claim", "thesis")}
@@ -108,7 +108,7 @@ def words_of(name: str) -> Mapping[str, Any]:
 
 def said_of(number: str) -> Said:
     """Return what is held of a claim; nothing for one that is not listed."""
-    found = listed(f"claim {number}")
+    found = exhibit_entry(f"claim {number}")
     words = tuple((int(line), str(text)) for line, text in found.get("said", ()))
     return Said(
         words, found.get("fails_by", ""), tuple(found.get("rests_on", ())),

@@ -6,7 +6,7 @@ own, so that nothing a case asks can hold up or bring down the server.
 
 :Entry: `serve`, `asperity page`; `app` says what stands at which address.
 :Data: one folder: cases, uploads, jobs (`folder`).
-:Where: `guard` (who may ask), `ask` (what), `live` and `worker` (what answers), `jobs` and `job`,
-    `static` (what the browser gets).
+:Where: `guard` (who may ask), `ask` (what), `warm_worker` and `worker` (what answers), `jobs` and
+    `job`, `static` (what the browser gets).
 :Tests: `unit/test_web_*`, `acceptance/test_web_*`, `browser/`.
 """

@@ -109,9 +109,9 @@ def signals(folder: Folder, body: Body) -> dict[str, Any]:
 def forms(folder: Folder, body: Body) -> dict[str, Any]:
     """Return every table of a case with its keys, and what data files hold for them."""
     from asperity.casefile.forms import forms
-    from asperity.web.listed import listed
+    from asperity.web.data_files import data_file_names
 
-    return {"tables": forms(case_tables()), "listed": listed()}
+    return {"tables": forms(case_tables()), "listed": data_file_names()}
 
 
 def opened(folder: Folder, body: Body) -> dict[str, Any]:

@@ -19,13 +19,13 @@ from asperity import __version__
 from asperity.errors import AsperityError
 from asperity.files.leftovers import temporary_beside
 from asperity.files.store import read_text, reason, write_atomically, write_text
-from asperity.start.listed import listed
+from asperity.start.openable import openable_cases
 from asperity.tribometer.preview import runs, stop
 from asperity.web.folder import CASE, MOST_FILE, Folder
 from asperity.web.guard import Refused, body_of, parts_of, refusal
 from asperity.web.jobs import Jobs
-from asperity.web.live import Live
 from asperity.web.verbs import LIVE, object_of
+from asperity.web.warm_worker import WarmWorker
 
 Endpoint = Callable[[Request], Awaitable[Response]]
 
@@ -44,7 +44,7 @@ class Page:
 
     def __init__(self, folder: Folder) -> None:
         self.folder = folder
-        self.workers = {kind: Live(kind, folder.path) for kind in ("solver", "lookup")}
+        self.workers = {kind: WarmWorker(kind, folder.path) for kind in ("solver", "lookup")}
         self.jobs = Jobs(folder)
 
     def application(self) -> Starlette:
@@ -62,12 +62,12 @@ class Page:
             "PUT /api/files/{name}": self._upload,
             "GET /api/runs": self._runs,
             "POST /api/runs/stop": self._stop_run,
-            "GET /api/jobs": _told(lambda _: jobs.listed()),
+            "GET /api/jobs": _answering(lambda _: jobs.listed()),
             "POST /api/jobs": self._submit,
-            "GET /api/jobs/{id}": _told(lambda at: jobs.found(at["id"]).to_json()),
-            "DELETE /api/jobs/{id}": _told(lambda at: jobs.forget(at["id"])),
-            "POST /api/jobs/{id}/stop": _told(lambda at: jobs.stop(at["id"])),
-            "POST /api/jobs/{id}/resume": _told(lambda at: jobs.resume(at["id"])),
+            "GET /api/jobs/{id}": _answering(lambda at: jobs.found(at["id"]).to_json()),
+            "DELETE /api/jobs/{id}": _answering(lambda at: jobs.forget(at["id"])),
+            "POST /api/jobs/{id}/stop": _answering(lambda at: jobs.stop(at["id"])),
+            "POST /api/jobs/{id}/resume": _answering(lambda at: jobs.resume(at["id"])),
             "GET /api/jobs/{id}/events": self._events,
             "GET /api/jobs/{id}/answer": _file(lambda at: jobs.answer(at["id"])),
             "GET /api/jobs/{id}/data": self._looked_up("data"),
@@ -89,7 +89,7 @@ class Page:
             "version": __version__,
             "folder": str(self.folder.path),
             "ready": self.workers["solver"].ready.is_set(),
-            "cases": [case._asdict() for case in listed(own)],
+            "cases": [case._asdict() for case in openable_cases(own)],
             "files": names,
         }
         return JSONResponse(told)
@@ -171,7 +171,7 @@ class Page:
         return StreamingResponse(events, media_type="text/event-stream")
 
 
-def _told(look_up: Callable[[dict[str, str]], object]) -> Endpoint:
+def _answering(look_up: Callable[[dict[str, str]], object]) -> Endpoint:
     """Return what tells what is found by what stands in the address."""
 
     async def answer(request: Request) -> Response:

@@ -17,7 +17,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse
 
 from asperity import exit_codes
-from asperity.web.verbs import told
+from asperity.web.verbs import error_body
 
 Scope = MutableMapping[str, Any]
 Message = MutableMapping[str, Any]
@@ -57,7 +57,7 @@ def refusal(status: int, line: str, exit_code: int = exit_codes.BAD_INPUT) -> JS
     """Return what is answered where there is no answer: one line."""
     # What was given may stand in the line, with half a character in it.
     line = line.encode("utf-8", "replace").decode()
-    return JSONResponse(told(line, exit_code), status)
+    return JSONResponse(error_body(line, exit_code), status)
 
 
 class Guard:

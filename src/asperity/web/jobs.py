@@ -34,10 +34,10 @@ def _kept(path: Path) -> Job:
     """Return a job as it was kept; ValueError or TypeError of what is none."""
     if path.is_symlink():
         raise ValueError("it is a link")
-    told = json.loads(read_text(path))
+    notify = json.loads(read_text(path))
     # What is no number there would be none in the list of all.
-    json.dumps(told, allow_nan=False)
-    job = Job(**told)
+    json.dumps(notify, allow_nan=False)
+    job = Job(**notify)
     for field in dataclasses.fields(Job):
         kind, value = type(getattr(_BLANK, field.name)), getattr(job, field.name)
         if (
@@ -202,7 +202,7 @@ class Jobs:
             job.error, job.exit_code = f"the job cannot begin: {error}", exit_codes.FAILED
             ended = "failed"
         finally:
-            job.told()
+            job.notify()
             job.process = None
             job.set(ended)
             self._next()

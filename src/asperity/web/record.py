@@ -101,7 +101,7 @@ class Job:
             if named and path.is_file() and not path.is_symlink():
                 yield path.name
 
-    def told(self) -> None:
+    def notify(self) -> None:
         """Let everybody who waits see what is new."""
         self._look()
         self.news.set()
@@ -117,23 +117,23 @@ class Job:
         self.state = state
         with contextlib.suppress(OSError):
             write_text(self.home / STATE, json.dumps(dataclasses.asdict(self)))
-        self.told()
+        self.notify()
 
     def hear(self, line: bytes) -> None:
         """Take what its process says."""
-        told = json.loads(line)
-        if not isinstance(told, dict):
+        notify = json.loads(line)
+        if not isinstance(notify, dict):
             raise ValueError("it must be an object")
-        if "begun" in told:
+        if "begun" in notify:
             self.begun = True
-        elif "done" in told:
-            self.done, self.total = told["done"], told["total"]
-        elif "note" in told:
-            self.notes = [*self.notes[-49:], told["note"]]
-        elif "error" in told:
-            self.error, self.exit_code = told["error"], told["exit_code"]
-            self.reached = told["reached"]
-        self.told()
+        elif "done" in notify:
+            self.done, self.total = notify["done"], notify["total"]
+        elif "note" in notify:
+            self.notes = [*self.notes[-49:], notify["note"]]
+        elif "error" in notify:
+            self.error, self.exit_code = notify["error"], notify["exit_code"]
+            self.reached = notify["reached"]
+        self.notify()
 
     def ended(self, code: int) -> str:
         """Return the state in which its process left it."""

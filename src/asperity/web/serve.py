@@ -14,7 +14,7 @@ from urllib.parse import urlencode
 from asperity.errors import InputError, StorageError
 from asperity.files.store import reason
 from asperity.processes.alone import alone
-from asperity.start.listed import opened
+from asperity.start.openable import opened
 from asperity.web.folder import Folder
 from asperity.web.token import token_of
 

@@ -13,7 +13,7 @@ from asperity.errors import ConvergenceError
 from asperity.files.store import write_text
 from asperity.results import Result
 from asperity.results.files import write_content
-from asperity.results.payload import as_told
+from asperity.results.payload import as_shown
 from asperity.web.answer import answer_of
 from asperity.web.ask import confine
 from asperity.web.folder import ANSWER, SO_FAR, Folder
@@ -67,7 +67,7 @@ class JobTeller(Teller):
 
     def show(self, source: str, case: Case, result: Result) -> None:
         """Keep the answer with what goes with it."""
-        answer = answer_of(self._request, case, result) | {"told": as_told(result)}
+        answer = answer_of(self._request, case, result) | {"told": as_shown(result)}
         write_text(self._home / ANSWER, json.dumps(answer, allow_nan=False))
         for name, content in result.attached().items():
             write_content(self._home / name, content)

@@ -41,7 +41,7 @@ LOOKUP = dict.fromkeys(("forms", "opened", "named", "received", "thesis", "data"
 VERBS = LIVE | LOOKUP
 
 
-def told(line: str, exit_code: int, reached: object = None) -> dict[str, Any]:
+def error_body(line: str, exit_code: int, reached: object = None) -> dict[str, Any]:
     """Return an error as the page takes it: one line with nothing in it that would act."""
     return {"error": plain(" ".join(line.split())), "exit_code": exit_code, "reached": reached}
 

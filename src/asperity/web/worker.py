@@ -19,7 +19,7 @@ from typing import Any, BinaryIO
 
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.web.folder import Folder
-from asperity.web.verbs import LIVE, object_of, told
+from asperity.web.verbs import LIVE, error_body, object_of
 
 
 def main(kind: str, folder: str) -> None:
@@ -74,14 +74,14 @@ def _answered(verb: str, body: bytes, folder: Folder) -> tuple[int, bytes]:
         answer = getattr(answers, verb, answers.solved)(folder, {**asked, "verb": verb})
         return 200, json.dumps(answer, allow_nan=False, separators=(",", ":")).encode()
     except ConvergenceError as error:
-        status, refused = 422, told(str(error), error.exit_code, jsonable(error.reached))
+        status, refused = 422, error_body(str(error), error.exit_code, jsonable(error.reached))
     except AsperityError as error:
-        refused = told(str(error), error.exit_code)
+        refused = error_body(str(error), error.exit_code)
     except Exception as error:
         # For who maintains this; whoever asked is told no more than that it failed.
         traceback.print_exc(file=sys.stderr)
         line = f"{verb} failed ({type(error).__name__}); what the server printed says more"
-        status, refused = 500, told(line, 1)
+        status, refused = 500, error_body(line, 1)
     return status, json.dumps(refused).encode()
 
 

@@ -11,7 +11,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.teeth.contact import TeethContact
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.analysis import hertz_pressure_max
-from asperity.flanks.meshing.lubrication import Pressed
+from asperity.flanks.meshing.lubrication import NormalLoading
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.gearset.materials import Material
 from asperity.rating.iso14521.hertz import contact_modulus
@@ -42,6 +42,8 @@ def hertz_pressure(problem: DriveProblem, wheel: Wheel) -> float | None:
     It is the number of ``asperity flank``, found as there; None where no line bears the load.
     """
     try:
-        return hertz_pressure_max(wheel.pair, wheel, Pressed.by(problem.gearset, problem.operation))
+        return hertz_pressure_max(
+            wheel.pair, wheel, NormalLoading.by(problem.gearset, problem.operation)
+        )
     except (InputError, ConvergenceError):
         return None

@@ -71,7 +71,7 @@ class Bodies(NamedTuple):
         worm_shape(pair, made)
         return made
 
-    def seen(self, g: Geometry, hand: str) -> Views | None:
+    def both_views(self, g: Geometry, hand: str) -> Views | None:
         """Return both views of a gearset with its shafts; None where no shaft is described."""
         if self.worm is None and self.wheel is None:
             return None

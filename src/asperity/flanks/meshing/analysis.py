@@ -14,7 +14,7 @@ from asperity.flanks.meshing.kinematics import Kinematics, kinematics
 from asperity.flanks.meshing.lubrication import (
     Load,
     LoadedLines,
-    Pressed,
+    NormalLoading,
     loaded_lines,
     pressed_lines,
 )
@@ -260,7 +260,7 @@ def analyse(
     )
 
 
-def hertz_pressure_max(pair: Pair, wheel: Wheel, load: Pressed, side: int = 1) -> float:
+def hertz_pressure_max(pair: Pair, wheel: Wheel, load: NormalLoading, side: int = 1) -> float:
     """Return the greatest Hertzian pressure on the contact lines of a flank over a pitch, MPa.
 
     It is that of `analyse` on the same maps and angles, without the rest.

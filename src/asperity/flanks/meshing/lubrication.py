@@ -48,7 +48,7 @@ _MPA = 1e-6
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Pressed:
+class NormalLoading:
     r"""What presses worm and wheel together.
 
     Attributes
@@ -71,7 +71,7 @@ class Pressed:
                 raise InputError(f"{field.name} is {value:g}; it must be positive and finite")
 
     @classmethod
-    def by(cls, gearset: Gearset, operation: Operation, **more: float) -> Self:
+    def by(cls, gearset: Gearset, operation: Operation, **fields: float) -> Self:
         """Return what presses a gearset in operation, with what else the class has."""
         worm, wheel = gearset.worm_material, gearset.wheel_material
         modulus = hertz.contact_modulus(
@@ -85,7 +85,7 @@ class Pressed:
             worm_speed=operation.worm_speed,
             contact_modulus=modulus,
             line_stiffness=_STIFFNESS * modulus,
-            **more,
+            **fields,
         )
 
     def line_load(self, motion: Kinematics, twist: FloatArray | float) -> FloatArray:
@@ -100,7 +100,7 @@ class Pressed:
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
-class Load(Pressed):
+class Load(NormalLoading):
     r"""What the mesh runs under: what presses it, and the oil.
 
     Attributes
@@ -223,7 +223,7 @@ class PressedLines:
     pressure: FloatArray
 
 
-def pressed_lines(mesh: Transmission, lines: ContactLines, load: Pressed) -> PressedLines:
+def pressed_lines(mesh: Transmission, lines: ContactLines, load: NormalLoading) -> PressedLines:
     """Return load and Hertzian pressure along contact lines of a mesh.
 
     Raises

@@ -123,10 +123,10 @@ class FlankStudy(Drawn):
         """Of the worm."""
         return self.wheel.pair.hand
 
-    def seen(self) -> "Views":
+    def both_views(self) -> "Views":
         """Return both views of it, with the shafts of the case."""
         own = self.beside if isinstance(self.beside, Bodies) else Bodies()
-        return own.seen(self.geometry, self.hand) or super().seen()
+        return own.both_views(self.geometry, self.hand) or super().both_views()
 
     @property
     @labelled(

@@ -11,7 +11,7 @@ from asperity.studies.constraints import Limit
 from asperity.thesis.exhibits import table
 from asperity.thesis.products import Grid
 from asperity.thesis.rating.rated import GEARSET_2, GEARSETS, OPTIMISED, quoted_methods
-from asperity.thesis.said import listed
+from asperity.thesis.said import exhibit_entry
 
 _BY = {"agma6034": ", AGMA 6034", "bs721": ", BS 721"}
 
@@ -32,7 +32,7 @@ class _Row(NamedTuple):
 
 
 def _rows(number: str) -> list[_Row]:
-    return [_Row(**row) for row in listed(f"table {number}")["rows"]]
+    return [_Row(**row) for row in exhibit_entry(f"table {number}")["rows"]]
 
 
 @table("3.2")
@@ -82,7 +82,7 @@ def _methods() -> Grid:
 
 @table("3.4")
 def _influences() -> Grid:
-    effects = listed("table 3.4")["effects"]
+    effects = exhibit_entry("table 3.4")["effects"]
     return Grid.of(
         GEARSET_2.sensitivity.influences,
         {
@@ -130,7 +130,7 @@ def _value(rated: Rated, row: _Row) -> Any:
 
 @table("3.6")
 def _constraints() -> Grid:
-    bounds = listed("table 3.6")["bounds"]
+    bounds = exhibit_entry("table 3.6")["bounds"]
     limits: dict[tuple[str, str], list[Limit]] = {}
     for name, gear in GEARSETS.items():
         for limit in gear.optimum.limits:

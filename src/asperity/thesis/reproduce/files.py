@@ -16,7 +16,7 @@ from asperity.files.shipped import shipped_cases
 from asperity.files.store import write_text
 from asperity.thesis.exhibits import CLAIM, Exhibit
 from asperity.thesis.products import Plain
-from asperity.thesis.said import listed
+from asperity.thesis.said import exhibit_entry
 
 _MADE = "made.json"
 _LEDGER = "claims.json"
@@ -60,7 +60,7 @@ def key_of(exhibit: Exhibit, *, full: bool = False) -> str:
     cases = [shipped[case].read_bytes() for case in exhibit.cases]
     in_full = full and exhibit.has_full
     name = exhibit.name + " in full" * in_full
-    return key(code_key(exhibit.module), name, repr(listed(exhibit.name)), *cases)
+    return key(code_key(exhibit.module), name, repr(exhibit_entry(exhibit.name)), *cases)
 
 
 def make(exhibit: Exhibit, folder: Path, key: str, *, full: bool = False) -> MadeExhibit:

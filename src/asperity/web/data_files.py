@@ -9,7 +9,7 @@ from asperity.units import quantity_of
 _AT = re.compile(r"_(\d+)$")  # of a viscosity, its temperature
 
 
-def listed() -> dict[str, list[dict[str, str]]]:
+def data_file_names() -> dict[str, list[dict[str, str]]]:
     """Return by ``table.key`` what may stand there: names, and key figures in words."""
     from asperity.gearset.bearings import Bearings
     from asperity.gearset.lubricants import Lubricant

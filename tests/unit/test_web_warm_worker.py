@@ -3,14 +3,14 @@
 import asyncio
 
 from asperity.processes import sessions
-from asperity.web import live
+from asperity.web import warm_worker
 
 
 def test_who_has_gone_by_the_time_it_is_his_turn_is_passed_over(tmp_path, monkeypatch):
     began = []
 
     async def main():
-        owner = live.Live("solver", tmp_path)
+        owner = warm_worker.WarmWorker("solver", tmp_path)
         owner.up.set()
         owner.ready.set()
         free = asyncio.Event()

@@ -11,7 +11,7 @@ import json
 from pathlib import Path
 
 from asperity.processes import sessions
-from asperity.web.verbs import VERBS, told
+from asperity.web.verbs import VERBS, error_body
 
 _TRIES = 3
 _SLOWEST_START = 600.0  # of the first of all, in which every kernel is compiled
@@ -21,7 +21,7 @@ Answer = tuple[int, bytes]
 Gone = sessions.Gone
 
 
-class Live:
+class WarmWorker:
     """The owner of a worker.
 
     Parameters
@@ -143,7 +143,7 @@ class Live:
 
 
 def _line(status: int, line: str, exit_code: int) -> Answer:
-    return status, json.dumps(told(line, exit_code)).encode()
+    return status, json.dumps(error_body(line, exit_code)).encode()
 
 
 _GONE = _line(499, "nobody waits for the answer", 1)

@@ -13,7 +13,7 @@ from asperity.files.shipped import SPEAKING, describe, shipped_case, shipped_cas
 _KINDS = (("rig", "rig"), ("drive", "drive"), ("block", "block"), ("gearset", "gear"))
 
 
-class Listed(NamedTuple):
+class OpenableCase(NamedTuple):
     """A case that can be opened.
 
     Attributes
@@ -35,15 +35,15 @@ class Listed(NamedTuple):
     shipped: bool
 
 
-def listed(own: Iterable[Path] = ()) -> Iterator[Listed]:
+def openable_cases(files: Iterable[Path] = ()) -> Iterator[OpenableCase]:
     """Yield cases of one's own that can be read, and those that ship."""
-    for path in own:
+    for path in files:
         if found := _looked_at(path):
-            yield Listed(path.name, "", *found, shipped=False)
+            yield OpenableCase(path.name, "", *found, shipped=False)
     says = {name: alias for alias, name in SPEAKING.items()}
     for name, path in shipped_cases().items():
         if found := _looked_at(path):
-            yield Listed(name, says.get(name, ""), *found, shipped=True)
+            yield OpenableCase(name, says.get(name, ""), *found, shipped=True)
 
 
 def kind_of(tables: Mapping[str, object]) -> str:
