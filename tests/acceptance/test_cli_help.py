@@ -7,7 +7,7 @@ import pytest
 import typer
 
 from asperity.cli.application import app
-from asperity.cli.command_line import made
+from asperity.cli.command_line import built
 from asperity.cli.helped import as_written
 from asperity.commands import COMMANDS
 
@@ -20,7 +20,7 @@ def commands(command, words=()):
         yield from commands(one, (*words, name))
 
 
-EVERY = dict(commands(made(app)))
+EVERY = dict(commands(built(app)))
 
 
 def texts(command):

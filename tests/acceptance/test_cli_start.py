@@ -9,7 +9,7 @@ import pytest
 import typer
 
 from asperity.cli.application import app
-from asperity.cli.command_line import made
+from asperity.cli.command_line import built
 from asperity.commands import COMMANDS
 
 HEAVY = {
@@ -81,17 +81,17 @@ def _helps(command, name):
 
 
 def test_a_command_that_is_made_alone_helps_as_among_all():
-    everything = made(app).commands
+    everything = built(app).commands
     asked = {command.name.split()[0] for command in COMMANDS} | {"cases", "check", "thesis"}
     for name in sorted(asked):
-        alone = made(app, ["--materials", "mine.toml", name, "--json"]).commands
+        alone = built(app, ["--materials", "mine.toml", name, "--json"]).commands
         assert [*alone] == [name]
         assert _helps(alone[name], name) == _helps(everything[name], name) != ""
 
 
 @pytest.mark.parametrize("words", [[], ["--help"], ["rat"], ["--nothing", "rate"], ["--", "rate"]])
 def test_where_no_command_is_named_all_are_made(words):
-    assert {"rate", "cases", "rig", "thesis"} <= set(made(app, words).commands)
+    assert {"rate", "cases", "rig", "thesis"} <= set(built(app, words).commands)
 
 
 def test_a_data_file_of_plastics_is_begun_and_listed(asperity, tmp_path):

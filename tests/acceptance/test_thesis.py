@@ -19,7 +19,7 @@ import pytest
 from apparatus.thesis_words import plain as plain_words
 
 from asperity.cli.application import app
-from asperity.cli.command_line import made as command_line
+from asperity.cli.command_line import built as command_line
 from asperity.files.store import read_dataset
 from asperity.kernels import compiled
 from asperity.thesis import run

@@ -330,7 +330,7 @@ def test_an_end_that_takes_the_noise_of_most_blocks_is_an_end():
     assert 0.0 < np.mean(low == high) < 0.3
     of = SimpleNamespace(
         recording=SimpleNamespace(
-            place=lambda _: 0, sources=[SimpleNamespace(offset=0.0, scale=1e-3)]
+            index_of=lambda _: 0, sources=[SimpleNamespace(offset=0.0, scale=1e-3)]
         ),
         blocks=SimpleNamespace(
             length=0.02, lines={"torque_steel": SimpleNamespace(offset=0.0, gain=1.0)}

@@ -12,7 +12,7 @@ import typer
 
 from asperity import exit_codes
 from asperity.cli import begin, outcome
-from asperity.cli.command_line import made
+from asperity.cli.command_line import built
 from asperity.cli.helped import as_written
 from asperity.cli.outcome import USAGE_ERROR, reported, tell, usage
 from asperity.cli.registry_commands import (
@@ -355,7 +355,7 @@ def run(arguments: list[str] | None = None) -> int:
     arguments = looking(sys.argv[1:] if arguments is None else arguments)
     if arguments:
         makers.begin_for(arguments[0])
-    command: Any = made(app, arguments)
+    command: Any = built(app, arguments)
     as_written(command)
     # Left without a value, the option for help would load all of pydantic to convert none.
     no_help: dict[str, Any] = {"help": False}

@@ -14,7 +14,7 @@ from asperity.cli.registry_commands import register
 from asperity.commands import COMMANDS, GROUPS
 
 
-def made(app: typer.Typer, arguments: Sequence[str] | None = None) -> Any:
+def built(app: typer.Typer, arguments: Sequence[str] | None = None) -> Any:
     """Return what runs a command line.
 
     Parameters

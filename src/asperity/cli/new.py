@@ -100,11 +100,11 @@ def new(
             show.print_text(f"\n{operation.wear_assumed}")
 
 
-def _follow(kind: Kind, values: Values, given: Collection[str], only: str = "") -> None:
+def _follow(kind: Kind, values: Values, keys: Collection[str], only: str = "") -> None:
     """Let what is still empty follow from what others are by now."""
     for path, text in kind.follows.items():
         table, _, key = path.partition(".")
-        if path in (only or path,) and path not in given and not values[table].get(key):
+        if path in (only or path,) and path not in keys and not values[table].get(key):
             values[table][key] = text.format_map(values)
 
 
@@ -199,9 +199,9 @@ def given_to(
     return keys
 
 
-def _sized(values: Values, given: Iterable[str], ratio: float) -> list[str]:
+def _sized(values: Values, keys: Iterable[str], ratio: float) -> list[str]:
     """Fill in the macro-geometry that is not given; returns what is to be said of it."""
-    macro = [key for key in MACRO if f"gearset.{key}" in given]
+    macro = [key for key in MACRO if f"gearset.{key}" in keys]
     if len(macro) >= len(MACRO) - 1:
         return []
     found = proposals(values, ratio, exact=True)

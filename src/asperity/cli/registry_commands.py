@@ -26,12 +26,12 @@ FullOption = Annotated[
 ]
 
 
-def folder_of(given: str) -> Path:
+def folder_of(path: str) -> Path:
     """Return the folder that was given; refuses none."""
     # Python takes "" for the working directory; it is a variable of the shell that was not set.
-    if not given:
+    if not path:
         raise typer.BadParameter("it is empty; give a folder, or . for the working directory")
-    return Path(given)
+    return Path(path)
 
 
 OutOption = Annotated[

@@ -332,7 +332,7 @@ class Command:
             raise InputError(f"{self.name} needs {missing[0].name}: {missing[0].help}")
         return made
 
-    def line(self, case: str, settings: Iterable[str], given: Mapping[str, Any]) -> str:
+    def line(self, case: str, settings: Iterable[str], arguments: Mapping[str, Any]) -> str:
         """Return what does the same on a terminal, and prints it as JSON.
 
         Parameters
@@ -341,8 +341,8 @@ class Command:
             The case's name.
         settings : iterable of str
             As with ``--set``.
-        given : mapping of str to object
-            Arguments and options by name, as from `given`.
+        arguments : mapping of str to object
+            Arguments and options by name, as from `arguments`.
 
         Returns
         -------
@@ -351,12 +351,12 @@ class Command:
         """
         words = ["asperity", *self.name.split()]
         for argument in self.arguments:
-            words += given[argument.name] if argument.many else [given[argument.name]]
+            words += arguments[argument.name] if argument.many else [arguments[argument.name]]
         words += [case] if self.case else []
         for setting in settings:
             words += ["--set", setting]
         for option in self.options:
-            value = given.get(option.name, False)
+            value = arguments.get(option.name, False)
             for each in value if isinstance(value, list) else [value]:
                 if each not in (False, ""):
                     words += [

@@ -187,9 +187,9 @@ class Alternative(NamedTuple):
     safety: float
     changes: tuple[str, ...] = ()
 
-    def sentence(self, asked: float, key: str = "") -> Sentence:
+    def sentence(self, required: float, key: str = "") -> Sentence:
         """In words, beside what is asked: beyond ten times that, how far says nothing."""
-        much, near = 10.0 * asked, Number.of(self.safety, ".3g", key and f"{key}.safety")
+        much, near = 10.0 * required, Number.of(self.safety, ".3g", key and f"{key}.safety")
         safety = near if self.safety < much else f"over {much:g}"
         also = "".join(f"; {change}" for change in self.changes)
         return Sentence(f"{_WORDS[self.key]} {self.value} (", safety, f"{also})")

@@ -127,24 +127,24 @@ def _array(name: str, value: Any) -> FloatArray:
     return np.asarray(real(name, value)) * FROM_SI.get(str(VARIED[name].unit), 1.0)
 
 
-def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Real]:
+def _macro(base: Inputs, values: Mapping[str, Real], mask: Mask) -> dict[str, Real]:
     """Return teeth, module, diameter factor, profile shift and centre distance."""
 
     def now(name: str) -> Real:
-        return given.get(name, getattr(base, name))
+        return values.get(name, getattr(base, name))
 
     z1, z2 = now("starts"), now("wheel_teeth")
-    if "gear_ratio" in given:
-        if "starts" in given and "wheel_teeth" in given:
+    if "gear_ratio" in values:
+        if "starts" in values and "wheel_teeth" in values:
             raise InputError("gear_ratio, starts and wheel_teeth are given; keep two of them")
-        if "wheel_teeth" in given:
-            z1 = z2 / given["gear_ratio"]
+        if "wheel_teeth" in values:
+            z1 = z2 / values["gear_ratio"]
         else:
-            z2 = z1 * given["gear_ratio"]
+            z2 = z1 * values["gear_ratio"]
     a, m, q = now("centre_distance"), now("axial_module"), now("diameter_factor")
-    if "profile_shift" in given:
-        x2 = given["profile_shift"]
-        a, m, q = _with_shift(base, given, mask, (a, m, q), z2 + 2.0 * x2)
+    if "profile_shift" in values:
+        x2 = values["profile_shift"]
+        a, m, q = _with_shift(base, values, mask, (a, m, q), z2 + 2.0 * x2)
     else:
         x2 = relations.profile_shift(a, m, q, z2)
     return {
@@ -159,11 +159,11 @@ def _macro(base: Inputs, given: Mapping[str, Real], mask: Mask) -> dict[str, Rea
 
 
 def _with_shift(
-    base: Inputs, given: Mapping[str, Real], mask: Mask, now: tuple[Real, Real, Real], teeth: Real
+    base: Inputs, values: Mapping[str, Real], mask: Mask, now: tuple[Real, Real, Real], teeth: Real
 ) -> tuple[Real, Real, Real]:
     """Centre distance, module and diameter factor, of which one follows from shifted teeth."""
     a, m, q = now
-    follows = [n for n in ("axial_module", "diameter_factor", "centre_distance") if n not in given]
+    follows = [n for n in ("axial_module", "diameter_factor", "centre_distance") if n not in values]
     if not follows:
         raise InputError(
             "profile_shift, centre_distance, axial_module and diameter_factor are given; keep "

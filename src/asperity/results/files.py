@@ -37,13 +37,13 @@ _UNDATED: Mapping[str, Mapping[str, None]] = {
 _LASTING: dict[Any, Any] = {"svg.hashsalt": "asperity", "pdf.fonttype": 42}
 
 
-def picture_format(given: str) -> str:
+def picture_format(name: str) -> str:
     """Return what pictures are to be written as; raises InputError for what they cannot be."""
-    if given not in PICTURES:
+    if name not in PICTURES:
         raise InputError(
-            f"--format {given}: it must be one of {choices(PICTURES)}{suggestion(given, PICTURES)}"
+            f"--format {name}: it must be one of {choices(PICTURES)}{suggestion(name, PICTURES)}"
         )
-    return given
+    return name
 
 
 def write_picture(figure: "Figure", path: Path) -> Path:

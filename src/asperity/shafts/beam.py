@@ -104,7 +104,7 @@ def deflection(
         Positions, mm.
     modulus : float
         Young's modulus, MPa.
-    yielding : tuple of float
+    radial_compliance : tuple of float
         Radial compliance of each bearing, mm/N.
     between : int
         Places between any two where something changes.

@@ -65,7 +65,7 @@ def from_shelf(
         bearings = list(found.model.table.bearing)
         for number, place in enumerate(bearings):
             if place.bearing is None:
-                own = _chosen(found, place, shelf, life, factor)
+                own = _best_bearing(found, place, shelf, life, factor)
                 assert own.bearing is not None
                 bearings[number], chosen[BearingPlace(key, number)] = own, own.bearing.name
         table = found.model.table.model_copy(update={"bearing": tuple(bearings)})
@@ -73,7 +73,7 @@ def from_shelf(
     return problem._replace(worm=models["worm_shaft"], wheel=models["wheel_shaft"]), chosen
 
 
-def _chosen(
+def _best_bearing(
     shaft: LoadedShaft,
     bearing: ShaftBearing,
     shelf: Sequence[RollingBearing],

@@ -187,11 +187,11 @@ def _rated(inputs: Inputs, parts: Sequence[Load]) -> list[Load]:
     ]  # fmt: skip
 
 
-def _each(inputs: Inputs, found: Sequence[Values], key: str) -> list[float]:
+def _each(inputs: Inputs, values: Sequence[Values], key: str) -> list[float]:
     """Return a value of each part, whether they went through the formulas together or not."""
     if inputs.together:
-        return [float(v) for v in np.broadcast_to(found[0][key], (len(inputs.duty),))]
-    return [float(own[key]) for own in found]
+        return [float(v) for v in np.broadcast_to(values[0][key], (len(inputs.duty),))]
+    return [float(own[key]) for own in values]
 
 
 def _load(

@@ -40,11 +40,11 @@ class DataFile:
         return "\n".join(lines) + "\n"
 
 
-def _of(key: Key, given: Mapping[str, str]) -> Iterator[str]:
+def _of(key: Key, values: Mapping[str, str]) -> Iterator[str]:
     if key.name == "name":
         return
     yield from comment(key.meaning)
-    value = given.get(key.name)
+    value = values.get(key.name)
     yield f"{key.name} = {value}" if value else f"#{key.name} ="
     yield ""
 

@@ -196,17 +196,17 @@ def _details(kept: Mapping[str, Any], values: Values, keys: Mapping[str, Any]) -
     return told
 
 
-def drop_begun_life(values: Values, given: Collection[str]) -> None:
+def drop_begun_life(values: Values, keys: Collection[str]) -> None:
     """Leave out the life that a file begins with where the steps of a spectrum say it.
 
     Parameters
     ----------
     values : dict
         The tables, changed in place.
-    given : collection of str
+    keys : collection of str
         Keys that somebody gave, as ``table.key``; a life among them stays.
     """
-    if "spectrum" in values and "operation.life" not in given:
+    if "spectrum" in values and "operation.life" not in keys:
         values["operation"].pop("life", None)
 
 

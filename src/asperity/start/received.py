@@ -15,7 +15,7 @@ _MOST_READ = 16_000_000
 """Bytes of a table that is read whole; a longer one is told of when it is used."""
 
 
-def look_at(
+def refuse_unreadable(
     path: Path, name: str, *, recorded: bool, allowed: Callable[[Case], None] = lambda case: None
 ) -> None:
     """Refuse a file that nothing here reads, in one line that calls it by its name.
@@ -41,9 +41,9 @@ def look_at(
     ending = path.suffix.lower()
     try:
         if ending == _CASE:
-            _look_at_case(path, name, allowed)
+            _refuse_case(path, name, allowed)
         elif ending == _RECORDING:
-            _look_at_recording(path, name)
+            _refuse_recording(path, name)
         elif path.stat().st_size > _MOST_READ:
             return
         elif recorded or ending in _BINARY:
@@ -56,7 +56,7 @@ def look_at(
         raise InputError(str(error).replace(str(path), name)) from None
 
 
-def _look_at_recording(path: Path, name: str) -> None:
+def _refuse_recording(path: Path, name: str) -> None:
     from asperity.tribometer.recording import Recording
 
     try:
@@ -65,7 +65,7 @@ def _look_at_recording(path: Path, name: str) -> None:
         raise InputError(f"{name} is no recording of a rig, or it is damaged") from None
 
 
-def _look_at_case(path: Path, name: str, allowed: Callable[[Case], None]) -> None:
+def _refuse_case(path: Path, name: str, allowed: Callable[[Case], None]) -> None:
     allowed(check_case(path, case_tables())[0])
     found = check(str(path), ())
     if found.mistakes:

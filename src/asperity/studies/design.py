@@ -303,13 +303,13 @@ class Space:
         worth = np.where(allowed & ~np.isnan(found[height]), found[height], -np.inf)
         return [points[int(np.argmax(worth))]] if np.any(worth > -np.inf) else []
 
-    def room(self, found: Mapping[str, FloatArray]) -> list[FloatArray]:
+    def room(self, numbers: Mapping[str, FloatArray]) -> list[FloatArray]:
         """Return by how much profile shift and safeties keep their bounds, none below zero."""
-        shift = found["profile_shift"]
-        safeties = [found[path] / bound - 1.0 for path, bound in self.least.items()]
+        shift = numbers["profile_shift"]
+        safeties = [numbers[path] / bound - 1.0 for path, bound in self.least.items()]
         if self.least_threads is not None:
-            safeties.append(found[THREADS] - self.least_threads)
-        safeties += [found[name] for name in self._required]
+            safeties.append(numbers[THREADS] - self.least_threads)
+        safeties += [numbers[name] for name in self._required]
         return [shift - self.profile_shift[0], self.profile_shift[1] - shift, *safeties]
 
     @property

@@ -148,10 +148,10 @@ def thesis(folder: Folder, body: Body) -> dict[str, Any]:
 
 def received(folder: Folder, body: Body) -> dict[str, Any]:
     """Look at what was put into the folder before it takes its name."""
-    from asperity.start.received import look_at
+    from asperity.start.received import refuse_unreadable
 
     part, name, recorded = folder.inside(str(body["part"])), str(body["name"]), body["recorded"]
-    look_at(part, name, recorded=recorded, allowed=lambda case: confine(case, folder))
+    refuse_unreadable(part, name, recorded=recorded, allowed=lambda case: confine(case, folder))
     return {"name": name}
 
 

@@ -100,15 +100,15 @@ class Collection:
             return None
         return self.show(exhibit, made, reused=True)
 
-    def show(self, exhibit: Exhibit, made: MadeExhibit, *, reused: bool) -> Shown | None:
+    def show(self, exhibit: Exhibit, record: MadeExhibit, *, reused: bool) -> Shown | None:
         """Return an exhibit as it stands on disk, None if its files are not what was written."""
-        paths = {Path(name).suffix: self.folder / name for name in made.files}
+        paths = {Path(name).suffix: self.folder / name for name in record.files}
         try:
-            if any(_sha256(self.folder / name) != was for name, was in made.files.items()):
+            if any(_sha256(self.folder / name) != was for name, was in record.files.items()):
                 return None
         except OSError:
             return None
-        return Shown(exhibit, made.plain, paths, reused)
+        return Shown(exhibit, record.plain, paths, reused)
 
 
 def _read(folder: Path) -> list[MadeExhibit]:

@@ -22,7 +22,7 @@ def proposals(
     data: Measurements,
     predict: Predictor,
     best: Estimate,
-    given: Callable[[FloatArray], dict[str, Value]],
+    parameters_of: Callable[[FloatArray], dict[str, Value]],
     keys: Sequence[str],
     deviation: float,
     count: int,
@@ -38,7 +38,7 @@ def proposals(
         The model.
     best : Estimate
         The fit.
-    given : callable
+    parameters_of : callable
         Parameters of the model at a point.
     keys : sequence of str
         Of the parameters.
@@ -48,12 +48,14 @@ def proposals(
         How many.
     """
     looked_at = list(candidates(data))
-    here, _ = predict(looked_at, given(best.point))
+    here, _ = predict(looked_at, parameters_of(best.point))
     slopes = np.empty((len(looked_at), best.point.size))
     for place in range(best.point.size):
         moved = best.point.copy()
         moved[place] -= _STEP
-        slopes[:, place] = (here - predict(looked_at, given(moved))[0]) / (_STEP * deviation)
+        slopes[:, place] = (here - predict(looked_at, parameters_of(moved))[0]) / (
+            _STEP * deviation
+        )
     slopes[~np.isfinite(slopes).all(axis=1)] = 0.0
     information = best.slopes.T @ best.slopes
     information += _FAINT * np.eye(len(information))

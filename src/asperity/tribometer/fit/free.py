@@ -85,9 +85,9 @@ class Free:
         return low, math.log(upper) if upper is not None else middle + 2.0 * WIDEST
 
 
-def _written(given: object, quantity: Quantity) -> str:
+def _written(value: object, quantity: Quantity) -> str:
     """Return the unit that a value is given in, or that of the example where it is in SI."""
-    for text in (given, quantity.example):
+    for text in (value, quantity.example):
         parts = split_unit(text) if isinstance(text, str) else None
         if parts is not None and parts[1] != quantity.unit:
             return parts[1]

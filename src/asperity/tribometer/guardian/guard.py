@@ -123,18 +123,18 @@ class Guard:
         wire.deaf()
         answers.put(None)
 
-    def ask(self, to: str, do: str, *given: Any) -> Any:
+    def ask(self, to: str, do: str, *arguments: Any) -> Any:
         """Return what an object of the guardian gives; raises what it raises."""
         self.begun()
-        return self._ask(self._limit, to, do, given)
+        return self._ask(self._limit, to, do, arguments)
 
-    def ask_bytes(self, to: str, do: str, *given: Any) -> tuple[Any, bytes]:
+    def ask_bytes(self, to: str, do: str, *arguments: Any) -> tuple[Any, bytes]:
         """Return the same; a guardian has no bytes to give."""
-        return self.ask(to, do, *given), b""
+        return self.ask(to, do, *arguments), b""
 
-    def _ask(self, limit: float, to: str, do: str, given: Sequence[Any]) -> Any:
+    def _ask(self, limit: float, to: str, do: str, arguments: Sequence[Any]) -> Any:
         self._number += 1
-        self._send({"to": to, "do": do, "with": list(given), "n": self._number})
+        self._send({"to": to, "do": do, "with": list(arguments), "n": self._number})
         while True:
             try:
                 answer = self._answers.get(timeout=0.5 * BEAT)

@@ -16,7 +16,7 @@ from typing import Any
 from asperity import exit_codes
 from asperity.tribometer.guardian import wire as wires
 from asperity.tribometer.guardian.alarm import Alarm
-from asperity.tribometer.guardian.owned import LISTENER, Asked, Device, Verdict
+from asperity.tribometer.guardian.owned import LISTENER, Device, PendingRequest, Verdict
 from asperity.tribometer.guardian.relay import Relay
 from asperity.tribometer.guardian.stop import StopButton, named
 from asperity.tribometer.guardian.switching import Switching, longest
@@ -101,7 +101,7 @@ class Guardian:
         self._verdicts = Verdicts(
             self._switching, self._writing, self._alarm, by_hand, say, now, ended_by
         )
-        self._awaited: dict[cf.Future[Any], Asked] = {}
+        self._awaited: dict[cf.Future[Any], PendingRequest] = {}
         self._on: set[str] = set()
         self._kind = SWITCHED_OFF
         self._switched = True  # whether that has had everything told to be off
@@ -250,7 +250,7 @@ class Guardian:
             verb, given = head["do"], head.get("with", ())
             self._begin(number, name, lambda one: getattr(one, verb)(*given))
 
-    def _asked_itself(self, verb: str, number: int, given: Sequence[Any], came: float) -> None:
+    def _asked_itself(self, verb: str, number: int, arguments: Sequence[Any], came: float) -> None:
         if verb == "beat":
             waits = any(asked.what == self._called("vibration") for asked in self._awaited.values())
             if "vibration" in self._on and not self._tripped and not waits:
@@ -262,7 +262,7 @@ class Guardian:
             told = last.line() | ({"trouble": trouble} if trouble else {})
             self._send({"n": number, "gave": told})
         elif verb == "off":
-            why, listen = given
+            why, listen = arguments
             # Switched off already it has its line, and who asks again may have waited for that.
             event = self._now() if self._tripped else came
             found = self._off(why, event, listen=listen, last=listen)
@@ -274,7 +274,7 @@ class Guardian:
             self._send({"n": number, "gave": None})
 
     def _begin(self, number: int, key: str, act: Callable[[Any], Any]) -> None:
-        asked = Asked(number, self._called(key), self._now())
+        asked = PendingRequest(number, self._called(key), self._now())
         future = self._of[key].begin(key, act)
         self._awaited[future] = asked
 
@@ -294,10 +294,10 @@ class Guardian:
         elif asked.number:
             self._send(wires.answered(asked.number, future.result)[0])
 
-    def _fault(self, asked: Asked, error: BaseException, event: float) -> None:
+    def _fault(self, pending: PendingRequest, error: BaseException, event: float) -> None:
         """Tell of an instrument that is late or lost, and switch off."""
-        if asked.number:
-            self._send(wires.failed(asked.number, error))
+        if pending.number:
+            self._send(wires.failed(pending.number, error))
         self._trip(str(error), event)
 
     def _trip(

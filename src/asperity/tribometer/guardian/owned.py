@@ -73,7 +73,7 @@ class Device:
 
 
 @dataclasses.dataclass
-class Asked:
+class PendingRequest:
     """A request whose answer is awaited; ``number`` is 0 where nobody waits for it."""
 
     number: int

@@ -56,15 +56,15 @@ class RigLine:
                 f"the simulated rig does not answer: {error}", kind="line lost"
             ) from None
 
-    def ask(self, to: str, do: str, *given: Any) -> Any:
+    def ask(self, to: str, do: str, *arguments: Any) -> Any:
         """Return what an object gives; raises what it raises."""
-        return self.ask_bytes(to, do, *given)[0]
+        return self.ask_bytes(to, do, *arguments)[0]
 
-    def ask_bytes(self, to: str, do: str, *given: Any) -> tuple[Any, bytes]:
+    def ask_bytes(self, to: str, do: str, *arguments: Any) -> tuple[Any, bytes]:
         """Return what an object gives, with its bytes."""
         with self._lock:
             try:
-                self._wire.send({"to": to, "do": do, "with": given, "n": 1})
+                self._wire.send({"to": to, "do": do, "with": arguments, "n": 1})
             except (OSError, ValueError):
                 answer = None
             else:

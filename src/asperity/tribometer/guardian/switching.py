@@ -140,7 +140,7 @@ class Switching:
         return self._verdict(why, event, found, came, unasked=unasked)
 
     def _verdict(
-        self, why: str, event: float, found: Sequence[Off], came: Mapping[str, float], *,
+        self, why: str, event: float, outputs: Sequence[Off], came: Mapping[str, float], *,
         unasked: str = "",
     ) -> Verdict:  # fmt: skip
         hands = [Off(name, False, unasked) for name in self._by_hand] if unasked else []
@@ -149,7 +149,7 @@ class Switching:
         for key, at in dict(came).items():
             named[self._named(key)] = max(at - event, named.get(self._named(key), 0.0))
         return Verdict(
-            why, event, self._now() - event, (*found, *hands), named,
+            why, event, self._now() - event, (*outputs, *hands), named,
             () if unasked else tuple(self._by_hand),
         )  # fmt: skip
 
@@ -170,11 +170,11 @@ class Switching:
         self,
         asked: dict[str, "cf.Future[Any]"],
         answered: Sequence[str],
-        found: Iterable[Off],
+        outputs: Iterable[Off],
         came: dict[str, float],
     ) -> None:
         """Tell and ask what has answered and was not found off."""
-        names = {one.name for one in found if not one.proven}
+        names = {one.name for one in outputs if not one.proven}
         # An answer that comes meanwhile was not looked at, and is not to be lost.
         again = [key for key in answered if self._named(key) in names]
         if not again:
@@ -213,9 +213,9 @@ class Switching:
         trouble = self._of[key].trouble
         return InstrumentError(trouble, kind="line lost") if trouble else _SILENT
 
-    def _hopeless(self, found: Iterable[Off]) -> bool:
+    def _hopeless(self, outputs: Iterable[Off]) -> bool:
         """Whether all that is not off could not even be opened."""
-        left = {one.name for one in found if not one.proven}
+        left = {one.name for one in outputs if not one.proven}
         return bool(left) and all(
             self._of[key].trouble
             for stage in STAGES for key in stage

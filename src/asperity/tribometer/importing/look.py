@@ -19,7 +19,7 @@ _FIRST = 3  # values shown
 _PARTS = 600  # of a picture's width
 
 
-class Looked(Result):
+class FileContents(Result):
     """What a file holds, as it is understood.
 
     Attributes
@@ -88,7 +88,7 @@ def prepare(
 
 # Bytes that were changed may be numbers that signal when they are touched.
 @np.errstate(all="ignore")
-def answer(problem: tuple[str, Columns], run: Run) -> Looked:
+def answer(problem: tuple[str, Columns], run: Run) -> FileContents:
     """Tell what was understood."""
     name, columns = problem
     rows = max(len(one) for one in columns.values)
@@ -100,7 +100,7 @@ def answer(problem: tuple[str, Columns], run: Run) -> Looked:
         values = np.nan_to_num(np.asarray(one[:_FIRST], dtype=float))
         first[place, : len(values)] = values
     low, high, edges = _courses(columns, rows)
-    return Looked(
+    return FileContents(
         headings=columns.headings, units=columns.units, source=name, program=columns.program,
         samples=rows, sample_interval=interval, start=columns.start, duration=length * interval,
         gaps=length - rows, least=np.array([one.min() for one in shown]),

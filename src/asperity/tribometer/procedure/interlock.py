@@ -89,7 +89,9 @@ class Interlock:
         names = (one.signal for one in self.inputs)
         return dict(zip(names, map(float, values), strict=True))
 
-    def look(self, counts: Counts, interval: float, expected: Expected, *, settled: bool) -> None:
+    def check_samples(
+        self, counts: Counts, interval: float, expected: Expected, *, settled: bool
+    ) -> None:
         """Look at samples.
 
         Parameters

@@ -190,7 +190,7 @@ class Logger:
             now = bench.clock.now()
             counts = stream.take()
             settled = not self._changing and now - self._told > _SETTLING + self._lag
-            self._interlock.look(counts, self.interval, self.expected, settled=settled)
+            self._interlock.check_samples(counts, self.interval, self.expected, settled=settled)
             if now - self._looked >= _SUPPLIES_EVERY:
                 self._looked = now
                 self._interlock.supplies(bench.motors, self.expected)

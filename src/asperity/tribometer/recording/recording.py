@@ -172,7 +172,7 @@ class Recording:
         case = Case(plain(str(self.path)), self.path.parent.absolute(), {}, raw, known)
         return case.replace(())
 
-    def place(self, signal: str) -> int | None:
+    def index_of(self, signal: str) -> int | None:
         """Return the place of a signal among the channels; None where it was not recorded."""
         return next((n for n, one in enumerate(self.sources) if one.signal == signal), None)
 
@@ -236,12 +236,12 @@ class Recording:
         InputError
             The signal was not recorded.
         """
-        place = self.place(signal)
-        if place is None:
+        index = self.index_of(signal)
+        if index is None:
             raise InputError(f"{plain(str(self.path))}: {signal} is not recorded")
         with self._counts() as raw:
-            counts = raw[first : self.samples if last is None else last, place]
-        return worth(counts, self.sources[place])
+            counts = raw[first : self.samples if last is None else last, index]
+        return worth(counts, self.sources[index])
 
     @contextlib.contextmanager
     def _counts(self) -> Iterator[Any]:
@@ -337,12 +337,12 @@ def _sources(file: Any, count: int, name: str) -> tuple[Source, ...]:
     scales, offsets = (file[key][...].astype(float).tolist() for key in ("scale", "offset"))
     if not len(signals) == len(units) == len(scales) == len(offsets) == count:
         raise StorageError(f"{name}: its channels are not told one by one")
-    for place, signal in enumerate(signals):
+    for index, signal in enumerate(signals):
         if signal not in SIGNALS:
-            raise StorageError(f"{name}: channel {place + 1} holds {shown(signal)}, no signal")
-        if signal in signals[:place]:
+            raise StorageError(f"{name}: channel {index + 1} holds {shown(signal)}, no signal")
+        if signal in signals[:index]:
             raise StorageError(f"{name}: {signal} stands on two channels")
-        if not (math.isfinite(scales[place]) and math.isfinite(offsets[place])):
+        if not (math.isfinite(scales[index]) and math.isfinite(offsets[index])):
             raise StorageError(f"{name}: {signal} has a scale that is no number")
     return tuple(map(Source, signals, units, scales, offsets))
 

@@ -111,7 +111,7 @@ def blocks_of(recording: Recording, channels: Channels, length: float) -> Blocks
     """
     name = recording.name
     for signal in NEEDED:
-        if recording.place(signal) is None:
+        if recording.index_of(signal) is None:
             raise InputError(
                 f"{name}: {signal} is not recorded; map a channel to it in [channels] and import "
                 "the file again"

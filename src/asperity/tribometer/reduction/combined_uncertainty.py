@@ -153,7 +153,7 @@ def _with_freedom(
     ]  # fmt: skip
 
 
-class _Asked(dict[str, FloatArray]):
+class _NotingLevels(dict[str, FloatArray]):
     """Levels that note which of them a number is made of."""
 
     def __init__(self, pairs: Pairs) -> None:
@@ -167,7 +167,7 @@ class _Asked(dict[str, FloatArray]):
 
 def _slopes(of: Callable[[Pairs], float], pairs: Pairs) -> dict[str, FloatArray]:
     """Return slopes by the levels of each signal that has any."""
-    found, asked = {}, _Asked(pairs)
+    found, asked = {}, _NotingLevels(pairs)
     of(asked)
     for name, levels in pairs.items():
         if name not in asked.names:

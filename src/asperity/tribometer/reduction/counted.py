@@ -265,7 +265,7 @@ def estimate_counted(
 def _at_all_delays(
     fit: _Fit, parameters: FloatArray, shown: Sequence[FloatArray]
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-    """Return what the signal says and where from, as `_Fit.told` does, over all delays.
+    """Return what the signal says and where from, as `_Fit.in_full` does, over all delays.
 
     The likeliest delay alone would be that of the largest give, wherever little tells of it.
     """

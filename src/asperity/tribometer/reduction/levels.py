@@ -133,19 +133,21 @@ class _Fit:
         target = self.signal + level * (form - 1.0)
         return np.column_stack((self.member * form[:, None], level[:, None] * self.shared, target))
 
-    def solve(self, columns: FloatArray, given: FloatArray) -> tuple[float, FloatArray, FloatArray]:
+    def solve(
+        self, columns: FloatArray, parameters: FloatArray
+    ) -> tuple[float, FloatArray, FloatArray]:
         """Return twice the restricted likelihood's negative, the estimates, their information.
 
         Parameters
         ----------
         columns : ndarray
             From `columns`.
-        given : ndarray, shape (4,)
+        parameters : ndarray, shape (4,)
             Logit of the share of coloured noise, logarithm of its memory over a block, of the
             noise's size under vibration over that without, and of the noise's variance; the last
             one is found where it is not a number.
         """
-        share, memory, size = _noise(given, self.block)
+        share, memory, size = _noise(parameters, self.block)
         sizes = np.where(self.under, size, 1.0)
         width = columns.shape[1]
         products = np.empty((width, width))
@@ -154,12 +156,12 @@ class _Fit:
         state = share * share_of_state(memory, self.block)
         logarithm = whitened(self.times, columns, sizes, state, memory, self.rows, products)
         free = self.signal.size - width + 1
-        scale = self.scale if math.isnan(given[3]) else math.exp(given[3])
+        scale = self.scale if math.isnan(parameters[3]) else math.exp(parameters[3])
         # What is expected of run-out and drift counts as data of its own, of a weight that hangs
         # on the noise.
         found = np.empty(width + 1)
         of_known = estimated(
-            products, self.prior, self.expected, scale, _ROUNDS if math.isnan(given[3]) else 0,
+            products, self.prior, self.expected, scale, _ROUNDS if math.isnan(parameters[3]) else 0,
             free, free * _FLOOR, np.empty((width - 1, width - 1)), found,
         )  # fmt: skip
         if math.isnan(of_known):
@@ -167,7 +169,7 @@ class _Fit:
         scale, rest = found[-2:].tolist()
         likelihood = (
             logarithm + free * math.log(scale) + rest / scale + of_known
-            + unexpected(memory, given[2])
+            + unexpected(memory, parameters[2])
         )  # fmt: skip
         information = products[:-1, :-1] / scale
         information.flat[::width] += self.prior
@@ -188,10 +190,10 @@ def unexpected(memory: float, size: float) -> float:
     return (size / _SIZE_SPREAD) ** 2 + lasts**2
 
 
-def _noise(given: FloatArray, block: float) -> tuple[float, float, float]:
-    share = 1.0 / (1.0 + math.exp(-min(max(given[0], _NEAR_NONE), 8.0)))
-    size = math.exp(min(max(given[2], -_MOST_SIZE), _MOST_SIZE))
-    return share, block * math.exp(min(max(given[1], -2.0), 9.0)), size
+def _noise(parameters: FloatArray, block: float) -> tuple[float, float, float]:
+    share = 1.0 / (1.0 + math.exp(-min(max(parameters[0], _NEAR_NONE), 8.0)))
+    size = math.exp(min(max(parameters[2], -_MOST_SIZE), _MOST_SIZE))
+    return share, block * math.exp(min(max(parameters[1], -2.0), 9.0)), size
 
 
 def estimate_levels(
@@ -309,7 +311,9 @@ def beyond_doubt(value: float, variance: float) -> float:
     return math.copysign(math.sqrt(max(value**2 - variance, 0.0)), value)
 
 
-def likeliest(unlikely: Callable[[FloatArray], float], given: FloatArray, free: int) -> FloatArray:
+def likeliest(
+    unlikely: Callable[[FloatArray], float], parameters: FloatArray, free: int
+) -> FloatArray:
     """Return parameters of noise, of which the first ones are free, where something is least."""
     from scipy.optimize import minimize
 
@@ -317,7 +321,7 @@ def likeliest(unlikely: Callable[[FloatArray], float], given: FloatArray, free: 
         # Where it is flat the last digits, which differ from one processor to another, would lead.
         return round(unlikely(np.concatenate((sought, fixed))), _TOLD)
 
-    fixed, start = given[free:], given[:free]
+    fixed, start = parameters[free:], parameters[:free]
     simplex = np.vstack((start, start + np.diag([3.0 * _LOOK, 2.0 * _LOOK, _LOOK][:free])))
     found = minimize(
         told, start, method="Nelder-Mead",
@@ -327,7 +331,7 @@ def likeliest(unlikely: Callable[[FloatArray], float], given: FloatArray, free: 
 
 
 def doubt(
-    solve: Solve, given: FloatArray, count: int, free: Sequence[int]
+    solve: Solve, parameters: FloatArray, count: int, free: Sequence[int]
 ) -> tuple[FloatArray, FloatArray]:
     """Return the slopes of the levels' covariance by the noise's parameters, and their own.
 
@@ -335,18 +339,18 @@ def doubt(
     ----------
     solve : callable
         Of the parameters twice the restricted likelihood's negative, estimates, their information.
-    given : ndarray
+    parameters : ndarray
         The likeliest parameters.
     count : int
         Of levels, the first of the estimates.
     free : sequence of int
         The parameters that are in doubt.
     """
-    steps = np.zeros((len(free), given.size))
+    steps = np.zeros((len(free), parameters.size))
     steps[np.arange(len(free)), list(free)] = _STEP
-    middle = solve(given)[0]
-    up = [solve(given + step) for step in steps]
-    down = [solve(given - step) for step in steps]
+    middle = solve(parameters)[0]
+    up = [solve(parameters + step) for step in steps]
+    down = [solve(parameters - step) for step in steps]
     slopes = np.array(
         [
             (np.linalg.inv(a[2]) - np.linalg.inv(b[2]))[:count, :count] / (2.0 * _STEP)
@@ -357,7 +361,7 @@ def doubt(
     for m in range(len(free)):
         bend[m, m] = up[m][0] - 2.0 * middle + down[m][0]
         for n in range(m):
-            cross = solve(given + steps[m] + steps[n])[0]
+            cross = solve(parameters + steps[m] + steps[n])[0]
             bend[m, n] = bend[n, m] = cross - up[m][0] - up[n][0] + middle
     # Twice a negative likelihood bends by twice the information.
     information = 0.5 * bend / _STEP**2

@@ -11,7 +11,7 @@ from asperity.results.table import Table
 from asperity.tribometer.plots import changes, over_velocity
 from asperity.tribometer.reduction import budget_tables
 from asperity.tribometer.reduction.result import Reduced
-from asperity.tribometer.report.standards import MISSING, Asked
+from asperity.tribometer.report.standards import MISSING, StandardHeading
 from asperity.tribometer.sheets import Sheet
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class Report(Result):
         Of the sensors.
     standard : str
         Whose headings it has; empty: none.
-    asked : tuple of Asked
+    asked : tuple of StandardHeading
         What that asks for.
     friction : Table or None
         Coefficients of friction, where a standard asks for them.
@@ -75,7 +75,7 @@ class Report(Result):
     refused: tuple[tuple[str, str], ...]
     sheets: tuple[Sheet, ...] = ()
     standard: str = ""
-    asked: tuple[Asked, ...] = ()
+    asked: tuple[StandardHeading, ...] = ()
     friction: Table | None = None
     recordings: int = quantity("", "", "recordings")
     measured: int = quantity("", "", "segments that were reduced")

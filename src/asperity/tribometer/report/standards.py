@@ -33,7 +33,7 @@ Items = tuple[tuple[str, str], ...]
 
 
 @dataclasses.dataclass(frozen=True)
-class Asked:
+class StandardHeading:
     """A heading of a standard's report, with what is told under it."""
 
     heading: str
@@ -45,32 +45,32 @@ class Asked:
         return tuple(name for name, told in self.items if told == MISSING)
 
 
-def asked(
+def headings_of(
     standard: str, case: Case, reduced: Reduced, recordings: Sequence[Recording]
-) -> tuple[Asked, ...]:
+) -> tuple[StandardHeading, ...]:
     """Return what a standard asks for, told as far as case and recordings do."""
     used = [one for one in reduced.segments if one.quality != REFUSED]
     found = (
-        Asked("Conformance", tuple(_conformance(standard, case))),
-        Asked("Apparatus and contact", tuple(_contact(case))),
-        Asked("Specimens", tuple(_specimens(case))),
-        Asked(
+        StandardHeading("Conformance", tuple(_conformance(standard, case))),
+        StandardHeading("Apparatus and contact", tuple(_contact(case))),
+        StandardHeading("Specimens", tuple(_specimens(case))),
+        StandardHeading(
             "Test parameters",
             (
                 *_parameters(standard, case, used, reduced.files),
                 ("normal force, measured", measured("normal_force", case, recordings)),
             ),
         ),
-        Asked(
+        StandardHeading(
             "Environment and lubricant",
             (
                 *_environment(case),
                 ("temperature, measured", measured("temperature", case, recordings)),
             ),
         ),
-        Asked("Friction", tuple(_friction(used, reduced))),
-        Asked("Wear", tuple(_wear(case, reduced))),
-        Asked("Laboratory and instruments", tuple(_laboratory(case, recordings))),
+        StandardHeading("Friction", tuple(_friction(used, reduced))),
+        StandardHeading("Wear", tuple(_wear(case, reduced))),
+        StandardHeading("Laboratory and instruments", tuple(_laboratory(case, recordings))),
     )
     return found
 
@@ -80,7 +80,7 @@ def measured(signal: str, case: Case, recordings: Sequence[Recording]) -> str:
     import numpy as np
 
     unit, means = SIGNALS[signal].unit, []
-    for one in (one for one in recordings if one.place(signal) is not None):
+    for one in (one for one in recordings if one.index_of(signal) is not None):
         scale, line = lines_of(one, case.require(Channels))[signal]
         if not np.isnan(values := one.values(signal)).all():
             means.append(float(line.of(np.array([scale * np.nanmean(values)]))[0]))

@@ -20,7 +20,7 @@ from asperity.tribometer.reduction import study as reduction
 from asperity.tribometer.reduction.result import REFUSED, Reduced, SegmentResult
 from asperity.tribometer.reduction.study import Reducible, Series
 from asperity.tribometer.report.result import Report
-from asperity.tribometer.report.standards import asked, friction
+from asperity.tribometer.report.standards import friction, headings_of
 from asperity.tribometer.sheets import sheets
 
 _BESIDE = Conditions.table, Package.table  # of a case, what no recording needs
@@ -111,7 +111,7 @@ def answer(problem: Gathered, run: Run) -> Report:
     return Report(
         sheets=sheets(channels), standard=problem.standard,
         asked=(
-            asked(problem.standard, problem, reduced, recordings) if problem.standard else ()
+            headings_of(problem.standard, problem, reduced, recordings) if problem.standard else ()
         ),
         friction=friction(problem, reduced.segments) if problem.standard else None,
         reduced=reduced, conditions=tuple(_conditions(problem, reduced.segments)),

@@ -157,7 +157,7 @@ def _ended(of: Material, signal: str, low: Counts, high: Counts, window: Stretch
     if max(tops, bottoms) < _AT_END or min(tops, bottoms) > _OTHER_END:
         return None
     extreme = int(high.max()) if tops > bottoms else int(low.min())
-    place = of.recording.place(signal)
+    place = of.recording.index_of(signal)
     assert place is not None
     source = of.recording.sources[place]
     line = of.blocks.lines[signal]
@@ -176,7 +176,7 @@ def _coarse(of: Material, signal: str) -> Iterator[Finding]:
     """
     low, high = (each[signal].astype(float) for each in (of.blocks.lowest, of.blocks.highest))
     steps = np.diff(np.unique(np.concatenate((high, low))))
-    place_of = of.recording.place(signal)
+    place_of = of.recording.index_of(signal)
     # What is switched between a few values without noise tells nothing of a step.
     if steps.size < _LEVELS or place_of is None:
         return

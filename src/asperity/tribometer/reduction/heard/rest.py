@@ -97,12 +97,12 @@ def _off(of: Material, signal: str) -> BoolArray | None:
     return off if seen >= of.blocks.at_least(_LEAST_OFF) else None
 
 
-def _far_off(of: Material, found: Mapping[str, BoolArray]) -> list[str]:
+def _far_off(of: Material, masks: Mapping[str, BoolArray]) -> list[str]:
     """Return speeds that others say should be nothing, and that are not: their zeros are far off.
 
     So near the bound of what counts as off their noise would make pieces of every rest.
     """
-    others = [off for signal, off in found.items() if not signal.startswith("speed")]
+    others = [off for signal, off in masks.items() if not signal.startswith("speed")]
     if not others:
         return []
     end = of.blocks.at_least(_SHOWN)
@@ -110,7 +110,7 @@ def _far_off(of: Material, found: Mapping[str, BoolArray]) -> list[str]:
         Stretch(max(first, last - end), last)
         for first, last in _runs(np.logical_and.reduce(others) & ~of.vibrating)
     ])  # fmt: skip
-    return [signal for signal in found if signal.startswith("speed")
+    return [signal for signal in masks if signal.startswith("speed")
             and still.any() and _share(of, signal, still) > _FAR_OFF]  # fmt: skip
 
 

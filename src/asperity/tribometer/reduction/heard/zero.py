@@ -192,7 +192,7 @@ def _zero(of: Material, signal: str, stretches: tuple[Stretch, ...]) -> Zero | N
 
 
 def _count(of: Material, signal: str) -> float:
-    place = of.recording.place(signal)
+    place = of.recording.index_of(signal)
     return 0.0 if place is None else of.recording.sources[place].scale
 
 
