@@ -174,7 +174,7 @@ def main():
     static = time.process_time() - began
 
     q, v = motion(problem, WARM + COUNTED)
-    q[:, 2] -= model.courses[0].deflection[0]
+    q[:, 2] -= model.sweeps[0].deflection[0]
     forces, step, residual = marched(model, q, v, mesh)
     touched = [k for k in range(mesh.teeth) if mesh.candidates.counts[k, 0]]
     numbers = sorted(int(mesh.gathered[k].tooth) for k in touched)[:3]

@@ -18,7 +18,7 @@ from asperity.results.unit_systems import shown_in, shown_text
 from asperity.results.xlsx import in_shown_units
 from asperity.slider import Model
 from asperity.slider import solve as slide
-from asperity.start import compare, listed
+from asperity.start import compare, openable
 from asperity.studies import rounding, series
 from asperity.studies.design import VARIABLES
 from asperity.studies.proposed import Proposals
@@ -127,12 +127,12 @@ def test_a_case_is_opened_where_it_lies_and_in_no_other_folder(tmp_path):
     mine.mkdir()
     (mine / "own.toml").write_text('[slider]\nmass = "1 kg"\n')
     for folder in (None, mine):
-        assert listed.opened(str(mine / "own.toml"), folder) == (mine, "own.toml", "slide")
+        assert openable.opened(str(mine / "own.toml"), folder) == (mine, "own.toml", "slide")
     with pytest.raises(InputError, match=r"own\.toml is not in .*; leave --folder out, or copy it"):
-        listed.opened(str(mine / "own.toml"), tmp_path)
+        openable.opened(str(mine / "own.toml"), tmp_path)
     # What ships is opened in any folder; nothing is a start.
-    assert listed.opened("gearset-3", mine) == (mine, "gearset-3", "gear")
-    assert listed.opened("", mine) == (mine, "", "home")
+    assert openable.opened("gearset-3", mine) == (mine, "gearset-3", "gear")
+    assert openable.opened("", mine) == (mine, "", "home")
 
 
 @pytest.mark.parametrize("shift", [-0.4, 0.0, 0.5])
