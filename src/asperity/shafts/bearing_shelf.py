@@ -45,7 +45,7 @@ def from_shelf(
     -------
     problem : Prepared
         With bearings at all places.
-    chosen : dict of Place to str
+    chosen : dict of BearingPlace to str
         Their names. Where none does what is asked it is the one that comes nearest.
 
     Raises

@@ -58,7 +58,7 @@ class Checked(Result):
 
     Attributes
     ----------
-    found : tuple of Found
+    found : tuple of DrawnFinding
         In the order of recordings.
     """
 

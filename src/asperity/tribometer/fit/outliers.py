@@ -21,7 +21,7 @@ class Outlier(NamedTuple):
 
     Attributes
     ----------
-    place : int
+    measurement : int
         Of those that are fitted.
     by_others : float
         Its residual over its deviation, by parameters fitted to the others.

@@ -117,7 +117,7 @@ def read_export(path: Path, name: str, declaration: Declaration = Declaration())
         The file.
     name : str
         What messages call it.
-    declaration : Told
+    declaration : Declaration
         What somebody says of it that it does not say itself.
     """
     form = form_of(path, name)

@@ -58,7 +58,7 @@ def read_text(path: Path, name: str, declaration: Declaration = Declaration()) -
         The file.
     name : str
         What messages call it.
-    declaration : Told
+    declaration : Declaration
         What somebody says of it that it does not say itself.
 
     Raises

@@ -20,7 +20,7 @@ class Approach:
         Its instruments.
     listener : callable
         Gives a logger of nothing, which watches the drive signal.
-    told : callable
+    on_switched : callable
         Takes what outputs were told, by their names.
     """
 
@@ -30,7 +30,7 @@ class Approach:
         listener: Callable[[None, None], Logger],
         on_switched: Callable[[Mapping[str, str]], None],
     ) -> None:
-        self._bench, self._listener, self._told = bench, listener, on_switched
+        self._bench, self._listener, self._on_switched = bench, listener, on_switched
         self._ran = False
 
     def ran(self) -> None:
@@ -63,7 +63,7 @@ class Approach:
         bench = self._bench
         if bench.amplifier is not None:
             bench.amplifier.off()
-            self._told({bench.amplifier.name: "off"})
+            self._on_switched({bench.amplifier.name: "off"})
         for left in range(_TRIES, -1, -1):
             found = [one for one in bench.read_back() if not one.proven]
             named = [str(one) for one in found if not one.unheard]

@@ -21,7 +21,7 @@ class Driving:
         What they are to give.
     ran : callable
         Called before anything is switched on.
-    told : callable
+    on_switched : callable
         Takes what outputs were told, by their names.
     """
 
@@ -33,7 +33,7 @@ class Driving:
         on_switched: Callable[[Mapping[str, str]], None],
     ) -> None:
         self._bench, self._plan = bench, plan
-        self._ran, self._told = ran, on_switched
+        self._ran, self._on_switched = ran, on_switched
 
     def energise(self, logger: Logger, planned: PlannedFile) -> None:
         """Switch the motors on."""
@@ -57,7 +57,7 @@ class Driving:
         if amplifier is not None:
             # Made safe, it is off.
             amplifier.on()
-            self._told({amplifier.name: "on"})
+            self._on_switched({amplifier.name: "on"})
         logger.during(drive, drive.on)
         logger.expect(Expected(cell.frequency, planned.waveform, logger.expected.volts))
         logger.event("vibration", f"{planned.waveform} {cell.frequency:g} Hz")

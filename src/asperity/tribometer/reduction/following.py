@@ -34,7 +34,7 @@ class Following:
         Of the steel disc's motor, V.
     joint : Joint
         Levels of the file.
-    place : int
+    index : int
         Of the segment among those that are reduced.
     confidence : float
         Of intervals.

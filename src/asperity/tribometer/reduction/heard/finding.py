@@ -40,9 +40,9 @@ class Finding:
         What to do.
     signals : tuple of str
         What it is seen in.
-    course : Curve
+    curve : Curve
         Its picture.
-    place : int or None
+    index : int or None
         Of the segment it is in; None: the whole recording.
     spoils : bool
         Whether numbers rest on it that nothing mends.
