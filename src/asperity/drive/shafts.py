@@ -123,7 +123,7 @@ def beam_with_ends(
     """
     if not 0.0 < position < span:
         raise InputError(
-            f"place is {_MILLIMETRES * position:g} mm; it must lie between the bearings, "
+            f"position is {_MILLIMETRES * position:g} mm; it must lie between the bearings, "
             f"{_MILLIMETRES * span:g} mm apart"
         )
     a, b = position, span - position
