@@ -335,6 +335,7 @@ def test_a_vibration_of_nothing_changes_nothing_of_elastic_teeth():
     assert found.energy_ratio == pytest.approx(1.0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_by_the_standard_s_friction_teeth_are_loaded_as_without_vibration():
     settings = ("drive.friction=iso14521", "drive.flanks=driving", "drive.phases=8")
     model = model_of(*settings, "vibration.displacement_amplitude=1e-6 um", "drive.window=1")

@@ -1,5 +1,7 @@
 """The error of the step that an answer tells is that of a solution on twice the step."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -89,6 +91,10 @@ def at_its_state(*settings, name="table-4.3"):
     return model, cycle
 
 
+def model_of(*settings, name):
+    return Model.from_case(read_case(name, TABLES, settings))
+
+
 def foreseen_beside(cycle):
     """The ratio that is foreseen on half the step, or None, and that of the cycle."""
     here, part = step_error._ratio(cycle), orders.part_of_difference(cycle.body.model)
@@ -142,6 +148,40 @@ def test_of_coulomb_that_stops_at_corners_more_is_told_than_of_order_two():
     dahl, _ = at_its_state("vibration.waveform=triangle")
     assert orders.part_of_difference(coulomb) == 2.0
     assert orders.part_of_difference(dahl) == pytest.approx(4.0 / 3.0)
+
+
+@pytest.mark.parametrize("method", ["periodic", "march"])
+@pytest.mark.parametrize("seed", range(4))
+def test_flanks_that_a_given_step_moves_are_told_of_and_bound_the_error(method, seed):
+    """Against 1 - 2 r + 2 r/sqrt(1 + k^2), of rigid friction shaken across the drive."""
+    rng = np.random.default_rng(371 + seed)
+    rise, k, step = rng.uniform(0.08, 0.45), 10.0 ** rng.uniform(0.0, 2.5), rng.uniform(2.0, 6.0)
+    body = model_of(
+        "friction.model=coulomb", "vibration.waveform=square", "vibration.direction=90 deg",
+        f"vibration.rise_time={250.0 * rise!r} us", "vibration.frequency=4 kHz",
+        f"vibration.velocity_ratio={k!r}", f"solve.step={step!r} us", f"solve.method={method}",
+        *(["solve.duration=50 ms"] if method == "march" else []), name="table-4.1-L2",
+    )  # fmt: skip
+    answer = solve(body)
+    exact = 1.0 - 2.0 * rise + 2.0 * rise / np.hypot(1.0, k)
+    off = abs(answer.ratio - exact)
+    assert off <= 1.02 * answer.step_error + 1e-9
+    told = answer.step_error > 1e-3 * answer.ratio
+    assert any("the step makes an error" in note for note in answer.notes) == told
+
+
+def test_where_no_steps_end_on_the_flanks_finer_ones_are_not_tried():
+    body = model_of(
+        "friction.model=coulomb", "vibration.waveform=square", "vibration.direction=90 deg",
+        "vibration.rise_time=124.63 us", "vibration.frequency=4 kHz",
+        "vibration.velocity_ratio=1000", "solve.method=periodic", name="table-4.1-L2",
+    )  # fmt: skip
+    answer = solve(dataclasses.replace(body, solve=body.solve.model_copy(update={"step": None})))
+    assert answer.model.finer == 1
+    rise = 0.49852
+    exact = 1.0 - 2.0 * rise + 2.0 * rise / np.hypot(1.0, 1000.0)
+    assert 0.5 * answer.step_error < abs(answer.ratio - exact) < 1.02 * answer.step_error
+    assert sum("no steps end on the flanks" in note for note in answer.notes) == 1
 
 
 def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch):

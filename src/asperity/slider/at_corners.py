@@ -20,6 +20,7 @@ from asperity.kernels.dense import copy
 from asperity.kernels.elimination import eliminate
 from asperity.normal import elastic_force, indentation
 from asperity.slider.cycle_map import Cycle
+from asperity.slider.model import Model
 from asperity.slider.on_twice import predicted_on_half
 from asperity.slider.pressed import clear_pressed, friction_limit, march_pressed
 from asperity.slider.scaled import COULOMB, LUGRE, SPRINGS
@@ -27,6 +28,17 @@ from asperity.slider.search_room import room_for
 from asperity.slider.unknowns import read_unknowns, unknown_scales
 
 _JUMP = 1e-9  # of the load, that a jump is more than the rounding of a wave
+
+
+def of_moved_flanks(model: Model, step: float) -> float:
+    """Return what it makes of a ratio that flanks of a square wave are put on steps, at most.
+
+    Flanks that take another part of a cycle leave friction one way for the other in twice as much
+    of it at most, and less where the body follows them.
+    """
+    if model.shape is None or not model.meets_corners:
+        return 0.0
+    return 2.0 * model.shape.missed(round(1.0 / (model.frequency * step)))
 
 
 def remembers_jumps(cycle: Cycle) -> bool:

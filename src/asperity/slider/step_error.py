@@ -20,7 +20,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError
-from asperity.slider.at_corners import predicted_at_corners, ratio_let_down, remembers_jumps
+from asperity.slider import at_corners
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
@@ -53,14 +53,7 @@ def refined(
 ) -> SlideResult:
     """Solve with the largest step that makes no great error, or with that of the case.
 
-    Parameters
-    ----------
-    model : Model
-        The body.
-    once : callable
-        Solves a body with the step it has.
-    first : SlideResult, optional
-        Its answer for the model, if there is one.
+    ``once`` solves a model with the step it has; ``first`` is its answer, if there is one.
     """
     answer = first if first is not None else once(model)
     while (error := answer.step_error) is not None and error > allowed(answer):
@@ -73,6 +66,9 @@ def refined(
             other = "leave solve.scheme out" if two_phase else "none"
             return _noted(answer, f"give a solve.step of at most {step:.2g} s, or {other}")
         finer = min(2 ** math.ceil(math.log2(over)), _FINEST // answer.model.finer)
+        moved = at_corners.of_moved_flanks(answer.model, answer.model.step)
+        if moved > allowed(answer):
+            return _noted(answer, "no steps end on the flanks of the wave")
         if finer < 2:
             tried = f"{answer.model.finer} times finer, which this is, is the finest that is tried"
             return _noted(answer, tried)
@@ -122,6 +118,12 @@ def error_of_state(cycle: Cycle, model: Model) -> OfState:
     """Return the error of the ratio of a state that repeats itself."""
     if not model.vibrates:
         return OfState(0.0)
+    error, notes = _of_state(cycle, model)
+    moved = at_corners.of_moved_flanks(model, cycle.step)
+    return OfState(None if error is None else error + moved, notes)
+
+
+def _of_state(cycle: Cycle, model: Model) -> OfState:
     jacobian, slopes = map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
     here, part = _ratio(cycle), part_of_difference(model)
     other, hidden = _closed_beside(cycle, jacobian, slopes, here, part)
@@ -157,6 +159,11 @@ def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float |
     sums : void
         Those of its window.
     """
+    error = _of_march(body, table, sums)
+    return None if error is None else error + at_corners.of_moved_flanks(body.model, table.step)
+
+
+def _of_march(body: Integrator, table: Timetable, sums: np.void) -> float | None:
     ratio = float(sums["drive_force"] / sums["steps"])
     model, step, steps = body.model, table.step, table.steps
     state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
@@ -330,7 +337,7 @@ def _closed_beside(
         kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
         kept["sums"], jacobian, _CLOSING,
     )  # fmt: skip
-    let_down = ratio_let_down(cycle, jacobian, slopes)
+    let_down = at_corners.ratio_let_down(cycle, jacobian, slopes)
     hidden = 0.0 if let_down is None else abs(let_down - here)
     return (ratio if left <= _LEFT and math.isfinite(ratio) else None), hidden
 
@@ -346,8 +353,8 @@ def _foreseen(
     p, q, kept, halves = cycle.body.p, cycle.q, cycle.body.kept, cycle.halves()
     at, matrix = (kept["state"], cycle.springs, p, q), (kept["sums"], jacobian, slopes)
     jumps, let_down = 0, here
-    if remembers_jumps(cycle):
-        first, ratio, jumps, let_down = predicted_at_corners(
+    if at_corners.remembers_jumps(cycle):
+        first, ratio, jumps, let_down = at_corners.predicted_at_corners(
             *at, cycle.increments, cycle.rises, *halves, *matrix
         )
     else:

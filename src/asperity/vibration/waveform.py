@@ -187,6 +187,10 @@ class Shape:
             return self
         return dataclasses.replace(self, rise=2.0 * max(1, round(0.5 * self.rise * steps)) / steps)
 
+    def missed(self, steps: int) -> float:
+        """Part of a cycle that the flanks of `on_corners` take for those of the wave."""
+        return abs(self.on_corners(steps).rise - self.rise)
+
     def wave(self, *, lead: float = 0.0, ramped: bool = True) -> Wave:
         """Return the wave for kernels, ``lead`` cycles ahead; in full from the start if asked."""
         return Wave(self.code, self.rise, self.table, self.ramp if ramped else 0.0, lead)
