@@ -95,7 +95,9 @@ class Material:
     def _level(self, signal: str, stretch: Stretch) -> Level:
         first = stretch.first
         if signal.startswith("speed"):
-            late = self.blocks.at_least(max(self.options.speed_settling - self.options.settling, 0.0))
+            late = self.blocks.at_least(
+                max(self.options.speed_settling - self.options.settling, 0.0)
+            )
             if stretch.count - late >= self.blocks.at_least(_LEAST_OF_SPEED):
                 first += late
         values = self.blocks.means[signal][first : stretch.last]
