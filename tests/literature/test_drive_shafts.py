@@ -170,7 +170,10 @@ def test_parts_add_and_what_is_left_out_is_rigid(action):
         ({"bending": 90.0}, "span is missing"),
         ({"seat": 0.0}, "seat is 0; a stiffness must be positive"),
         ({"bending": -1.0, "span": SPAN}, "bending is -1"),
-        ({"bending": 90.0, "span": SPAN, "position": 0.15}, "position is 150 mm; it must lie between"),
+        (
+            {"bending": 90.0, "span": SPAN, "position": 0.15},
+            "position is 150 mm; it must lie between",
+        ),
     ],
 )
 def test_what_cannot_be_a_shaft_is_refused_in_one_line(given, says):
