@@ -266,11 +266,14 @@ def _nearest(tests, size, lines, importing):
     # First a few of each file, then recorded answers, which see whatever moves, then the others.
     first = _few_of_each(ordered, _OF_A_FILE, _NEAREST)
     answers = _few_of_each(sorted(recorded, key=close), _RECORDED, _RECORDED)
-    chosen, spent = [], 0.0
-    for test in dict.fromkeys(first + answers + ordered):
-        spent += lines[test]["seconds"]
-        if len(chosen) < _MOST and (spent <= _LONGEST or test in (*first, *answers)):
+    chosen = list(dict.fromkeys(first + answers))[:_MOST]
+    # A dear one among those takes nothing from the cheap ones that follow.
+    spent = 0.0
+    for test in ordered:
+        own = lines[test]["seconds"]
+        if test not in chosen and len(chosen) < _MOST and spent + own <= _LONGEST:
             chosen.append(test)
+            spent += own
     return chosen
 
 
