@@ -22,7 +22,7 @@ from asperity.contact.elastic.body import ElasticBody
 from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.drive.teeth.rim_moves import MovingRim
 from asperity.drive.teeth.sector import DENSITY, RIM, lattice
-from asperity.flanks.mesh.tooth import Counts, tooth
+from asperity.flanks.mesh.tooth import Counts, flank_shares, tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import turned
 from asperity.gearset.materials import Material
@@ -116,7 +116,7 @@ class RootModel:
         teeth: int = TEETH,
         grading: float = GRADING,
     ) -> None:
-        self.counts, self.teeth = counts, teeth
+        self.counts, self.teeth, self.grading = counts, teeth, grading
         self.pitch = 2.0 * math.pi / wheel.pair.geometry.wheel_teeth
         self.material = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, DENSITY)
         made = tooth(wheel, counts, teeth=teeth, order=2, grading=grading)
@@ -177,10 +177,11 @@ class RootModel:
         tractions = forces[beside : beside + self.teeth] / surface.nodal_area[:, None]
         out = np.zeros((len(self.mesh.points), 3))
         for place, (fine, own) in enumerate(zip(self._flanks, tractions, strict=True)):
-            # Both meshes have their rows at equal shares of the way from the fillet to the tip.
+            # The other mesh has its rows at equal shares of the way from the fillet to the tip.
             grid = lattice(dataclasses.replace(fine, positions=fine.positions @ self._turn(place)))
             share = np.empty(grid.size)
-            share[grid] = np.linspace(0.0, rows - 1.0, len(grid))[:, None]
+            own_rows = flank_shares(self.counts.flank, 2, self.grading)
+            share[grid] = (rows - 1.0) * own_rows[:, None]
             u, z = fine.to_points(share), fine.to_points(fine.positions[:, 2])
             i = np.clip(u.astype(np.int64), 0, rows - 2)
             j = np.clip(np.searchsorted(z_own, z, side="right") - 1, 0, columns - 2)
