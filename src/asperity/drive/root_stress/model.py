@@ -50,6 +50,8 @@ TEETH = 3
 
 _POINTS = 27
 _SIDES = ("fillet_plus", "fillet_minus")
+# Points of Gauss a direction on a face of a flank, over which tractions go up and down.
+_RULE = 8
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -136,7 +138,7 @@ class RootModel:
         """The loaded flanks of all teeth."""
         one = self.teeth == 1
         names = ["flank_plus"] if one else [f"flank_plus_{k}" for k in range(self.teeth)]
-        return [contact_surface(self.mesh, name, 3) for name in names]
+        return [contact_surface(self.mesh, name, _RULE) for name in names]
 
     @cached_property
     def fillets(self) -> tuple[Fillet, Fillet]:
