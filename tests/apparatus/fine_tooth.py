@@ -277,7 +277,7 @@ def _solved(
     x, rest = np.zeros_like(right), right.copy()
     z = better(rest)
     way, energy = z, (rest * z).sum(axis=0)
-    for count in range(500):
+    for _ in range(500):
         along = matrix @ way
         step = energy / (way * along).sum(axis=0)
         x, rest = x + step * way, rest - step * along

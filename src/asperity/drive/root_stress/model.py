@@ -32,8 +32,8 @@ from asperity.mesh.shape import REFERENCE_NODES, cell_shapes, gauss
 COUNTS = Counts(flank=12, face=10, thickness=6, rim=4, land=2, low_fillet=4, high_fillet=4)
 """Hexahedra of a tooth.
 
-Along the flank they are as long as those of the contact. Twice as long ones spread a force at its
-foot over the fillet, whose stress then is 6 % larger.
+Along the flank they are as long as those of the contact in the mean, and shorter towards its foot.
+Twice as long ones spread a force at its foot over the fillet, whose stress then is 6 % larger.
 """
 
 COARSER = COUNTS._replace(thickness=5)
