@@ -19,7 +19,9 @@ from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.sector import lattice, right_handed
 from asperity.runs import Run
 
-ALONG, SECTIONS = 13, 13
+# With 13, 25, 49 sections the tetrahedra have 388, 415, 423 MPa under the load at the foot, under
+# the others within 2 % of one another from 25 on.
+ALONG, SECTIONS = 13, 25
 # Of a tooth's force on the lowest fifth of its flank, above which it is beside the fillet.
 FOOT = 0.1
 
@@ -80,9 +82,10 @@ def test_a_full_fine_model_of_one_tooth_has_the_same_stress_at_its_fillet():
             assert ours == pytest.approx(fine, rel=0.05)
 
 
-def test_a_force_beside_the_fillet_adds_what_no_mesh_agrees_on():
-    # Most of this tooth's force is on its foot: the contact's own field stands on the fillet.
+def test_under_a_force_at_the_foot_the_hexahedra_are_within_a_tenth():
+    # Most of this tooth's force is on its foot. The tetrahedra are converged to 2 %; hexahedra
+    # scatter by what is where the fillet's two blocks meet: the largest tension is told too high.
     beside = [n for n, load in enumerate(loads()) if load.foot >= FOOT]
     assert len(beside) == 1
     ours, fine = (stress[beside[0]] for stress in both())
-    assert 1.0 < ours / fine < 1.25
+    assert ours == pytest.approx(fine, rel=0.1)

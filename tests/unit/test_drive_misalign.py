@@ -2,7 +2,6 @@
 
 import functools
 import math
-import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -242,21 +241,23 @@ def test_what_is_said_of_a_cold_gearset_makes_it_warm():
     cold_one, warm_one = made.places[0].problem, made.places[1].problem
     (said,) = cold(cold_one)
     assert said.startswith("cold: tolerances.temperatures add centre distance -")
-    settings = [
-        f"{key}={value}"
-        for key, value in re.findall(r"((?:mount|modification)\.\w+)='([^']+)'", said)
-    ]
-    assert len(settings) == 2
-    again = misalign.prepare(made.case.replace(settings), over=["mount.axial_offset=0,20 um"])
+    assert "drive.warm = true" in said
+    again = misalign.prepare(
+        made.case.replace(["drive.warm=true"]), over=["mount.axial_offset=0,20 um"]
+    )
     set_so = again.places[0].problem
-    assert set_so.mount.centre_distance_error == pytest.approx(
-        warm_one.mount.centre_distance_error, rel=1e-5
-    )
-    assert set_so.modification.lead_correction == pytest.approx(
-        warm_one.modification.lead_correction, rel=1e-5
-    )
-    # Without temperatures nothing is said.
+    assert set_so.mount == warm_one.mount
+    assert set_so.modification == warm_one.modification
+    # It is added once, where a point is off as well, and there is no second row of it.
+    assert len(again.places) == len(made.places) - 1
+    off = again.places[-1].problem.mount
+    assert off.axial_offset == pytest.approx(20e-6)
+    assert off.centre_distance_error == set_so.mount.centre_distance_error
+    assert not list(cold(set_so))
+    # Without temperatures nothing is said, and nothing can be warm.
     assert not list(cold(study(over=["mount.axial_offset=0,20 um"]).places[0].problem))
+    with pytest.raises(InputError, match=r"drive\.warm is true, and no temperatures are known"):
+        study("drive.warm=true", over=["mount.axial_offset=0,20 um"])
 
 
 def test_gears_and_housing_of_one_material_at_one_temperature_mesh_as_cold():

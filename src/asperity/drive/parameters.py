@@ -68,6 +68,9 @@ class Drive(Table):
     plastic : bool
         Whether pressures of loaded teeth end at the hardness of the wheel, as its edges flow; false
         for elastic ones.
+    warm : bool
+        Whether the gearset is loaded, and shaken, as it stands at ``tolerances.temperatures``: what
+        housing and gears grow by is put into centre distance and lead. Left out it is cold.
     phases : int
         Positions of the worm over a pitch, 1 to 360.
     friction : {'constant', 'iso14521'}
@@ -113,6 +116,7 @@ class Drive(Table):
     wheel_body: Literal["rim", "web"] = "rim"
     threads: Literal["rigid", "elastic"] = "elastic"
     plastic: bool = True
+    warm: bool = False
     phases: Annotated[int, Field(strict=True, ge=1, le=360)] = 24
     friction: Literal["constant", "iso14521"] = "constant"
     stroke: Annotated[

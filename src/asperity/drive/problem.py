@@ -11,6 +11,7 @@ from asperity.drive.friction import check_friction, mesh_friction
 from asperity.drive.lacking import FREE_WORM, moved, require_all
 from asperity.drive.parameters import Actuator, Drive, Shaft
 from asperity.drive.point import MeshPoint
+from asperity.drive.warmed import Warmed
 from asperity.drive.worm_shaft import shaft_of
 from asperity.errors import InputError
 from asperity.flanks.parameters import Disc, Hob, Modification, Mount
@@ -54,7 +55,7 @@ class DriveProblem:
     actuator : Actuator or None
         None: nothing is said of the electrical side.
     hob, mount, modification, disc
-        How the flanks are made and mounted; None: as they should be.
+        How the flanks are made and mounted, warm with ``drive.warm``; None: as they should be.
     blank : Blanks or None
         Web and hub, where they count; None: as is usual.
     case : Case or None
@@ -111,6 +112,10 @@ class DriveProblem:
                 turns = operation.worm_speed / (2.0 * math.pi)
                 shape = vibration.shape(case.folder, turns=turns)
             gearset, drive = case.require(Gearset), case.get(Drive, Drive())
+            mount, modification = case.get(Mount), case.get(Modification)
+            if drive.warm:
+                warm = Warmed.asked(case, gearset, mount, modification)
+                mount, modification = warm.mount, warm.modification
             return cls(
                 gearset=gearset,
                 operation=operation,
@@ -122,8 +127,8 @@ class DriveProblem:
                 shape=shape,
                 actuator=case.get(Actuator),
                 hob=case.get(Hob),
-                mount=case.get(Mount),
-                modification=case.get(Modification),
+                mount=mount,
+                modification=modification,
                 disc=case.get(Disc),
                 blank=case.get(Blanks),
                 case=case,
@@ -140,6 +145,13 @@ class DriveProblem:
         if self.drive.wheel_body == "rim":
             return None
         return WheelBody.of(self.geometry, self.blank)
+
+    @property
+    def warmer(self) -> Warmed | None:
+        """How it would stand warm; None where it does, or no temperatures are given."""
+        if self.case is None or self.drive.warm:
+            return None
+        return Warmed.of(self.case, self.gearset, self.mount, self.modification)
 
     @property
     def folder(self) -> Path | None:

@@ -22,7 +22,7 @@ from asperity.contact.elastic.body import ElasticBody
 from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.drive.teeth.rim_moves import MovingRim
 from asperity.drive.teeth.sector import DENSITY, RIM, lattice
-from asperity.flanks.mesh.tooth import Counts, tooth
+from asperity.flanks.mesh.tooth import Counts, flank_shares, tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import turned
 from asperity.gearset.materials import Material
@@ -32,8 +32,8 @@ from asperity.mesh.shape import REFERENCE_NODES, cell_shapes, gauss
 COUNTS = Counts(flank=12, face=10, thickness=6, rim=4, land=2, low_fillet=4, high_fillet=4)
 """Hexahedra of a tooth.
 
-Along the flank they are as long as those of the contact. Twice as long ones spread a force at its
-foot over the fillet, whose stress then is 6 % larger.
+Along the flank they are as long as those of the contact in the mean, and shorter towards its foot.
+Twice as long ones spread a force at its foot over the fillet, whose stress then is 6 % larger.
 """
 
 COARSER = COUNTS._replace(thickness=5)
@@ -50,6 +50,8 @@ TEETH = 3
 
 _POINTS = 27
 _SIDES = ("fillet_plus", "fillet_minus")
+# Points of Gauss a direction on a face of a flank, over which tractions go up and down.
+_RULE = 8
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -116,7 +118,7 @@ class RootModel:
         teeth: int = TEETH,
         grading: float = GRADING,
     ) -> None:
-        self.counts, self.teeth = counts, teeth
+        self.counts, self.teeth, self.grading = counts, teeth, grading
         self.pitch = 2.0 * math.pi / wheel.pair.geometry.wheel_teeth
         self.material = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, DENSITY)
         made = tooth(wheel, counts, teeth=teeth, order=2, grading=grading)
@@ -136,7 +138,7 @@ class RootModel:
         """The loaded flanks of all teeth."""
         one = self.teeth == 1
         names = ["flank_plus"] if one else [f"flank_plus_{k}" for k in range(self.teeth)]
-        return [contact_surface(self.mesh, name, 3) for name in names]
+        return [contact_surface(self.mesh, name, _RULE) for name in names]
 
     @cached_property
     def fillets(self) -> tuple[Fillet, Fillet]:
@@ -177,10 +179,11 @@ class RootModel:
         tractions = forces[beside : beside + self.teeth] / surface.nodal_area[:, None]
         out = np.zeros((len(self.mesh.points), 3))
         for place, (fine, own) in enumerate(zip(self._flanks, tractions, strict=True)):
-            # Both meshes have their rows at equal shares of the way from the fillet to the tip.
+            # The other mesh has its rows at equal shares of the way from the fillet to the tip.
             grid = lattice(dataclasses.replace(fine, positions=fine.positions @ self._turn(place)))
             share = np.empty(grid.size)
-            share[grid] = np.linspace(0.0, rows - 1.0, len(grid))[:, None]
+            own_rows = flank_shares(self.counts.flank, 2, self.grading)
+            share[grid] = (rows - 1.0) * own_rows[:, None]
             u, z = fine.to_points(share), fine.to_points(fine.positions[:, 2])
             i = np.clip(u.astype(np.int64), 0, rows - 2)
             j = np.clip(np.searchsorted(z_own, z, side="right") - 1, 0, columns - 2)

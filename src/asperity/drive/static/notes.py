@@ -8,7 +8,6 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP
 from asperity.drive.static.recorder import PhaseRecord
 from asperity.drive.static.sweep import PitchSweep
-from asperity.drive.warmed import warmed
 
 _MEGA, _MICRO = 1e6, 1e6
 # Of the normal force, from which on an edge is told of.
@@ -37,18 +36,11 @@ def notes_of(
 
 def cold(problem: DriveProblem) -> Iterator[str]:
     """Yield that the gearset is cold here, where the case says how warm it runs."""
-    found = warmed(problem)
-    if found is None:
-        return
-    values = found.values
-    yield (
-        f"cold: tolerances.temperatures add {found.told} to what [mount] and [modification] say, "
-        "which is not in this; asperity misalign has it, and so has this command with "
-        "mount.centre_distance_error="
-        f"'{_MICRO * values['mount.centre_distance_error']:.6g} um' and "
-        "modification.lead_correction="
-        f"'{_MICRO * values['modification.lead_correction']:.6g} urad'"
-    )
+    if (warmer := problem.warmer) is not None:
+        yield (
+            f"cold: tolerances.temperatures add {warmer.told} to what [mount] and [modification] "
+            "say, which drive.warm = true puts in"
+        )
 
 
 def few_phases(problem: DriveProblem) -> Iterator[str]:

@@ -21,7 +21,6 @@ from asperity.drive.static.notes import few_phases, rigid_parts
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.studies.misaligned import Misaligned
 from asperity.drive.studies.points import solve_points
-from asperity.drive.warmed import warmed
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.parameters import Mount
 from asperity.gearset.tolerancing.allowances import Allowances
@@ -155,8 +154,8 @@ def _values(axes: Sequence[Axis], where: tuple[int, ...]) -> list[float]:
 
 
 def _warm(case: Case, problem: DriveProblem) -> StudyPoint | None:
-    """Return the gearset as it runs warm; None where no temperatures are given."""
-    found = warmed(problem)
+    """Return the gearset as it runs warm; None where the case is, or gives no temperatures."""
+    found = problem.warmer
     if found is None:
         return None
     name, values = f"warm: {found.told}", found.values

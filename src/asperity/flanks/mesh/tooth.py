@@ -50,6 +50,7 @@ _FINE_INSIDE = (6, 4, 3, 4, 3)
 # Elements are shorter over the face, where the section changes most: the volume of 8-node elements
 # then is within 1e-4 at the intermediate density.
 _OVER_FACE = 0.8
+_TO_FOOT = 1.5
 
 
 class Counts(NamedTuple):
@@ -188,7 +189,8 @@ def tooth(
         Bound on the memory, bytes.
     grading : float
         Above 0 hexahedra are thinner towards flanks, fillets and root, the outermost about
-        :math:`2 g / \sinh 2 g` of the mean.
+        :math:`2 g / \sinh 2 g` of the mean, and those of a flank shorter towards its foot
+        (`flank_shares`).
 
     Returns
     -------
@@ -222,6 +224,18 @@ def tooth(
         )
     several = _repeated(one, lattice, teeth, most)
     return _named(several, wheel.pair.mirror)
+
+
+def flank_shares(count: int, order: int = 1, grading: float = 0.0) -> FloatArray:
+    """Return the shares of a flank's height at which `tooth` has nodes, 0 at its foot.
+
+    With a grading above 0 hexahedra are shorter towards the foot, where a force that bears beside
+    the fillet changes much from one to the next: the first of ten is a third as long as the mean.
+    """
+    if grading == 0.0:
+        return np.linspace(0.0, 1.0, order * count + 1)
+    ends = np.linspace(0.0, 1.0, count + 1) ** _TO_FOOT
+    return np.interp(np.arange(order * count + 1) / order, np.arange(count + 1), ends)
 
 
 def _counted(wheel: Wheel, size: float | str | Counts) -> Counts:
@@ -272,7 +286,7 @@ def _fill(wheel: Wheel, number: Counts, order: int, grading: float) -> tuple[Blo
         flank = wheel.flank(side)
         root = flank.root(order * number.land + 1, z)
         fillet = flank.fillet(order * (number.low_fillet + number.high_fillet) + 1, z)
-        face = flank.grid(order * number.flank + 1, 0, z)
+        face = flank.at_shares(flank_shares(number.flank, order, grading), z)
         parts = [root, fillet, face]
         rows = [np.stack([part.radius, part.angle], axis=-1) for part in parts]
         outlines.append(np.concatenate([rows[0], rows[1][1:], rows[2][1:]]))
