@@ -3,6 +3,7 @@
 import contextlib
 import random
 import re
+import time
 from urllib.parse import urlencode
 
 import pytest
@@ -173,6 +174,8 @@ def test_where_a_job_answers_what_is_refused_is_said_as_it_is_set_and_a_mend_lea
 ):
     page = seen.open(screen, **params)
     settled(page)
+    # As on a busy machine: what is set is drawn before it is known to be refused.
+    page.route("**/api/do/check", lambda route: (time.sleep(0.3), route.continue_()))
     before = page.evaluate("location.hash")
     page.evaluate(
         "([hash, more]) => { location.hash = hash + (hash.includes('?') ? '&' : '?') + more; }",

@@ -41,7 +41,8 @@ function placesOf(text) {
 /** A bearing that is written in the case: its name, and its figures in words. */
 function readOf(value) {
   const own = (key) => {
-    const [, quoted, plain = ""] = new RegExp(`\\b${key}\\s*=\\s*(?:"((?:[^"\\\\]|\\\\.)*)"|([^,}]*))`).exec(value) ?? [];
+    const written = new RegExp(`\\b${key}\\s*=\\s*(?:"((?:[^"\\\\]|\\\\.)*)"|([^,}]*))`);
+    const [, quoted, plain = ""] = written.exec(value) ?? [];
     return quoted?.replace(/\\(.)/g, "$1") ?? plain.trim();
   };
   const says = FIGURES.map((key) => own(key) && (key === "kind" ? own(key) : `${words(key)} ${own(key)}`));
