@@ -1,11 +1,14 @@
 """Forms that know what may stand in them, and how to mend what is refused."""
 
 import os
+import re
 
 import pytest
 from apparatus.browser import Seen, answered, copied, settled
 from apparatus.page import Served
 from playwright.sync_api import expect
+
+from asperity.files.shipped import shipped_case
 
 MAKERS = """
 [source.maker]
@@ -86,6 +89,22 @@ def test_arrangements_of_bearings_are_listed_with_their_loss(seen):
     box.fill("preloaded")
     box.press("Enter")
     expect(page.get_by_text("loss coefficient 0.03", exact=True).last).to_be_visible()
+
+
+def test_a_bearing_whose_name_has_commas_quotes_and_braces_is_listed_by_all_of_it(seen, server):
+    written = shipped_case("actuator-shafts").read_text("utf-8")
+    own = 'name = "angular contact 30 x 62 x 16"'
+    assert own in written
+    odd = written.replace(own, r'name = "ac, {30} \"{x\" 62"')
+    (server.folder / "odd-bearing.toml").write_text(odd, "utf-8")
+    page = seen.open("gear", case="odd-bearing.toml")
+    settled(page)
+    page.get_by_text("bearings of the shafts").click()
+    chosen = page.get_by_label("worm shaft, bearing at 30 mm").locator("option:checked")
+    expect(chosen).to_have_text(
+        'ac, {30} "{x" 62: angular contact, bore 30 mm, dynamic rating 36 kN, static rating 26 kN'
+    )
+    expect(page.get_by_label(re.compile("shaft, bearing at"))).to_have_count(4)
 
 
 @pytest.mark.parametrize("screen", ["gear", "size"])

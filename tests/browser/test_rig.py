@@ -41,6 +41,12 @@ def test_a_recording_that_is_dropped_shows_its_segments_and_is_reduced(seen, ser
     assert float(change.get_attribute("data-value")) == pytest.approx(wanted, rel=1e-9)
     page.reload()
     expect(page.locator("[data-key=torque_change_percent]").first).to_be_visible(timeout=120_000)
+    # What is refused is said once, also when a law is to be fitted with it.
+    page.evaluate("() => { location.hash += '&set.friction.mu=abc'; }")
+    settled(page)
+    page.get_by_role("button", name="fit", exact=True).click()
+    settled(page)
+    expect(page.locator(".fault", has_text="friction.mu is")).to_have_count(1)
 
 
 def test_a_window_follows_the_pointer_at_once_and_no_late_answer_moves_it_back(seen):

@@ -15,6 +15,7 @@ function valueAt(text, from) {
   for (; at < text.length; at += 1) {
     const sign = text[at];
     if (sign === '"') quoted = !quoted;
+    if (sign === "\\") at += 1;
     if (quoted) continue;
     if (sign === "{" || sign === "[") deep += 1;
     if (!deep && /[,}\]]/.test(sign)) break;
@@ -39,7 +40,11 @@ function placesOf(text) {
 
 /** A bearing that is written in the case: its name, and its figures in words. */
 function readOf(value) {
-  const own = (key) => new RegExp(`\\b${key}\\s*=\\s*"?([^",}]*)"?`).exec(value)?.[1].trim() ?? "";
+  const own = (key) => {
+    const written = new RegExp(`\\b${key}\\s*=\\s*(?:"((?:[^"\\\\]|\\\\.)*)"|([^,}]*))`);
+    const [, quoted, plain = ""] = written.exec(value) ?? [];
+    return quoted?.replace(/\\(.)/g, "$1") ?? plain.trim();
+  };
   const says = FIGURES.map((key) => own(key) && (key === "kind" ? own(key) : `${words(key)} ${own(key)}`));
   return { name: own("name") || own("kind"), says: says.filter(Boolean).join(", ") };
 }

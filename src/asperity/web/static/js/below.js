@@ -63,7 +63,7 @@ export function Directions({ answer }) {
     const { head, of } = headed(said);
     return [head, (way) => digits(of(way[key] ?? NaN), count), "right"];
   };
-  return html`<${Table} region="directions" rows=${answer.directions} columns=${[
+  return html`<${Table} region="directions" wide="cards" rows=${answer.directions} columns=${[
       ["way", ({ mode }) => mode, "row"],
       ["torque ratio", (way) => bracketed(digits(way.torque_ratio, 4), way.settled), "right"],
       number("balance", "torque_balance", 2),

@@ -49,7 +49,7 @@ export function Mending({ error, settings, before, own, others, setAll, unset })
       paths.map((path) => [say(path), brief(now(path))].filter(Boolean).join(", ")).join("; ")}.</span>` : null}
     ${paths.map((path) => html`
       ${texts(path).map((text) => html`<button type="button" class="main" key=${text} data-text=${text}
-        onClick=${() => put(path, text)}>${say(path)} ${printed(written(text))}</button>`)}
+        onClick=${() => put(path, text)}>${say(path)} ${printed(brief(text))}</button>`)}
       ${names.length > texts(path).length ? html`<select aria-label=${`all for ${say(path)}`} value=""
         onChange=${({ target }) => target.value && put(path, target.value)}>
         <option value="">one of the ${names.length}</option>

@@ -77,7 +77,8 @@ function instead(must, typed, field) {
   const example = [field?.example || field?.default || least].filter((each) => each && each !== typed);
   const point = typed.replace(/^(\s*[+-]?\d+),(?=\d)/, "$1.");
   const [number, unit] = split(point);
-  if (Number.isNaN(number)) return example;
+  // What goes on with digits, such as 1 450 rpm or 1.234,5 mm, may mean more than one number.
+  if (Number.isNaN(number) || /^(?:[.,]|\d\d)/.test(unit)) return example;
   const [low, high] = bounds(must);
   if (/whole number|integer/.test(must) && !(number > Number(high || Infinity))) {
     return [...new Set([Math.floor(number), Math.ceil(number)])]
@@ -86,10 +87,12 @@ function instead(must, typed, field) {
   if (/without a unit/.test(must)) return [String(number)];
   if (/positive|above 0\b/.test(must) && number < 0) return [`${digits(-number, 12)} ${unit}`.trim()];
   const beyond = (bound, way) => bound && way * (inUnit(point, split(bound)[1]) - split(bound)[0]) > 0;
-  if (beyond(low, -1)) return [low];
+  if (beyond(low, -1)) return [low, `${field?.minimum ?? low} ${field?.unit ?? ""}`.trim()].filter(
+    (text) => within(text, field)).slice(0, 1);
   if (beyond(high, 1)) return [high];
-  // A unit that is none of this, or none at all.
+  // A unit that is none of this, or none at all; one of the same quantity stays.
   const usual = split(field?.example)[1] || field?.unit || "";
-  if (/ such as /.test(must) && usual && unit !== usual) return [`${digits(number, 12)} ${usual}`];
+  const kept = unit && Number.isFinite(inUnit(point, usual));
+  if (/ such as /.test(must) && usual && !kept) return [`${digits(number, 12)} ${usual}`];
   return point === typed ? example : [point];
 }

@@ -43,12 +43,12 @@ export function view() {
   const found = reduced.data?.answer;
   const example = useExample(!rec);
   // What the law begins from is asked of no recording.
-  const { error: wrong, toml } = useChecked(name ? { case: name, settings: { ...LAW, ...settings } } : null);
+  const { error: wrong, toml, now } = useChecked(name ? { case: name, settings: { ...LAW, ...settings } } : null);
   const again = (file) => `The command reads ${rec || example?.seen.recording}, which is not in here: in its folder it \
 gives what vibration did again. Save the case as ${file}, and asperity fit measurements.csv ${file} --free ${
     free}, of what the command leaves with --out, fits the law.`;
   return html`<${Screen} title="Rig" kinds=${["rig"]} first="disc-on-disc" busy=${seen.busy}
-      now=${!wrong && (!rec || seen.now)}
+      now=${now && (!rec || seen.now)}
       lead="Drop a recording of a disc-on-disc rig: its segments are found, and what vibration did in each of them."
       answer=${rec ? seen.data && { ...seen.data, toml, again, ...(reduced.data && { notes: reduced.data.notes }) }
         : example && { ...example.reduced, notes: [], again }}
@@ -75,7 +75,7 @@ gives what vibration did again. Save the case as ${file}, and asperity fit measu
     </section>` : rec && !seen.error ? html`<p class="wait">One moment.</p>` : null}
     ${found ? html`<${Levels} segments=${found.segments} />
       <${Fit} name=${name} segments=${found.segments}
-        id=${reduced.job.state === "done" ? reduced.id : ""} />` : null}
+        id=${reduced.job.state === "done" ? reduced.id : ""} told=${wrong} />` : null}
   <//>`;
 }
 
@@ -211,7 +211,7 @@ function Levels({ segments }) {
 }
 
 /** A friction law fitted to what was measured. */
-function Fit({ name, id, segments }) {
+function Fit({ name, id, segments, told }) {
   const { settings, setAll } = useCase();
   const { free = FREE[0] } = route.value.params;
   const own = Object.fromEntries(Object.entries(settings).filter(([path]) => path.startsWith("friction.")));
@@ -227,7 +227,7 @@ function Fit({ name, id, segments }) {
     <details onToggle=${(event) => event.target.open && setAll({ ...LAW, ...own })}>
       <summary>the law it begins from</summary>
       ${Object.keys(LAW).map((path) => html`<${Field} key=${path} path=${path} />`)}</details>
-    ${work.error ? html`<p class="fault" role="alert">✗ ${work.error.message}</p>` : null}
+    ${work.error && !told ? html`<p class="fault" role="alert">✗ ${work.error.message}</p>` : null}
     ${work.data ? html`<${Law} work=${work} segments=${segments} />` : null}
   <//>`;
 }

@@ -231,10 +231,9 @@ export function view() {
   const others = Object.fromEntries(ASKED.map(([key, said, most, bounds]) => {
     const usual = asked?.[key] || most;
     const put = (text) => setParam(key, text);
-    return [key, { said, usual, put, text: params[key] || usual, field: { ...bounds, example: usual } }];
+    return [key, { said, usual, put, text: ratioOf(params[key] || usual), field: { ...bounds, example: usual } }];
   }));
   const options = Object.fromEntries(Object.entries(others).map(([key, { text }]) => [key, text]));
-  options.ratio = ratioOf(options.ratio);
   const rank = params.rank ?? "size";
   const sized = useLive("size", rest && { settings: rest, options: { ...options, rank } }, 200);
   // What stands there is of what was asked last, as long as the next is not answered.
@@ -244,11 +243,11 @@ export function view() {
   const body = name ? { case: name, settings } : null;
   const write = rest && (() => call("size", { settings: rest, options: { ...options, rank }, report: true }));
   const work = useJob("optimise", body);
-  const { toml, error: wrong } = useChecked(body);
+  const { toml, error: wrong, now } = useChecked(body);
   const answer = sized.data?.answer;
   return html`<${Screen} title="Size and trade-off" kinds=${["gear", "drive"]} first="gearset-3"
       answer=${{ toml, ...sized.data, again }} error=${sized.error ?? wrong ?? work.error} busy=${sized.busy}
-      now=${sized.now && !wrong} others=${others}
+      now=${sized.now && now} others=${others}
       actions=${html`<${ReportNow} ask=${write} />`}
       lead="Gearsets of the standard series that hold, and what efficiency a higher torque costs.">
     ${answer ? html`<p class="big"><b>${answer.holding}</b> of ${answer.rated} gearsets hold ${
