@@ -22,7 +22,8 @@ from asperity.contact.elastic.body import ElasticBody
 from asperity.contact.interface.surface import ContactSurface, contact_surface
 from asperity.drive.teeth.rim_moves import MovingRim
 from asperity.drive.teeth.sector import DENSITY, RIM, lattice
-from asperity.flanks.mesh.tooth import Counts, flank_shares, tooth
+from asperity.flanks.mesh.section import flank_shares
+from asperity.flanks.mesh.tooth import Counts, tooth
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import turned
 from asperity.gearset.materials import Material

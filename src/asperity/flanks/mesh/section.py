@@ -15,6 +15,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 
 _SWEEPS = 30
+_TO_FOOT = 1.5  # power of a flank's shares
 
 
 class Blocks(NamedTuple):
@@ -104,3 +105,15 @@ def _smoothed(block: FloatArray) -> FloatArray:
             straight = a * (v[2:, 1:-1] + v[:-2, 1:-1]) + c * (v[1:-1, 2:] + v[1:-1, :-2])
             v[1:-1, 1:-1] += 0.7 * ((straight - 2.0 * b * twist) / (2.0 * (a + c)) - v[1:-1, 1:-1])
     return np.stack([np.hypot(x, y), centre + np.arctan2(x, y)], axis=-1)
+
+
+def flank_shares(count: int, order: int = 1, grading: float = 0.0) -> FloatArray:
+    """Return the shares of a flank's height at which a tooth has nodes, 0 at its foot.
+
+    With a grading above 0 hexahedra are shorter towards the foot, where a force that bears beside
+    the fillet changes much from one to the next: the first of ten is a third as long as the mean.
+    """
+    if grading == 0.0:
+        return np.linspace(0.0, 1.0, order * count + 1)
+    ends = np.linspace(0.0, 1.0, count + 1) ** _TO_FOOT
+    return np.interp(np.arange(order * count + 1) / order, np.arange(count + 1), ends)

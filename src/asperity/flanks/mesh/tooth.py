@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.errors import InputError, choices, suggestion
-from asperity.flanks.mesh.section import Blocks, fill
+from asperity.flanks.mesh.section import Blocks, fill, flank_shares
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import on_cylinder, turned
 from asperity.mesh import HexMesh
@@ -50,7 +50,6 @@ _FINE_INSIDE = (6, 4, 3, 4, 3)
 # Elements are shorter over the face, where the section changes most: the volume of 8-node elements
 # then is within 1e-4 at the intermediate density.
 _OVER_FACE = 0.8
-_TO_FOOT = 1.5
 
 
 class Counts(NamedTuple):
@@ -224,18 +223,6 @@ def tooth(
         )
     several = _repeated(one, lattice, teeth, most)
     return _named(several, wheel.pair.mirror)
-
-
-def flank_shares(count: int, order: int = 1, grading: float = 0.0) -> FloatArray:
-    """Return the shares of a flank's height at which `tooth` has nodes, 0 at its foot.
-
-    With a grading above 0 hexahedra are shorter towards the foot, where a force that bears beside
-    the fillet changes much from one to the next: the first of ten is a third as long as the mean.
-    """
-    if grading == 0.0:
-        return np.linspace(0.0, 1.0, order * count + 1)
-    ends = np.linspace(0.0, 1.0, count + 1) ** _TO_FOOT
-    return np.interp(np.arange(order * count + 1) / order, np.arange(count + 1), ends)
 
 
 def _counted(wheel: Wheel, size: float | str | Counts) -> Counts:
