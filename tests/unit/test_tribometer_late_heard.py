@@ -24,7 +24,7 @@ def told(step, *, noise=0.0, bend=0.0, size=1.0, at=12, change=1.0, window="shak
         segments=[SimpleNamespace(before=parts[0], shaken=parts[1], start=count * 0.05)],
         level=lambda signal, part: SimpleNamespace(value=levels[part.first]),
         blocks=SimpleNamespace(length=0.05, means={"torque_steel": size * means}),
-        course=lambda *_, **__: None, around=lambda place: None,
+        curve=lambda *_, **__: None, around=lambda place: None,
     )  # fmt: skip
     return list(drive._late(of, 0))
 

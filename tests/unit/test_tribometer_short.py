@@ -10,7 +10,7 @@ from asperity.tribometer.reduction import blocks
 
 def recording(samples):
     return SimpleNamespace(
-        name="a.h5", place=lambda signal: 0, sample_interval=1e-3, samples=samples,
+        name="a.h5", index_of=lambda signal: 0, sample_interval=1e-3, samples=samples,
         duration=1e-3 * samples,
     )  # fmt: skip
 

@@ -20,7 +20,7 @@ def told(monkeypatch, worm, wheel, *, step=0.0, gain=1.0):
     monkeypatch.setattr(motors, "least_of", lambda name: 0.5)
     monkeypatch.setattr(motors, "_encoder_step", lambda of, name: step)
     of = SimpleNamespace(
-        pair=SimpleNamespace(wheel_speed=lambda speed: speed / RATIO), course=lambda *_: None,
+        pair=SimpleNamespace(wheel_speed=lambda speed: speed / RATIO), curve=lambda *_: None,
         blocks=SimpleNamespace(lines={"speed_bronze": SimpleNamespace(gain=gain)}),
     )  # fmt: skip
     return list(motors._teeth(of))
