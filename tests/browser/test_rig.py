@@ -124,6 +124,18 @@ def test_an_interval_is_a_bar_and_point_and_model_have_marks_of_their_own(seen):
     assert [float(cell) for cell in cells[2:4]] == pytest.approx([low, high], rel=1e-3)
 
 
+def test_an_interval_that_spans_nothing_is_told_as_one_and_ends_are_in_their_order(seen):
+    page = seen.open("rig")
+    told = page.evaluate(
+        """async (all) => {
+             const { between } = await import("/js/screens/rig.js");
+             return all.map(between);
+           }""",
+        [[-1.8, 1.08], [-12.0, -6.0], [6.0, 12.0], [0.0, 3.0]],
+    )
+    assert told == ["1.8 % less to 1.08 % more", "6 to 12 %", "6 to 12 %", "0 % less to 3 % more"]
+
+
 def test_claims_are_found_by_words_and_verdict_and_say_what_makes_them(seen, server):
     made = {"name": "claim 2.3", "key": "of another version", "plain": {}, "files": {}}
     folder = server.folder / "out/thesis"

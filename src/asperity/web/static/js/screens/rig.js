@@ -169,6 +169,11 @@ const NUMBERS = [
 const percent = (ratio) => (ratio === null ? null : 100 * (ratio - 1));
 const shown = (value) => (value === null ? "–" : digits(value, 4));
 
+/** What a change lies between. */
+export const between = ([low, high]) => low * high > 0
+  ? `${digits(Math.max(low, -high), 3)} to ${digits(Math.max(-low, high), 3)} %`
+  : `${digits(-low, 3)} % less to ${digits(high, 3)} % more`;
+
 /** The segment in which the most was spared, in a sentence. */
 function Most({ segments }) {
   const [best] = segments.filter(({ quality }) => quality !== "refused")
@@ -178,7 +183,7 @@ function Most({ segments }) {
   const [sign, kind] = SIGNS[quality];
   return html`<p class="big"><b>${digits(Math.abs(change), 3)} %</b> ${change < 0 ? "less" : "more"} torque${
     at ? ` at ${digits(at, 4)} Hz` : ""}${ends ? html`, <span class="says">95 % sure of ${
-    ends.map((each) => digits(Math.abs(each), 3)).toSorted().join(" to ")} %</span>` : null}${
+    between(ends)}</span>` : null}${
     quality === "good" ? null : html`, <span class=${kind} title=${flags.join("; ")}>${sign} ${quality} for ${
     flags.length} ${flags.length === 1 ? "reason" : "reasons"}, told in its row</span>`}</p>`;
 }

@@ -231,7 +231,9 @@ export function view() {
   const others = Object.fromEntries(ASKED.map(([key, said, most, bounds]) => {
     const usual = asked?.[key] || most;
     const put = (text) => setParam(key, text);
-    return [key, { said, usual, put, text: ratioOf(params[key] || usual), field: { ...bounds, example: usual } }];
+    const own = params[key] || usual;
+    const text = key === "ratio" ? ratioOf(own) : own;
+    return [key, { said, usual, put, text, field: { ...bounds, example: usual } }];
   }));
   const options = Object.fromEntries(Object.entries(others).map(([key, { text }]) => [key, text]));
   const rank = params.rank ?? "size";
