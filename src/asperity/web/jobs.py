@@ -34,10 +34,10 @@ def _kept(path: Path) -> Job:
     """Return a job as it was kept; ValueError or TypeError of what is none."""
     if path.is_symlink():
         raise ValueError("it is a link")
-    notify = json.loads(read_text(path))
+    fields = json.loads(read_text(path))
     # What is no number there would be none in the list of all.
-    json.dumps(notify, allow_nan=False)
-    job = Job(**notify)
+    json.dumps(fields, allow_nan=False)
+    job = Job(**fields)
     for field in dataclasses.fields(Job):
         kind, value = type(getattr(_BLANK, field.name)), getattr(job, field.name)
         if (

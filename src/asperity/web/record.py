@@ -121,18 +121,18 @@ class Job:
 
     def hear(self, line: bytes) -> None:
         """Take what its process says."""
-        notify = json.loads(line)
-        if not isinstance(notify, dict):
+        event = json.loads(line)
+        if not isinstance(event, dict):
             raise ValueError("it must be an object")
-        if "begun" in notify:
+        if "begun" in event:
             self.begun = True
-        elif "done" in notify:
-            self.done, self.total = notify["done"], notify["total"]
-        elif "note" in notify:
-            self.notes = [*self.notes[-49:], notify["note"]]
-        elif "error" in notify:
-            self.error, self.exit_code = notify["error"], notify["exit_code"]
-            self.reached = notify["reached"]
+        elif "done" in event:
+            self.done, self.total = event["done"], event["total"]
+        elif "note" in event:
+            self.notes = [*self.notes[-49:], event["note"]]
+        elif "error" in event:
+            self.error, self.exit_code = event["error"], event["exit_code"]
+            self.reached = event["reached"]
         self.notify()
 
     def ended(self, code: int) -> str:
