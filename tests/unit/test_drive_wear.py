@@ -168,7 +168,7 @@ def test_a_flank_that_wears_no_further_ends_with_the_cause_and_what_is_known(
             raise too_much(self.problem, full=full)
         return own(self, cases, *args)
 
-    monkeypatch.setattr(StaticModel, "courses", sweeps)
+    monkeypatch.setattr(StaticModel, "sweeps", sweeps)
     found = solve.answer(asked, Run())
     assert found.depth_max == pytest.approx(1.0, rel=1e-6)
     assert len(found.turns) == 2
