@@ -420,6 +420,7 @@ def test_an_open_tooth_tells_how_fast_it_comes_near_before_it_touches():
     assert told[-3:] == pytest.approx(3.0 * model.point.normal_z, rel=0.1)
 
 
+@pytest.mark.slow
 def test_a_step_that_no_tooth_can_be_solved_for_ends_in_one_line(monkeypatch):
     model = model_of("drive.flanks=driving", "vibration.frequency=20 kHz")
     march = march_of(model)

@@ -105,11 +105,15 @@ def foreseen_beside(cycle):
     ("name", "settings"),
     [
         ("table-4.3", ("friction.contact_damping=20 N s/m", "friction.model=lugre")),
-        ("normal-pin", ()),
+        # On an empty cache ten seconds of compiling: no command asks that kernel of such a body.
+        pytest.param("normal-pin", (), marks=pytest.mark.slow),
         # The wave normal to the plane has its corners elsewhere, which steps miss by a little.
-        ("normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg")),
+        pytest.param(
+            "normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg"),
+            marks=pytest.mark.slow,
+        ),
     ],
-)
+)  # fmt: skip
 def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):
     _, cycle = at_its_state(*settings, "vibration.waveform=triangle", name=name)
     found = step_error._closed(step_error._on_half(cycle), cycle.jacobian)
