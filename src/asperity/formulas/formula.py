@@ -1,5 +1,6 @@
 """The decorator that makes a function a formula of a standard."""
 
+import contextlib
 import functools
 import inspect
 import math
@@ -26,6 +27,11 @@ from asperity.sources import Source
 from asperity.units import is_quantity, to_si
 
 P = ParamSpec("P")
+
+_FLOAT = np.dtype(np.float64)
+
+# Within `masking` NumPy is silent already.
+_UNTOLD = contextlib.nullcontext()
 
 
 class Formula(Protocol[P]):
@@ -195,7 +201,9 @@ class _Made:
         arrays = {}
         for name, value in given.items():
             if name in self.symbols:
-                if type(value) is not float and value is not None:
+                if type(value) is np.ndarray and value.dtype == _FLOAT and value.ndim:
+                    arrays[name] = value
+                elif type(value) is not float and value is not None:
                     given[name] = number = real(
                         name, _in_unit(name, value, self.symbols[name], system)
                     )
@@ -236,7 +244,7 @@ class _Made:
                     value = value / size
             given[name] = value
         lowest, highest = self.result.bounds.ends
-        with np.errstate(all="ignore"):
+        with _UNTOLD if mask is not None else np.errstate(all="ignore"):
             try:
                 values = self.body(**given)
             except TypeError:

@@ -37,6 +37,7 @@ class Masked(NamedTuple):
     legend: Mapping[int, str]
 
 
+_FEW = 50
 _BY_VALUE = (float, int, str, bool, type(None), np.float64)
 
 
@@ -110,6 +111,11 @@ class Mask:
             return known
         if array.shape != self.reason.shape or not array.size:
             return None
+        if array.size <= _FEW:
+            # Python looks through few numbers in less time than NumPy takes to begin.
+            few = array.ravel().tolist()
+            if not math.isnan(sum(few)):
+                return self.remember(Seen(array, min(few), max(few), None))
         lowest, holes = float(array.min()), None
         if math.isnan(lowest):
             holes = np.isnan(array)
@@ -186,7 +192,9 @@ def masking(mask: Mask | tuple[int, ...] = ()) -> Iterator[Mask]:
     kept = mask if isinstance(mask, Mask) else Mask(mask)
     token = _MASK.set(kept)
     try:
-        yield kept
+        # For all formulas at once: to say it for each takes as long as many of them.
+        with np.errstate(all="ignore"):
+            yield kept
     finally:
         _MASK.reset(token)
 
@@ -270,9 +278,12 @@ def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     InputError
         They do not go together.
     """
+    different = {
+        array.shape if type(array) is np.ndarray else np.shape(array) for array in arrays.values()
+    }
+    if len(different) == 1:
+        return different.pop()
     shapes = {name: np.shape(array) for name, array in arrays.items()}
-    if len(set(shapes.values())) == 1:
-        return next(iter(shapes.values()))
     try:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
