@@ -12,6 +12,7 @@ from pathlib import Path
 from zlib import crc32
 
 import hypothesis
+import numpy as np
 import pytest
 import warm
 
@@ -148,6 +149,16 @@ def _outside_the_share(items: list[pytest.Item], share: float) -> set[pytest.Ite
         count = max(least, round(share * len(parts)))
         left_out |= set(parts) - {parts[math.floor(n * len(parts) / count)] for n in range(count)}
     return left_out
+
+
+@pytest.fixture
+def plain_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let kernels that are not in the list be plain Python: few calls take less than compiling."""
+    from mutants import plain
+
+    monkeypatch.setattr(compiled._Lazy, "_dispatcher", property(plain.plainly))
+    for name, make in plain.makers().items():
+        monkeypatch.setattr(np, name, make)
 
 
 def pytest_report_header() -> list[str]:

@@ -21,7 +21,9 @@ from asperity.friction import update
 from asperity.slider.march import march
 from asperity.slider.model import Model
 
-HISTORIES = 400
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
+HISTORIES = 100
 INCREMENTS = 24
 STUB = """\
       implicit real*8(a-h,o-z)

@@ -33,9 +33,13 @@ def pytest_addoption(parser):
 
 def pytest_configure():
     _Lazy.__call__ = _called
-    # Those that a kernel makes for itself.
-    for name in ("empty", "zeros"):
-        setattr(np, name, _making(getattr(np, name)))
+    for name, make in makers().items():
+        setattr(np, name, make)
+
+
+def makers():
+    """What makes the arrays that a kernel makes for itself, by NumPy's names."""
+    return {name: _making(getattr(np, name)) for name in ("empty", "zeros")}
 
 
 def _making(made):
@@ -48,6 +52,11 @@ def _making(made):
 
 def _called(self, *arguments):
     return self._function(*[_with_attributes(one) for one in arguments])
+
+
+def plainly(kernel):
+    """Return a kernel as plain Python."""
+    return functools.partial(_called, kernel)
 
 
 def _with_attributes(value):

@@ -17,6 +17,7 @@ from asperity.mesh import box
 FACE = contact_surface(box([4e-3, 3e-3, 1e-3], [4, 3, 1], 1), "bottom")
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_how_far_assumed_tractions_are_off_is_their_squared_integral():
     nodes = len(FACE.positions)
     law = PointFriction(DAHL, 0.3, 7e-8, VECTOR)

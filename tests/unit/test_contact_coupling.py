@@ -49,6 +49,7 @@ def tangent(turn):
     return out
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("angles", [(0, 0, 50), (40, 0, 0), (0, 70, 0), (20, -50, 130)])
 def test_the_mean_tangent_is_tangential_and_turns_with_the_surface(angles):
     turn = Rotation.from_euler("xyz", angles, degrees=True)

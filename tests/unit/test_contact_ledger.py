@@ -43,6 +43,7 @@ def pressures(distance, law):
     return np.array([[pressure(-d, 0.0, law)[0] for d in row] for row in distance])
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("reference", [0.0, 3e6])
 @pytest.mark.parametrize("law", LAWS)
 def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law, reference):
@@ -68,6 +69,7 @@ def test_what_goes_into_asperities_and_overclosure_is_what_they_hold_more(law, r
     assert sum(work.asperities for work in done) == pytest.approx(asperities, rel=1e-9)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("law", LAWS)
 def test_the_work_of_a_pressure_is_its_integral_and_its_potential(law):
     parameters = LAWS[law].numbers
@@ -83,6 +85,7 @@ def test_the_work_of_a_pressure_is_its_integral_and_its_potential(law):
         assert work == pytest.approx(stored, rel=1e-10)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_hard_contact_stores_nothing():
     assert overclosure_work(0.0, 1e-7, NormalLaw("hard", 4e13).numbers) == 0.0
 

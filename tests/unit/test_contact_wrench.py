@@ -6,6 +6,8 @@ import pytest
 from asperity.contact.candidates.records import Answer, Body, Candidates, Work
 from asperity.contact.candidates.wrench import wrench, wrench_slope
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 FACES = np.array([[0, 1, 2, 3], [1, 4, 5, 2]])
 
 

@@ -87,6 +87,7 @@ def test_a_seat_begins_with_the_energy_of_a_spring_under_the_worm_s_thrust():
     assert stored[1] - stored[0] == pytest.approx(0.5 * thrust**2 / 50e6, rel=1e-6)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_of_every_freedom_the_rate_is_that_of_its_place():
     given, model = modelled(
         "vibration.mode=axial", "vibration.applied_to=seat", "vibration.frequency=2 kHz",

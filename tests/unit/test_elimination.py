@@ -9,6 +9,8 @@ from asperity.contact.candidates.inverse import decompose, substitute
 from asperity.contact.increment.coupling import mean_correction
 from asperity.kernels.elimination import eliminate
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6))
 def test_the_leading_equations_are_solved_and_the_others_left(seed, n):

@@ -15,7 +15,6 @@ from asperity.flanks.meshing.analysis import analyse
 from asperity.flanks.meshing.backlash import core_clearance
 from asperity.flanks.meshing.contact_lines import contact_lines
 from asperity.flanks.meshing.ease_off import ease_off
-from asperity.flanks.meshing.kernels import transmission as kernels
 from asperity.flanks.meshing.kinematics import kinematics
 from asperity.flanks.meshing.lubrication import Load, film_thickness, loaded_lines
 from asperity.flanks.meshing.pattern import areas, crossings, node_areas, part_below, pattern
@@ -87,13 +86,12 @@ def test_line_of_a_level_is_as_long_as_it_is():
     )
 
 
-def brute_force(search, beta, side):
+def brute_force(search, beta):
     """The least turn over a dense grid of points: never less than the true one."""
-    pair = search.pair
-    points = search.flank.grid(120, 121).points
-    given = (0.0, kernels.TURN, float(side), pair.worm.facing(side))
-    given = (*given, pair.mount, np.empty(121))
-    return [kernels.scan(points, b, *given) - side * pair.ratio * b for b in beta]
+    dense = dataclasses.replace(search)
+    vars(dense)["grid"] = search.flank.grid(120, 121)
+    # Where nothing is near, no place below the grid is looked for.
+    return dense.lead(beta, np.full(beta.size, -math.inf))[:, 0]
 
 
 @pytest.mark.parametrize(
@@ -111,7 +109,7 @@ def test_place_that_bears_is_found_below_any_grid_and_on_edges(hob, mount, side,
     search = mesh.search
     beta = mesh.tooth_angle[mesh.tooth_lead <= mesh.along_tooth()]
     found = search.lead(beta)
-    brute = np.array(brute_force(search, beta, side))
+    brute = brute_force(search, beta)
     assert (found[:, 0] <= brute + 1e-14).all()
     # In millimetres of axial way.
     assert np.abs(found[:, 0] - brute).max() * pair.worm.reduced_lead < 2e-4
