@@ -39,6 +39,7 @@ ROOMS = (
     "slide normal-pin --set vibration.waveform=triangle",
     "slide normal-pin EARLY --set solve.method=march",
     "slide normal-pin --set solve.method=march",
+    "sweep normal-pin --over vibration.velocity_ratio=1,6 EARLY --set solve.method=march",
     "flank gearset-3b --density coarse",
     "rig run rig-final RIG --out OUT",
     "rig reduce RECORDING",

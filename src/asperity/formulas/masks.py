@@ -278,7 +278,7 @@ def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     InputError
         They do not go together.
     """
-    different = {
+    different: set[tuple[int, ...]] = {
         array.shape if type(array) is np.ndarray else np.shape(array) for array in arrays.values()
     }
     if len(different) == 1:
