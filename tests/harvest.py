@@ -39,6 +39,8 @@ ROOMS = (
     "slide normal-pin --set vibration.waveform=triangle",
     "slide normal-pin EARLY --set solve.method=march",
     "slide normal-pin --set solve.method=march",
+    "slide normal-pin --set solve.method=march --set vibration.velocity_ratio=20 "
+    "--set vibration.start='0.14 s' --set solve.duration='0.6 s'",
     "sweep normal-pin --over vibration.velocity_ratio=1,6 EARLY --set solve.method=march",
     "flank gearset-3b --density coarse",
     "rig run rig-final RIG --out OUT",
