@@ -34,7 +34,7 @@ COUNTS = Counts(flank=12, face=10, thickness=8, rim=4, land=2, low_fillet=4, hig
 """Hexahedra of a tooth.
 
 Along the flank they are as long as those of the contact in the mean, and shorter towards its foot.
-Twice as long ones spread a force at its foot over the fillet, whose stress then is 6 % larger.
+Twice as long ones spread a force at its foot, and the fillet's stress then is 3 % less.
 """
 
 COARSER = COUNTS._replace(thickness=6)
