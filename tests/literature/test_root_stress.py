@@ -125,7 +125,7 @@ def test_on_finer_hexahedra_the_stress_stays():
     worst = max(loads, key=lambda load: load.normal)
     surface = static().sector.surface
     found = []
-    for counts in (COUNTS, COUNTS._replace(thickness=8, rim=5)):
+    for counts in (COUNTS, COUNTS._replace(thickness=10, rim=5)):
         own = model(3, counts)
         roots = own.solve(own.nodal(surface, worst.forces)[:, None])
         found.append(roots.principal(0)[..., 2].max())
