@@ -4,23 +4,22 @@ G. Dhondt, K. Wittig: CalculiX, a free software three-dimensional structural fin
 """
 
 import functools
-import re
 import shutil
-import subprocess
 
 import numpy as np
 import pytest
+from apparatus.calculix import solved
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.root_stress.loads import loads_of
-from asperity.drive.root_stress.model import COUNTS, RootModel
+from asperity.drive.root_stress.model import COUNTS, RootModel, Roots
 from asperity.drive.root_stress.study import prepare
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.sector import right_handed
 from asperity.flanks.mesh.tooth import Counts
 from asperity.flanks.wheel.frame import turned
-from asperity.mesh.inp import numbers
+from asperity.mesh.shape import REFERENCE_FACE_NODES, face_shapes
 from asperity.runs import Run
 
 SMALL = Counts(flank=4, face=6, thickness=4, rim=3, land=2, low_fillet=3, high_fillet=3)
@@ -39,18 +38,45 @@ def model(teeth, counts=SMALL):
     return RootModel(wheel, static().problem.gearset.wheel_material, counts, teeth)
 
 
-def test_a_field_of_even_strain_has_its_stress_at_every_node_of_both_fillets():
-    own = model(1)
+def normals(own, fillet):
+    """Unit vectors across a fillet at its nodes, means of its faces'."""
+    _, slopes = face_shapes(REFERENCE_FACE_NODES, 9)
+    along = np.einsum("qnj,mni->mqji", slopes, own.mesh.points[fillet.faces])
+    across = np.cross(along[..., 0, :], along[..., 1, :])
+    found = np.zeros((len(fillet.nodes), 3))
+    np.add.at(found, np.searchsorted(fillet.nodes, fillet.faces), across)
+    return found / np.linalg.norm(found, axis=1, keepdims=True)
+
+
+def test_a_fillet_has_the_stress_of_its_strained_surface_that_nothing_presses_on():
     slope = 1e-4 * np.array([[1.0, -2.0, 0.5], [0.3, 0.7, -1.1], [0.9, 0.2, -0.4]])
-    moved = (own.mesh.points @ slope.T).reshape(-1, 1)
-    first, second = own.material.lame
-    strain = 0.5 * (slope + slope.T)
-    stress = 2.0 * second * strain + first * np.trace(strain) * np.eye(3)
+    off = []
+    few = SMALL._replace(flank=2, thickness=2, rim=2)
+    for counts in (few, few._replace(face=12, land=4, low_fillet=6, high_fillet=6)):
+        own = model(1, counts)
+        moved = (own.mesh.points @ slope.T).reshape(-1, 1)
+        first, second = own.material.lame
+        for fillet in own.fillets:
+            normal = normals(own, fillet)
+            plane = np.eye(3) - normal[:, :, None] * normal[:, None, :]
+            strain = plane @ (0.5 * (slope + slope.T)) @ plane
+            trace = np.trace(strain, axis1=1, axis2=2)[:, None, None]
+            stress = 2.0 * second * (strain + first / (first + 2.0 * second) * trace * plane)
+            found, jump = own.stress(fillet, moved)
+            expected = np.stack([stress[:, i, j] for i, j in PAIRS], axis=-1)
+            off.append(np.abs(found[0] - expected).max() / np.abs(stress).max())
+            assert jump.max() < 0.05 * np.abs(stress).max()
+    assert max(off[:2]) < 0.02
+    assert max(off[2:]) < 0.4 * max(off[:2])
+
+
+def test_a_fillet_that_is_turned_as_it_is_has_no_stress():
+    own = model(1)
+    turn = 1e-4 * np.array([[0.0, -2.0, 0.5], [2.0, 0.0, -1.1], [-0.5, 1.1, 0.0]])
+    moved = (own.mesh.points @ turn.T).reshape(-1, 1)
     for fillet in own.fillets:
         found, jump = own.stress(fillet, moved)
-        expected = [stress[pair] for pair in PAIRS]
-        np.testing.assert_allclose(found[0], np.tile(expected, (len(found[0]), 1)), rtol=1e-9)
-        assert jump.max() < 1e-9 * np.abs(stress).max()
+        assert max(np.abs(found).max(), jump.max()) < 1e-9 * own.material.youngs_modulus * 1e-4
 
 
 def test_a_fillet_goes_from_the_foot_of_its_flank_to_the_middle_of_the_tooth_space():
@@ -99,7 +125,7 @@ def test_on_finer_hexahedra_the_stress_stays():
     worst = max(loads, key=lambda load: load.normal)
     surface = static().sector.surface
     found = []
-    for counts in (COUNTS, COUNTS._replace(thickness=8, rim=5)):
+    for counts in (COUNTS, COUNTS._replace(thickness=10, rim=5)):
         own = model(3, counts)
         roots = own.solve(own.nodal(surface, worst.forces)[:, None])
         found.append(roots.principal(0)[..., 2].max())
@@ -109,7 +135,7 @@ def test_on_finer_hexahedra_the_stress_stays():
 @pytest.mark.slow
 @pytest.mark.skipif(not shutil.which("ccx"), reason="CalculiX is not installed")
 def test_calculix_finds_the_same_stress_at_the_fillet(tmp_path):
-    own = model(1)
+    own = model(1, COUNTS)
     mesh = own.mesh.converted("mm")
     # Pulled at the tip, whose hexahedra are far from the fillets.
     tip = np.unique(mesh.face_nodes("tip"))
@@ -120,39 +146,16 @@ def test_calculix_finds_the_same_stress_at_the_fillet(tmp_path):
     used = np.unique(mesh.cells[:, :20])
     inner = np.intersect1d(np.unique(mesh.face_nodes("inner")), used)
     pulled = np.intersect1d(tip, used)
-    scale = len(tip) / len(pulled)
-    lines = [
-        "*NODE", *(f"{n + 1}, {numbers(*mesh.points[n])}" for n in used),
-        "*ELEMENT, TYPE=C3D20, ELSET=BODY",
-        # Without the nodes in the middle of faces and cells.
-        *(
-            f"{k}, {', '.join(map(str, cell[:15] + 1))},\n{', '.join(map(str, cell[15:20] + 1))}"
-            for k, cell in enumerate(mesh.cells, 1)
-        ),
-        "*MATERIAL, NAME=OWN", "*ELASTIC",
-        numbers(1e-6 * own.material.youngs_modulus, own.material.poissons_ratio),
-        "*SOLID SECTION, ELSET=BODY, MATERIAL=OWN", "*NSET, NSET=HELD",
-        *(f"{node + 1}," for node in inner), "*BOUNDARY", "HELD, 1, 3", "*STEP", "*STATIC",
-        "*CLOAD",
-        *(
-            f"{node + 1}, {axis + 1}, {float(scale * force[axis])!r}"
-            for node in pulled for axis in range(3)
-        ),
-        "*EL FILE", "S", "*END STEP", "",
-    ]  # fmt: skip
-    (tmp_path / "root.inp").write_text("\n".join(lines))
-    done = subprocess.run(
-        ["ccx", "root"], cwd=tmp_path, capture_output=True, text=True, check=False, timeout=300
+    forces = np.zeros_like(nodal)
+    forces[pulled] = len(tip) / len(pulled) * force
+    moved, stress = solved(tmp_path, mesh.points, mesh.cells, inner, forces, own.material)
+    xx, yy, zz, xy, yz, zx = stress[own.fillets[0].nodes].T
+    whole = np.stack([np.stack(r, -1) for r in ((xx, xy, zx), (xy, yy, yz), (zx, yz, zz))], -2)
+    other = np.linalg.eigvalsh(whole[np.isfinite(xx)])[:, 2]
+    ours = roots.principal(0)[0, :, 2].max()
+    assert 1e6 * other.max() == pytest.approx(ours, rel=0.05)
+    # What it says of the fillet's surface.
+    theirs = own.stress(own.fillets[0], 1e-3 * moved.reshape(-1, 1))[0]
+    assert Roots((theirs, theirs), (theirs, theirs)).principal(0)[..., 2].max() == pytest.approx(
+        ours, rel=0.02
     )
-    assert "Job finished" in done.stdout, done.stdout[-2000:]
-    text = (tmp_path / "root.frd").read_text()
-    rows = re.search(r"^ -4  STRESS.*\n(?:^ -5.*\n)+((?:^ -1.*\n)+)", text, re.MULTILINE)[1]
-    theirs = {
-        int(row[3:13]) - 1: [float(row[i : i + 12]) for i in range(13, 85, 12)]
-        for row in rows.splitlines()
-    }
-    xx, yy, zz, xy, yz, zx = np.array([theirs[n] for n in own.fillets[0].nodes if n in theirs]).T
-    other = np.linalg.eigvalsh(
-        np.stack([np.stack(r, -1) for r in ((xx, xy, zx), (xy, yy, yz), (zx, yz, zz))], -2)
-    )[:, 2]
-    assert 1e6 * other.max() == pytest.approx(roots.principal(0)[0, :, 2].max(), rel=0.05)

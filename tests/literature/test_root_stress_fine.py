@@ -22,8 +22,6 @@ from asperity.runs import Run
 # With 13, 25, 49 sections the tetrahedra have 388, 415, 423 MPa under the load at the foot, under
 # the others within 2 % of one another from 25 on.
 ALONG, SECTIONS = 13, 25
-# Of a tooth's force on the lowest fifth of its flank, above which it is beside the fillet.
-FOOT = 0.1
 
 pytestmark = pytest.mark.slow
 
@@ -77,15 +75,7 @@ def both():
 
 
 def test_a_full_fine_model_of_one_tooth_has_the_same_stress_at_its_fillet():
-    for load, ours, fine in zip(loads(), *both(), strict=True):
-        if load.foot < FOOT:
-            assert ours == pytest.approx(fine, rel=0.05)
-
-
-def test_under_a_force_at_the_foot_the_hexahedra_are_within_a_tenth():
-    # Most of this tooth's force is on its foot. The tetrahedra are converged to 2 %; hexahedra
-    # scatter by what is where the fillet's two blocks meet: the largest tension is told too high.
-    beside = [n for n, load in enumerate(loads()) if load.foot >= FOOT]
-    assert len(beside) == 1
-    ours, fine = (stress[beside[0]] for stress in both())
-    assert ours == pytest.approx(fine, rel=0.1)
+    # One of the loads is on the foot of the flank, beside the fillet.
+    assert max(load.foot for load in loads()) > 0.5
+    for ours, fine in zip(*both(), strict=True):
+        assert ours == pytest.approx(fine, rel=0.05)

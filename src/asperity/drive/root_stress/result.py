@@ -179,9 +179,9 @@ class RootStress(OfDrive):
 
     def heading(self) -> str:
         """Return what was solved."""
+        rim = "that its web moves" if self.problem.wheel_body else "that is held at its inside"
         return (
-            f"{len(self.worm_angle)} phases; {self.nodes} nodes, teeth: {self.teeth}, a rim that "
-            "is held at its inside"
+            f"{len(self.worm_angle)} phases; {self.nodes} nodes, teeth: {self.teeth}, a rim {rim}"
         )
 
     def headline(self) -> tuple[str, ...]:
@@ -245,8 +245,8 @@ def _notes(teeth: int, foot: float, change: float) -> tuple[str, ...]:
     if foot > _NEAR:
         notes.append(
             f"{_PERCENT * foot:.2g} % of the tooth's force is on the lowest fifth of its flank, "
-            "beside the fillet: part of the stress there is the contact's own, which follows how "
-            "it is spread; modification.tip_relief of the worm moves it outwards"
+            "beside the fillet: the stress there follows how that is spread, by up to a tenth; "
+            "modification.tip_relief of the worm moves it outwards"
         )
     if abs(change) > _CLOSE:
         way = "more" if change > 0.0 else "less"
