@@ -163,7 +163,7 @@ print(int(numba.config.OPT))
 
 @pytest.mark.slow
 def test_settings_of_numba_where_one_works_are_not_those_of_what_is_kept(tmp_path):
-    (tmp_path / ".numba_config.yaml").write_text("opt: 0\n", "utf-8")
+    (tmp_path / ".numba_config.yaml").write_text("opt: '0'\n", "utf-8")
     done = subprocess.run(
         [sys.executable, "-W", "ignore", "-c", MAKER],
         cwd=tmp_path,
