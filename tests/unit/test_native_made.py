@@ -149,3 +149,26 @@ def test_what_is_compiled_in_fewer_steps_is_the_same_to_the_byte():
     ]
     assert len(told[0]) == 2
     assert told[0] == told[1]
+
+
+MAKER = """
+import io, sys
+sys.argv, sys.stdin = ["worker", ".", "1"], io.StringIO("")
+from asperity.kernels.building import worker
+worker.main()
+import numba
+print(int(numba.config.OPT))
+"""
+
+
+@pytest.mark.slow
+def test_settings_of_numba_where_one_works_are_not_those_of_what_is_kept(tmp_path):
+    (tmp_path / ".numba_config.yaml").write_text("opt: '0'\n", "utf-8")
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", MAKER],
+        cwd=tmp_path,
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    assert done.stdout == "3\n"

@@ -38,28 +38,29 @@ def closure(module: str, *, lazy: bool = False, file: Path | None = None) -> tup
     file : path, optional
         The module's file, needed where the module is not one of this package.
     """
-    roots = {"asperity": _PACKAGE}
+    roots = {"asperity": os.fspath(_PACKAGE)}
     top, *inner = module.split(".")
-    if file is None:
-        file = _file(module, roots)
-        if file is None:
-            raise LookupError(f"{module} is not a module of asperity")
-    elif top not in roots and inner:
+    at = _file(module, roots) if file is None else os.fspath(file)
+    if at is None:
+        raise LookupError(f"{module} is not a module of asperity")
+    if file is not None and top not in roots and inner:
         depth = len(inner) - (file.name != "__init__.py")
-        roots[top] = file.parents[depth]
-    found: dict[Path, None] = {}
-    waiting = [file]
+        roots[top] = os.fspath(file.parents[depth])
+    # Texts: a run of the thesis asks tens of thousands of times; paths take twice as long.
+    known: set[str] = set()
+    names: set[str] = set()
+    waiting = [at]
     while waiting:
         path = waiting.pop()
-        if path not in found:
-            found[path] = None
-            for name in _imports(path, lazy):
-                imported = _file(name, roots)
-                if imported is not None:
-                    waiting.append(imported)
+        if path not in known:
+            known.add(path)
+            new = [name for name in _imports(path, lazy) if name not in names]
+            names.update(new)
+            waiting += [place for name in new if (place := _file(name, roots)) is not None]
+    found = {Path(path) for path in known}
     if lazy:
         folders = {path.parent / "data" for path in found}
-        found |= {path: None for folder in folders for path in folder.rglob("*") if path.is_file()}
+        found |= {path for folder in folders for path in folder.rglob("*") if path.is_file()}
     return tuple(sorted(found))
 
 
@@ -80,21 +81,23 @@ def source_key(*modules: str, lazy: bool = True) -> str:
 def digest_of(files: Iterable[Path], root: Path = _PACKAGE.parent) -> str:
     """Return a hash of files' names, as seen from a folder, and contents."""
     digest = hashlib.sha256()
+    inside = f"{root.as_posix().rstrip('/')}/"
     for path in sorted(files):
-        name = path.relative_to(root).as_posix() if path.is_relative_to(root) else path.name
+        text = path.as_posix()
+        name = text.removeprefix(inside) if text.startswith(inside) else path.name
         content = path.read_bytes()
         digest.update(f"{name}\0{len(content)}\0".encode() + content)
     return digest.hexdigest()[:16]
 
 
-def _imports(path: Path, lazy: bool) -> tuple[str, ...]:
-    status = path.stat()
+def _imports(path: str, lazy: bool) -> tuple[str, ...]:
+    status = os.stat(path)
     return _imports_of(path, status.st_mtime_ns, status.st_size, lazy)
 
 
 @functools.cache
-def _imports_of(path: Path, _changed: int, _size: int, lazy: bool) -> tuple[str, ...]:
-    text = _FOR_TYPES_ONLY.sub("", path.read_text(encoding="utf-8"))
+def _imports_of(path: str, _changed: int, _size: int, lazy: bool) -> tuple[str, ...]:
+    text = _FOR_TYPES_ONLY.sub("", Path(path).read_text(encoding="utf-8"))
     return tuple(dict.fromkeys(_named(text, lazy)))
 
 
@@ -112,16 +115,15 @@ def _named(text: str, lazy: bool) -> Iterator[str]:
                 yield f"{found['module']}.{entry.split()[0]}"
 
 
-def _file(name: str, roots: dict[str, Path]) -> Path | None:
+def _file(name: str, roots: dict[str, str]) -> str | None:
     top, *inner = name.split(".")
     if top not in roots:
         return None
-    # Texts: a run of the thesis asks tens of thousands of times; paths take twice as long.
-    parts = [os.fspath(roots[top]), *inner]
+    parts = [roots[top], *inner]
     while parts:
         place = os.sep.join(parts)
         for candidate in (f"{place}.py", f"{place}{os.sep}__init__.py"):
             if os.path.isfile(candidate):
-                return Path(candidate)
+                return candidate
         parts.pop()
     return None

@@ -3,6 +3,7 @@
 import os
 import shlex
 import shutil
+import sys
 
 from asperity.kernels.native.target import platform_name
 
@@ -20,6 +21,14 @@ def compiler() -> list[str] | None:
         if shutil.which(words[0]) is not None:
             return words
     return None
+
+
+def without_settings() -> None:
+    """Let Numba, which is not loaded yet, read no settings from the folder that one works in.
+
+    What is made is for everybody; and reading such a file takes a tenth of loading Numba.
+    """
+    sys.modules["yaml"] = None  # type: ignore[assignment]
 
 
 def hindrance() -> str | None:

@@ -19,7 +19,7 @@ from pathlib import Path
 
 from asperity import exit_codes
 from asperity.kernels import folder as kernel_folder
-from asperity.kernels.building.compiler import TARGET, hindrance
+from asperity.kernels.building.compiler import TARGET, hindrance, without_settings
 from asperity.kernels.native import keys, load
 from asperity.kernels.native.entries import Entry, listed, shared_out
 from asperity.kernels.native.kept import UNFIT
@@ -187,6 +187,7 @@ def _command(kernels: Path, processes: int, numbers: Sequence[int]) -> list[str]
 
 def _make(kernels: Path, entries: Iterable[Entry], processes: int) -> None:
     """Make entries and tell of each: that it begins, and how it ended or nothing."""
+    without_settings()
     from asperity.kernels.building import making
 
     # Ctrl-C is for who waits.

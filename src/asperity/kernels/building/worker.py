@@ -14,6 +14,8 @@ import sys
 import threading
 from pathlib import Path
 
+from asperity.kernels.building.compiler import without_settings
+
 _IDLE = 30.0  # s
 
 
@@ -47,6 +49,7 @@ def main() -> None:
     os.environ["ASPERITY_NATIVE"] = "0"
     # Of what it tries in vain Numba makes coloured messages.
     os.environ["NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING"] = "1"
+    without_settings()
     # Numba makes millions of objects that stay; looking through them is a tenth of the time.
     gc.set_threshold(50_000, 20, 20)
     folder, processes = Path(sys.argv[1]), int(sys.argv[2])

@@ -23,18 +23,23 @@ def versions() -> dict[str, str]:
 @functools.cache
 def sources(module: str) -> tuple[str, ...]:
     """Return the files that a module's kernels follow from, from the folder of the package on."""
-    return tuple(path.relative_to(_ROOT).as_posix() for path in closure(module))
+    return tuple(path.relative_to(_ROOT).as_posix() for path in _files(module))
+
+
+@functools.cache
+def _files(module: str) -> tuple[Path, ...]:
+    return closure(module)
 
 
 @functools.cache
 def closure_digest(module: str) -> str:
     """Return the digest of the sources that a module's kernels follow from."""
-    return digest_of(_ROOT / name for name in sources(module))
+    return digest_of(_files(module))
 
 
 def stands(module: str) -> bool:
     """Return whether the sources of a module's kernels are still those of `closure_digest`."""
-    return digest_of(_ROOT / name for name in sources(module)) == closure_digest(module)
+    return digest_of(_files(module)) == closure_digest(module)
 
 
 def digests(names: Iterable[str]) -> dict[str, str]:
