@@ -40,7 +40,8 @@ def best(function, repeats=3, clock=time.thread_time):
 def in_turn(commit, program, *arguments, rounds):
     """What a program prints as JSON with a commit's package and with ours, in so many rounds each.
 
-    Nothing at all where git does not have the commit. A program runs in a process of its own.
+    Nothing at all where git does not have the commit. A program is a file, run in a process of
+    its own.
     """
     here = Path(__file__).resolve().parents[1]
     then, now = [], []
@@ -55,7 +56,7 @@ def in_turn(commit, program, *arguments, rounds):
         for _ in range(rounds):
             for sources, printed in ((Path(folder) / "src", then), (here / "src", now)):
                 environment = {**os.environ, **ONE_CORE, "PYTHONPATH": str(sources)}
-                line = [sys.executable, "-c", program, *arguments]
+                line = [sys.executable, program, *arguments]
                 done = subprocess.run(
                     line, env=environment, capture_output=True, text=True, check=True
                 )

@@ -141,6 +141,12 @@ def suggestion(word: str, known: Iterable[str]) -> str:
     return f" (did you mean '{lowered[near[0]]}'?)" if near else ""
 
 
+def one_of(known: Iterable[object], given: object) -> str:
+    """Return what a word that is not known must be, and which was meant if one is near."""
+    words = [str(word) for word in known]
+    return f"it must be one of {choices(words)}{suggestion(str(given), words)}"
+
+
 def nearest(word: str, known: Iterable[str]) -> str:
     """Return the end of a message about an unknown word.
 

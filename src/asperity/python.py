@@ -27,7 +27,7 @@ from asperity.runs import Run
 if TYPE_CHECKING:
     from asperity.casefile.check import Mistake
     from asperity.flanks.study.result import FlankStudy
-    from asperity.rating.rate import Rated
+    from asperity.rating.rated import Rated
     from asperity.results import Result
     from asperity.slider.model import Model
     from asperity.slider.result import SlideResult

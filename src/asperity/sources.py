@@ -7,7 +7,7 @@ from typing import Literal, get_args
 import numpy as np
 import numpy.typing as npt
 
-from asperity.errors import InputError, choices, is_plain, shown, suggestion
+from asperity.errors import InputError, is_plain, one_of, shown
 
 Confidence = Literal["verified", "one source", "own choice", "from memory"]
 
@@ -47,8 +47,7 @@ class Source:
                 raise InputError(f"{key} is {shown(text)}; it must be one line of text")
         if self.confidence not in CONFIDENCES:
             raise InputError(
-                f"confidence is {shown(self.confidence)}; it must be one of {choices(CONFIDENCES)}"
-                f"{suggestion(str(self.confidence), CONFIDENCES)}"
+                f"confidence is {shown(self.confidence)}; {one_of(CONFIDENCES, self.confidence)}"
             )
 
     def __str__(self) -> str:

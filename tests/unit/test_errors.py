@@ -10,6 +10,7 @@ from asperity.errors import (
     StorageError,
     is_plain,
     nearest,
+    one_of,
     plain,
     shown,
     suggestion,
@@ -69,3 +70,10 @@ def test_a_value_is_shown_short_whatever_it_is():
     assert shown("x") == "'x'"
     assert len(shown("x" * 10**6)) == 60
     assert shown(1 << 100000) == "a whole number of very many digits"
+
+
+def test_a_word_that_is_not_known_is_told_those_that_are_and_the_nearest():
+    assert one_of(("sine", "square"), "sin") == (
+        "it must be one of 'sine', 'square' (did you mean 'sine'?)"
+    )
+    assert one_of((5, 6), 13.0) == "it must be one of '5', '6'"

@@ -87,6 +87,11 @@ def test_a_run_does_every_step_and_records_every_cell(undisturbed):
     assert answer.torque_with[1] == pytest.approx(0.0925, rel=0.1)
 
 
+def test_the_journal_tells_the_preload_in_newtons_where_the_load_cell_is_calibrated(undisturbed):
+    (line,) = (one for one in rigs.journal(undisturbed[0]) if "preload_V" in one)
+    assert line["preload_N"] == pytest.approx(33e3 * line["preload_V"])
+
+
 def test_a_recording_tells_what_each_instrument_said_it_was(undisturbed):
     told = Recording.open(undisturbed[0] / "file-01.nc").instruments
     assert set(told.values()) == {

@@ -23,6 +23,15 @@ BOUNCES = (
 )  # fmt: skip
 
 
+RINGS = (
+    "friction.model=coulomb", "friction.mu=0.11936", "slider.normal_force=7.2493 N",
+    "slider.mass=1.62564 kg", "slider.drive_velocity=0.045042 mm/s", "slider.lateral=guided",
+    "slider.drive_stiffness=35.5349 MN/m", "slider.drive_damping=0 N s/m",
+    "vibration.frequency=14215.6 Hz", "vibration.waveform=triangle", "vibration.start=0 s",
+    "vibration.velocity_ratio=8.0681", "solve.step=0.17586 us",
+)  # fmt: skip
+
+
 def at_the_end(duration, *settings):
     settings = (*settings, f"solve.duration={duration}")
     march = March(Model.from_case(read_case("normal-pin", TABLES, settings)))
@@ -84,3 +93,12 @@ def test_a_lane_and_a_march_ask_whether_it_was_by_chance(monkeypatch):
     for answer in (*solve_many(models), solve(models[0], history=False)):
         assert answer.settled_by == "luck"
         assert "a note" in answer.notes
+
+
+def test_halves_of_a_window_of_few_rings_that_agree_are_not_enough():
+    # Four rings: each half of the window has two.
+    model = Model.from_case(read_case("table-4.3", TABLES, (*RINGS, "solve.duration=7 ms")))
+    answer = solve(model, history=False)
+    assert answer.residual < 1e-3
+    assert not answer.settled
+    assert "its cycles do not repeat themselves" in answer.settled_by

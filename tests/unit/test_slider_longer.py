@@ -51,3 +51,17 @@ def test_the_duration_foreseen_is_the_least_of_all_whose_window_would_be_steady(
             come_to = WindowMeans(model, table, residual, means, broke=True)
             assert needed(come_to) == pytest.approx(wanted)
     assert found > 150
+
+
+def test_quarters_that_come_and_go_with_a_ring_foresee_no_fading():
+    body = Model.from_case(read_case("table-4.3", TABLES, ["vibration.start=0 s"]))
+    solve = body.solve.model_copy(update={"duration": 7e-3}, units="SI")
+    model = dataclasses.replace(body, solve=solve)
+    means = [-0.22, -0.15, 0.35, -0.10]
+    assert quarters_in_time(means) is not None
+    come_to = WindowMeans(model, Timetable(model), 0.27, means, broke=True)
+    assert needed(come_to) >= model.usual_duration
+    # What fades steadily says by itself when it has.
+    means = [0.5 - 0.4 * 0.1**quarter for quarter in range(4)]
+    come_to = WindowMeans(model, Timetable(model), 0.27, means, broke=True)
+    assert needed(come_to) < 0.1 * model.usual_duration

@@ -6,7 +6,7 @@ from pathlib import Path
 from asperity.casefile import Case, naming_source, read_case
 from asperity.cli import show
 from asperity.commands import case_tables
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, choices, one_of
 from asperity.files.store import output_folder, write_atomically, write_text
 
 _MOST_NODES = 2_000_000
@@ -32,14 +32,9 @@ def export(
 ) -> None:
     """Write a case as input of another program, or its friction, and say where."""
     if program not in PROGRAMS:
-        raise InputError(
-            f"--to {program}: it must be one of {choices(PROGRAMS)}{suggestion(program, PROGRAMS)}"
-        )
+        raise InputError(f"--to {program}: {one_of(PROGRAMS, program)}")
     if subroutine and subroutine not in SUBROUTINES:
-        raise InputError(
-            f"--subroutine {subroutine}: it must be {choices(SUBROUTINES)}"
-            f"{suggestion(subroutine, SUBROUTINES)}"
-        )
+        raise InputError(f"--subroutine {subroutine}: {one_of(SUBROUTINES, subroutine)}")
     if subroutine and program != _ABAQUS:
         raise InputError(f"--subroutine is for --to {_ABAQUS}; leave it out with --to {program}")
     if program in _LAWS:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from asperity.commands.tables import loaded
-from asperity.errors import InputError, choices, nearest, plain, shown, suggestion
+from asperity.errors import InputError, nearest, one_of, plain, shown
 
 if TYPE_CHECKING:
     from asperity.casefile import Case
@@ -67,10 +67,7 @@ class Option:
                 )
             return int(text)
         if self.choices and value not in (self.default, *self.choices):
-            raise InputError(
-                f"--{self.name} {plain(str(value))}: it must be one of {choices(self.choices)}"
-                f"{suggestion(str(value), self.choices)}"
-            )
+            raise InputError(f"--{self.name} {plain(str(value))}: {one_of(self.choices, value)}")
         return value
 
     def allowed(self, value: object) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import get_args
 
 from asperity.casefile.project import Project
-from asperity.errors import InputError, choices
+from asperity.errors import InputError, one_of
 from asperity.results.language import Catalogue, catalogue_of, spoken
 from asperity.results.unit_systems import System, shown_in
 
@@ -14,7 +14,7 @@ from asperity.results.unit_systems import System, shown_in
 def check_shown(units: str, language: str) -> None:
     """Refuse units and a language that there are not."""
     if units not in ("", *get_args(System)):
-        raise InputError(f"--units {units}: it must be one of {choices(get_args(System))}")
+        raise InputError(f"--units {units}: {one_of(get_args(System), units)}")
     catalogue_of(language)
 
 

@@ -9,7 +9,7 @@ from typing import Any, Literal, ParamSpec, Protocol, cast, get_args, get_origin
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.errors import InputError, choices, shown, suggestion
+from asperity.errors import InputError, one_of, shown
 from asperity.formulas.masks import (
     Invalid,
     Mask,
@@ -203,16 +203,13 @@ class _Made:
                         arrays[name] = number
             elif name in self.words and value not in self.words[name]:
                 allowed = self.words[name]
-                raise InputError(
-                    f"{name} is {value!r}; it must be one of {choices(allowed)}"
-                    f"{suggestion(str(value), allowed)}"
-                )
+                raise InputError(f"{name} is {value!r}; {one_of(allowed, value)}")
         return given, common_shape(arrays) if arrays else ()
 
     def evaluate(self, given: dict[str, Any], shape: tuple[int, ...], system: str) -> Any:
         """Return what the body gives for the arguments, checked before and after."""
         if system not in self.checks:
-            raise InputError(f"units is {system!r}; it must be one of {choices(self.checks)}")
+            raise InputError(f"units is {system!r}; {one_of(self.checks, system)}")
         holes: list[Any] = []
         mask = current_mask() if shape else None
         for name, symbol, lowest, highest, size in self.checks[system]:

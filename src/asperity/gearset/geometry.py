@@ -5,7 +5,7 @@ import math
 from typing import Any, Literal
 
 from asperity.arrays import Real
-from asperity.errors import InputError, choices
+from asperity.errors import InputError, one_of
 from asperity.gearset import relations
 from asperity.gearset.proportions import RULES, Heights
 
@@ -122,7 +122,7 @@ class Geometry:
         """
         if tooth_proportions not in RULES:
             raise InputError(
-                f"tooth_proportions is {tooth_proportions!r}; it must be one of {choices(RULES)}"
+                f"tooth_proportions is {tooth_proportions!r}; {one_of(RULES, tooth_proportions)}"
             )
         m, q = float(axial_module), float(diameter_factor)
         gamma = relations.lead_angle(starts, q)

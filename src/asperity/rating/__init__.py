@@ -13,7 +13,8 @@
 from asperity.rating.housing import Housing
 from asperity.rating.load_steps import LoadStep, SpectrumStep
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import Rated, rate, rate_case
+from asperity.rating.rate import rate, rate_case
+from asperity.rating.rated import Rated
 from asperity.rating.spectrum import Spectrum
 from asperity.rating.standards import STANDARDS
 from asperity.rating.variants import Variants, variants

@@ -11,7 +11,7 @@ _SAYS: dict[Word, int] = {"does not hold": 0, "no answer": 1, "undecided": 2, "h
 _STATES = {"static": "at rest", "dynamic": "in motion"}
 
 Rated = Any
-"""A `asperity.rating.rate.Rated`, whose module imports this one."""
+"""A `asperity.rating.rated.Rated`, whose module imports this one."""
 
 
 def changed_words(before: Rated, after: Rated) -> tuple[str, ...]:

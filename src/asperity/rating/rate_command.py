@@ -16,7 +16,8 @@ from asperity.rating.driven import given_of
 from asperity.rating.inputs import Inputs
 from asperity.rating.levers import Alternative, alternatives, levers
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import Rated, rate, rated_of, run_of
+from asperity.rating.rate import rate, rated_of, run_of
+from asperity.rating.rated import Rated
 from asperity.rating.standards import ALL, STANDARDS, judge_of
 from asperity.runs import Run
 

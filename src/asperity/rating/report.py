@@ -36,7 +36,7 @@ _NO_CONTACT = (
 
 
 Reported = Any
-"""A `asperity.rating.rate.Rated`, whose module imports this one."""
+"""A `asperity.rating.rated.Rated`, whose module imports this one."""
 
 
 def both_views(rated: Reported) -> Views:

@@ -15,7 +15,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from asperity.casefile import Table
-from asperity.errors import InputError, shown, suggestion
+from asperity.errors import InputError, one_of, shown
 from asperity.rating.load_steps import LoadStep, SpectrumStep, Time, steps_of
 from asperity.sources import Source
 from asperity.units import Quantity, to_si
@@ -166,10 +166,7 @@ class Spectrum(Table):
     def _known_class(cls, value: str | None) -> str | None:
         known = [f"EN 15714-2 {letter}" for letter in "ABCD"]
         if value is not None and not _CLASS.fullmatch(value):
-            raise InputError(
-                f"spectrum.duty_class is {shown(value)}; it must be one of "
-                f"{', '.join(map(repr, known))}{suggestion(value, known)}"
-            )
+            raise InputError(f"spectrum.duty_class is {shown(value)}; {one_of(known, value)}")
         return value
 
     @model_validator(mode="after")

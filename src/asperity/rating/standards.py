@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, choices, one_of
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rate as rate_agma6034
 from asperity.rating.agma6034.rating import rated as rated_agma6034
@@ -35,10 +35,7 @@ def known_standards(standards: Sequence[str]) -> tuple[str, ...]:
     """Return the standards in their order; raises InputError for one that is not known."""
     for name in standards:
         if name not in STANDARDS:
-            raise InputError(
-                f"standard is {name!r}; it must be one of {choices(STANDARDS)}"
-                f"{suggestion(str(name), STANDARDS)}"
-            )
+            raise InputError(f"standard is {name!r}; {one_of(STANDARDS, name)}")
     if not standards:
         raise InputError(f"no standard is asked for; give one of {choices(STANDARDS)}")
     return tuple(name for name in STANDARDS if name in standards)

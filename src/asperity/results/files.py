@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, one_of
 from asperity.files.store import write_atomically, write_text
 
 if TYPE_CHECKING:
@@ -40,9 +40,7 @@ _LASTING: dict[Any, Any] = {"svg.hashsalt": "asperity", "pdf.fonttype": 42}
 def picture_format(name: str) -> str:
     """Return what pictures are to be written as; raises InputError for what they cannot be."""
     if name not in PICTURES:
-        raise InputError(
-            f"--format {name}: it must be one of {choices(PICTURES)}{suggestion(name, PICTURES)}"
-        )
+        raise InputError(f"--format {name}: {one_of(PICTURES, name)}")
     return name
 
 

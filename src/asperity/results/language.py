@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from asperity.errors import InputError, choices, plain, shown
+from asperity.errors import InputError, one_of, plain, shown
 from asperity.files.store import read_toml
 from asperity.results.words import Number, Sentence
 
@@ -236,8 +236,8 @@ def catalogue_of(language: str) -> Catalogue | None:
     if path.suffix != ".toml":
         if language not in languages():
             raise InputError(
-                f"language {plain(shown(language))}: it must be one of {choices(languages())}, or "
-                "a file of sentences that ends in .toml"
+                f"language {plain(shown(language))}: {one_of(languages(), language)}, or a file of "
+                "sentences that ends in .toml"
             )
         path = _FOLDER / f"{language}.toml"
     return _read(path)

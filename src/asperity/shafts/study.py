@@ -13,7 +13,7 @@ from asperity.rating.bs721.tables import Tables
 from asperity.rating.driven import driven
 from asperity.rating.inputs import Inputs, inputs, scaled
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import Rated
+from asperity.rating.rated import Rated
 from asperity.rating.result import Rating
 from asperity.rating.standards import rate_by, tables_of
 from asperity.rating.tables import operation_of

@@ -85,7 +85,7 @@ def _let_down_in_a_cycle(start, springs, p, q, increments, rises, sums, jacobian
     Returns how often it jumps, and the mean drive force over mu F_N of the state next to it, by the
     ``slopes``; infinite where the Jacobian tells nothing.
     """
-    room, records = room_for(start, springs), np.empty_like(sums)
+    room, records = room_for(start, springs, False), np.empty_like(sums)
     part, rise_part = np.empty_like(increments), np.empty_like(rises)
     states, held = room.trial, room.trial_springs
     states[0] = start[0]
@@ -104,7 +104,9 @@ def _let_down_in_a_cycle(start, springs, p, q, increments, rises, sums, jacobian
         for i in range(n - last + 1):
             part[i] = increments[last + i]
             rise_part[i] = rises[last + i]
-        march_pressed(state, held, records[0], p, q, part, rise_part, n - last, room.nodes[1])
+        march_pressed(
+            state, held, records[0], p, q, part, rise_part, n - last, room.nodes[1], False
+        )
         last = n
         if here:
             jumps += 1

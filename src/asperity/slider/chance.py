@@ -2,7 +2,8 @@
 
 A body that is thrown and lands, or whose friction falls with the speed, may repeat itself after
 five cycles, of which a window has no whole number, or never; the halves of the window then agree
-now and then. How its cycles go on at the end says how far its mean may be from that of all.
+now and then. So do those of a window of few rings of the body on its drive, each of which has as
+much of a ring. How its cycles go on at the end says how far its mean may be from that of all.
 """
 
 import math
@@ -14,7 +15,7 @@ from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import alike_after, ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.step_error import at_the_end, run_once
-from asperity.slider.timetable import FAR, Timetable
+from asperity.slider.timetable import FAR, SHORT, Timetable
 
 _LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
 _BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
@@ -22,8 +23,8 @@ _NOTHING = 1e-4  # of mu F_N, that a mean may be uncertain untold
 _STUDENT = 2.36  # of 7 degrees of freedom, 95 %
 
 
-def may_wander(body: Integrator, sums: np.void) -> bool:
-    """Whether a body may move without ever repeating itself, by its march's sums.
+def may_wander(body: Integrator, table: Timetable, sums: np.void) -> bool:
+    """Whether a body may move without ever repeating itself, or ring, by its march's sums.
 
     Two motions of any other only come nearer.
     """
@@ -32,7 +33,9 @@ def may_wander(body: Integrator, sums: np.void) -> bool:
         return False
     falls = (model.friction.static_mu or 0.0) > model.friction.mu
     lands = model.normal is not None and float(sums["landings"]) > 0.0
-    return lands or (falls and model.slider.drive_stiffness is not None)
+    if lands or model.slider.drive_stiffness is None:
+        return lands
+    return falls or table.window * table.step < SHORT * model.window - 1.0 / model.frequency
 
 
 def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, str]:
@@ -76,7 +79,7 @@ def judged(
     standing: Standing, body: Integrator, table: Timetable, sums: np.void
 ) -> tuple[Standing, tuple[str, ...]]:
     """Return whether what has settled by the halves of its window has not by chance, with notes."""
-    if not standing.settled or not may_wander(body, sums):
+    if not standing.settled or not may_wander(body, table, sums):
         return standing, ()
     off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]))
     if off <= _NOTHING:

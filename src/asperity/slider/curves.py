@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from asperity.arrays import BoolArray, FloatArray
-from asperity.errors import ConvergenceError, InputError, shown
+from asperity.errors import ConvergenceError, InputError, one_of, shown
 from asperity.formulas.formula import Formula
 from asperity.results.dataset import rounded
 from asperity.slider.closed_forms.ratios import directed_ratio, triangle_directed_ratio
@@ -89,7 +89,7 @@ def curve(model: Model, over: str = OVER[0], points: int = 37) -> Curve:
         by too many points.
     """
     if over not in OVER:
-        raise InputError(f"over is {shown(over)}; it must be one of {', '.join(OVER)}")
+        raise InputError(f"over is {shown(over)}; {one_of(OVER, over)}")
     if type(points) is not int or not 2 <= points <= _MOST_POINTS:
         raise InputError(f"points is {shown(points)}; it must be from 2 to {_MOST_POINTS}")
     if model.vibration is None or model.shape is None:

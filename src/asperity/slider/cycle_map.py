@@ -263,7 +263,7 @@ class Cycle:
             here["height"] = 0.0
             march_pressed(
                 here[0], self.springs.copy(), sums, body.p, self.q, self.increments, self.rises,
-                steps, nodes,
+                steps, nodes, True,
             )  # fmt: skip
         # Recorded in one stretch, and given as one a step.
         nodes["position_x"] -= body.p.drive * np.arange(steps)

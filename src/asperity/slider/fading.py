@@ -54,18 +54,22 @@ def mean_left(windows: float) -> float:
     return -math.expm1(-windows) / windows
 
 
-def still_to_come(means: Sequence[float]) -> float:
-    """Return how far a mean is from where it goes to, over mu F_N; 0 where nothing fades steadily.
+def steadily(means: Sequence[float]) -> bool:
+    """Whether means go from quarter to quarter in the same direction, and less each time.
 
-    Steadily: from quarter to quarter in the same direction, and less each time.
+    Those of a ring, of which a quarter has no whole number, do not.
     """
     steps = [after - before for before, after in itertools.pairwise(means)]
-    steady = all(step * steps[0] > 0.0 for step in steps) and (
+    return all(step * steps[0] > 0.0 for step in steps) and (
         abs(steps[0]) > abs(steps[1]) > abs(steps[2])
     )
+
+
+def still_to_come(means: Sequence[float]) -> float:
+    """Return how far a mean is from where it goes to, over mu F_N; 0 if nothing fades steadily."""
     quarters = quarters_in_time(means)
     change = abs(0.5 * (means[2] + means[3] - means[0] - means[1]))
-    if not steady or quarters is None or change < _ROUNDING:
+    if not steadily(means) or quarters is None or change < _ROUNDING:
         return 0.0
     windows = 4.0 / quarters
     return change / apart(windows) * mean_left(windows)

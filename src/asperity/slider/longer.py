@@ -7,7 +7,13 @@ import dataclasses
 import math
 from typing import Protocol, TypeVar
 
-from asperity.slider.fading import apart, mean_left, quarters_in_time, still_to_come
+from asperity.slider.fading import (
+    apart,
+    mean_left,
+    quarters_in_time,
+    steadily,
+    still_to_come,
+)
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import FARTHEST, faded_after, ringing_time, still_rings, upward
@@ -106,7 +112,8 @@ def needed(window: WindowMeans) -> float | None:
         least.append(model.duration + drift)
     if still_grows(model, table):
         least.append(max(model.start + model.ramp + model.window, model.start + spans))
-    loaded = model.start + _loading(model) + spans
+    # What began with the drive or the vibration, a ring say, fades before the window begins.
+    loaded = model.usual_duration + _loading(model)
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
     if lags or not (broke or model.vibrates or slider.rigid):
         least.append(loaded)
@@ -114,9 +121,9 @@ def needed(window: WindowMeans) -> float | None:
         fading = _fading(window)
         if fading is not None:
             least.append(fading)
-        elif loaded > model.duration:
+        if not (fading is not None and steadily(means)):
             least.append(loaded)
-        elif len(least) == 1:
+        if fading is None and max(least) <= model.duration:
             return None
     if (far := still_to_bend(model, table, residual)) > FAR:
         times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)

@@ -79,7 +79,7 @@ def _predicted(start, springs, p, q, increments, rises, sums, jacobian, slopes):
     Returns the mean drive force over mu F_N of that cycle, and of the state, by its ``slopes``;
     infinite where the Jacobian tells nothing.
     """
-    room = room_for(start, springs)
+    room = room_for(start, springs, False)
     count = unknown_scales(start, springs, p, q, room.scales)
     step, matrix, end = room.step, room.matrix, room.trial_end
     worst = defect_of(

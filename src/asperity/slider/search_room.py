@@ -31,15 +31,16 @@ class Room(NamedTuple):
     step: FloatArray
     matrix: FloatArray
     nodes: tuple[StateArray, StateArray]  #: None, in the plane and in space: nothing is recorded
+    whole: bool  #: Whether all sums of a cycle are asked for, or those of the drive force
 
 
 @kernel
-def room_for(start, springs):
-    """Room for a search."""
+def room_for(start, springs, whole):
+    """Room for a search; ``whole`` as in it."""
     most = most_unknowns(springs)
     return Room(
         np.empty_like(start), np.empty_like(springs), np.empty_like(start), np.empty_like(springs),
         np.empty(most), np.empty(most), np.empty(most), np.empty(most), np.empty(most),
         np.empty(most), np.empty(most), np.empty(most), np.empty((most, most)),
-        (np.empty(0, dtype=NODE), np.empty(0, dtype=PRESSED_NODE)),
+        (np.empty(0, dtype=NODE), np.empty(0, dtype=PRESSED_NODE)), whole,
     )  # fmt: skip

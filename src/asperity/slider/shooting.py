@@ -65,36 +65,36 @@ def _forces(state, springs, p, q, rises):
 
 
 @kernel
-def _cycle(state, springs, p, q, increments, rises, sums, nodes):
-    """One cycle from a state whose forces are set."""
+def _cycle(state, springs, p, q, increments, rises, sums, nodes, whole):
+    """One cycle from a state whose forces are set; ``whole`` as in `march_pressed`."""
     steps = increments.size - 1
     if q is None:
         clear(sums)
         march_block(state, sums, p, increments, steps, nodes[0])
     else:
         clear_pressed(sums)
-        march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes[1])
+        march_pressed(state, springs, sums, p, q, increments, rises, steps, nodes[1], whole)
 
 
 @kernel
-def _run(state, springs, p, q, increments, rises, sums, nodes):
+def _run(state, springs, p, q, increments, rises, sums, nodes, whole):
     """Forces that belong to a state, then one cycle from it."""
     _forces(state, springs, p, q, rises)
-    _cycle(state, springs, p, q, increments, rises, sums, nodes)
+    _cycle(state, springs, p, q, increments, rises, sums, nodes, whole)
 
 
 @kernel
 def run_cycle(state, springs, p, q, increments, rises, sums):
     """One cycle from a state whose forces are set."""
     nodes = np.empty(0, dtype=NODE), np.empty(0, dtype=PRESSED_NODE)
-    _cycle(state, springs, p, q, increments, rises, sums, nodes)
+    _cycle(state, springs, p, q, increments, rises, sums, nodes, True)
 
 
 @kernel
 def run(state, springs, p, q, increments, rises, sums):
     """Forces that belong to a state, then one cycle from it."""
     nodes = np.empty(0, dtype=NODE), np.empty(0, dtype=PRESSED_NODE)
-    _run(state, springs, p, q, increments, rises, sums, nodes)
+    _run(state, springs, p, q, increments, rises, sums, nodes, True)
 
 
 @kernel
@@ -106,7 +106,7 @@ def defect_of(
     read_unknowns(start[0], springs, p, q, before)
     end[0] = start[0]
     copy(springs, end_springs)
-    _run(end[0], end_springs, p, q, increments, rises, sums, room.nodes)
+    _run(end[0], end_springs, p, q, increments, rises, sums, room.nodes, room.whole)
     read_unknowns(end[0], end_springs, p, q, after)
     worst = 0.0
     for i in range(count):
@@ -268,7 +268,7 @@ def _first_guess(
     # Friction under the drive's mean motion alone tells the mean force to start from.
     state.stretch = 0.0
     for _ in range(3):
-        _run(state, springs, carried(p), q, increments, rises, sums, room.nodes)
+        _run(state, springs, carried(p), q, increments, rises, sums, room.nodes, room.whole)
     if not p.rigid:
         state.stretch = sums.friction_x / steps / p.stiffness
     return worst, mean, 4
@@ -309,7 +309,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     unknowns : int
         Size of the Jacobian.
     """
-    room = room_for(start, springs)
+    room = room_for(start, springs, True)
     count = unknown_scales(start, springs, p, q, room.scales)
     used = 0
     worst = np.inf
@@ -323,7 +323,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
     else:
         drive = damped(p) if settle > 0 else p
         for _ in range(abs(settle)):
-            _run(start[0], springs, drive, q, increments, rises, sums, room.nodes)
+            _run(start[0], springs, drive, q, increments, rises, sums, room.nodes, room.whole)
         used = abs(settle)
     if worst > 1e-12:
         worst, mean, cycles = _newton(
@@ -339,7 +339,7 @@ def shoot(start, springs, p, q, increments, rises, sums, jacobian, settle):
         # Once more around for the sums, from the end of a cycle, where the node forces belong.
         start[0] = end[0]
         copy(end_springs, springs)
-        _cycle(start[0], springs, p, q, increments, rises, sums, room.nodes)
+        _cycle(start[0], springs, p, q, increments, rises, sums, room.nodes, room.whole)
         used += 1
     return worst, used, count
 
@@ -351,7 +351,7 @@ def differentiated(start, springs, p, q, increments, rises, sums, jacobian):
     It is a row and a column an unknown, and a row for the slopes of the mean drive force over
     mu F_N; ``sums`` are overwritten.
     """
-    room = room_for(start, springs)
+    room = room_for(start, springs, False)
     unknown_scales(start, springs, p, q, room.scales)
     count = jacobian.shape[1]
     defect_of(
@@ -370,7 +370,7 @@ def close(start, springs, p, q, increments, rises, sums, jacobian, most):
 
     Returns the defect that is left and the cycles run, at most ``most``.
     """
-    room = room_for(start, springs)
+    room = room_for(start, springs, False)
     count = unknown_scales(start, springs, p, q, room.scales)
     here, defect, step, matrix = room.here, room.defect, room.step, room.matrix
     end, end_springs = room.trial_end, room.trial_end_springs

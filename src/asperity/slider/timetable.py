@@ -21,6 +21,7 @@ _FEW = 3  # cycles of a window, of which a quarter has none whole
 UNSTEADY = 1e-3
 FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
 LAGS = 0.02  # of its velocity, that a body may be slower than its drive
+SHORT = 0.999  # of the usual window, one that has had no room for it
 WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
 
 
@@ -234,7 +235,7 @@ def march_notes(window: WindowMeans) -> tuple[str, ...]:
     model, table, residual, _, broke, _ = window
     notes = []
     span = table.window * table.step
-    if model.vibrates and span < 0.999 * model.window - 1.0 / model.frequency:
+    if model.vibrates and span < SHORT * model.window - 1.0 / model.frequency:
         notes.append(
             f"the means are over {span:.3g} s: solve.duration has no room for the usual "
             f"{model.window:.3g} s"

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from asperity.arrays import FloatArray
-from asperity.rating.rate import Rated
+from asperity.rating.rated import Rated
 from asperity.studies.design import THREADS, VARIABLES, Space
 from asperity.studies.design_compared import SHOWN, free_numbers
 from asperity.studies.quantities import varied_quantity

@@ -5,7 +5,7 @@ from typing import Any
 
 from asperity.rating.changes import changed_words, locking_words
 from asperity.rating.demands import DEMANDS
-from asperity.rating.rate import Rated
+from asperity.rating.rated import Rated
 from asperity.studies.quantities import varied_quantity
 
 SHOWN = {

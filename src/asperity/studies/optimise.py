@@ -17,7 +17,8 @@ from asperity.casefile import Case, naming_source
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
 from asperity.rating.parameters import Operation, RatingOptions
-from asperity.rating.rate import Rated, rate
+from asperity.rating.rate import rate
+from asperity.rating.rated import Rated
 from asperity.rating.verdict_rows import Row
 from asperity.results import Result, labelled, quantity
 from asperity.results.table import Table

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, one_of
 from asperity.formulas import masking
 from asperity.gearset.hob_shelf import hob_of, shelf
 from asperity.gearset.parameters import Gearset
@@ -92,15 +92,11 @@ def propose(
         A rank that is not known, a ratio that no gearset has, or a case that no standard rates.
     """
     if rank not in RANKS:
-        raise InputError(
-            f"--rank {rank}: it must be one of {choices(RANKS)}{suggestion(rank, RANKS)}"
-        )
+        raise InputError(f"--rank {rank}: {one_of(RANKS, rank)}")
     if not 3.0 <= gear_ratio <= 100.0:
         raise InputError(f"ratio is {gear_ratio:g}; it must be from 3 to 100")
     if locks not in LOCKS:
-        raise InputError(
-            f"--locks {locks}: it must be one of {choices(LOCKS[1:])}{suggestion(locks, LOCKS[1:])}"
-        )
+        raise InputError(f"--locks {locks}: {one_of(LOCKS[1:], locks)}")
     keeps = requirements or Requirements()
     hobs = shelf(keeps.hobs, gearset)
     designs = grid(gear_ratio, held or {}, exact=exact, off=keeps.ratio_tolerance, hobs=hobs)

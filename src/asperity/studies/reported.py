@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field, SkipValidation
 
 from asperity.casefile import Table
-from asperity.errors import InputError, choices, nearest, shown, suggestion
+from asperity.errors import InputError, nearest, one_of, shown
 from asperity.files import store
 from asperity.gearset.materials import BaseOilName
 from asperity.sources import Source
@@ -136,10 +136,7 @@ def _method(file: str, key: str, values: Any, sources: Mapping[str, Source]) -> 
     given = dict(values)
     name = given.pop("from", None)
     if not isinstance(name, str) or name not in sources:
-        raise InputError(
-            f"{file}: [method.{key}]: from is {shown(name)}; it must be one of {choices(sources)}"
-            f"{suggestion(str(name), sources)}"
-        )
+        raise InputError(f"{file}: [method.{key}]: from is {shown(name)}; {one_of(sources, name)}")
     try:
         return Method.model_validate(
             {**given, "key": key, "source": sources[name]}, context=_TEXT_ONLY

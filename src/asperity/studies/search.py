@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from asperity.errors import InputError, nearest
 from asperity.gearset.parameters import Gearset
 from asperity.rating.demands import DEMANDS
-from asperity.rating.rate import Rated
+from asperity.rating.rated import Rated
 from asperity.rating.standards import STANDARDS
 from asperity.studies.design import VARIABLES, Bounds
 from asperity.units import quantity_of, split_unit

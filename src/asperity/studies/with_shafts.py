@@ -14,7 +14,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.gearset.parameters import Gearset
-from asperity.rating.rate import Rated
+from asperity.rating.rated import Rated
 from asperity.rating.verdict_rows import Row
 from asperity.studies.constraints import Limit
 

@@ -10,7 +10,8 @@ from asperity.errors import AsperityError, InputError
 from asperity.gearset import Gearset
 from asperity.rating.demands import DEMANDS
 from asperity.rating.entries import facts
-from asperity.rating.rate import Rated, rate_case
+from asperity.rating.rate import rate_case
+from asperity.rating.rated import Rated
 from asperity.rating.standards import STANDARDS
 from asperity.rating.standing import NAMES
 from asperity.rating.tables import TABLES, operation_of

@@ -198,7 +198,7 @@ class Sonotrode(Table):
     preload_voltage : float or str
         Of the load cell, V.
     preload_sensitivity : float or str, optional
-        N/V.
+        N/V; with it the journal tells the preload in N as well.
     capacitance : float or str, optional
         F; with ``current_limit`` it caps the velocity.
     current_limit : float or str, optional

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, one_of
 from asperity.flanks.mesh.section import Blocks, fill, flank_shares
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.wheel.frame import on_cylinder, turned
@@ -104,10 +104,7 @@ def element_size(wheel: Wheel, density: str) -> float:
 
 
 def _expected(text: str) -> str:
-    return (
-        f"it must be one of {choices(DENSITIES)}{suggestion(text, DENSITIES)}, or an element size "
-        "such as '0.5 mm'"
-    )
+    return f"{one_of(DENSITIES, text)}, or an element size such as '0.5 mm'"
 
 
 def flank_height(wheel: Wheel) -> float:
@@ -149,10 +146,7 @@ def contact_counts(density: str) -> Counts:
         There is no such density.
     """
     if density not in CONTACT_FLANKS:
-        raise InputError(
-            f"density is {density!r}; it must be one of {choices(CONTACT_FLANKS)}"
-            f"{suggestion(density, CONTACT_FLANKS)}"
-        )
+        raise InputError(f"density is {density!r}; {one_of(CONTACT_FLANKS, density)}")
     flank, face = CONTACT_FLANKS[density]
     inner = _FINE_INSIDE if density == "fine" else _COARSE_INSIDE
     return Counts(flank, face, *inner)

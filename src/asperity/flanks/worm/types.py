@@ -2,7 +2,7 @@
 
 import math
 
-from asperity.errors import InputError, choices
+from asperity.errors import InputError, one_of
 from asperity.flanks.parameters import DISC_PROFILE_RADIUS, Disc
 from asperity.flanks.worm import ruled
 from asperity.flanks.worm.ground import fit, ground
@@ -52,4 +52,4 @@ def profile(
                 arc,
             )
             return ground(flank, made, *reach)
-    raise InputError(f"gearset.flank is {flank!r}; it must be one of {choices(TYPES)}")
+    raise InputError(f"gearset.flank is {flank!r}; {one_of(TYPES, flank)}")

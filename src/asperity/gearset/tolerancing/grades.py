@@ -12,7 +12,7 @@ with diameter and module in mm and the grade :math:`A`.
 import math
 from typing import Literal, NamedTuple, get_args
 
-from asperity.errors import InputError, choices
+from asperity.errors import InputError, one_of
 from asperity.gearset.geometry import Geometry
 from asperity.sources import Source
 
@@ -93,8 +93,8 @@ def graded(geometry: Geometry, grade: int) -> tuple[Allowed, ...]:
     """
     if grade not in get_args(Grade):
         raise InputError(
-            f"tolerances.grade is {grade}; it must be one of {choices(map(str, get_args(Grade)))}, "
-            "which the open tables have"
+            f"tolerances.grade is {grade}; {one_of(get_args(Grade), grade)}, which the open tables "
+            "have"
         )
     m = geometry.axial_module
     if not _LEAST_MODULE <= m <= _MODULES[-1]:

@@ -2,7 +2,7 @@
 
 import re
 
-from asperity.errors import InputError, choices
+from asperity.errors import InputError, one_of
 from asperity.sources import Source
 
 SOURCE = Source("ISO 286-1:2010, table 1", "verified", "grades 5 to 12")
@@ -74,5 +74,5 @@ def symmetric_grade(text: str) -> int | None:
         return None
     grade = int(found[1])
     if grade not in _GRADES:
-        raise InputError(f"it must be one of {choices(f'js{known}' for known in _GRADES)}")
+        raise InputError(one_of((f"js{known}" for known in _GRADES), text))
     return grade

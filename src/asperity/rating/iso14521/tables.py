@@ -7,7 +7,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, get_args
 
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, one_of
 from asperity.files import store
 from asperity.gearset.materials import BaseOilName, Family
 from asperity.sources import Source
@@ -60,10 +60,7 @@ def _row(table: str, family: str, lubrication: str, base_oil: str) -> dict[str, 
         ("base_oil", base_oil, get_args(BaseOilName)),
     ):
         if word not in allowed:
-            raise InputError(
-                f"{option} is {word!r}; it must be one of {choices(allowed)}"
-                f"{suggestion(str(word), allowed)}"
-            )
+            raise InputError(f"{option} is {word!r}; {one_of(allowed, word)}")
     content = _tables()[table]
     (row,) = (
         row

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
-from asperity.errors import InputError, choices, nearest, suggestion
+from asperity.errors import InputError, nearest, one_of
 
 _FOLDER = "descriptions"
 
@@ -69,5 +69,5 @@ def description(name: str, kind: str) -> Description:
     """Return the description of that name and kind; raises InputError where there is none."""
     known = {one.name: one for one in descriptions().values() if one.kind == kind}
     if name not in known:
-        raise InputError(f"it must be one of {choices(known)}{suggestion(name, known)}")
+        raise InputError(one_of(known, name))
     return known[name]

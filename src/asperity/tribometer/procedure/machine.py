@@ -243,12 +243,14 @@ class Machine:
         return {"mode": one.mode}
 
     def _preload(self, action: Action) -> dict[str, Any]:
-        wanted = self._sonotrode.preload_voltage
+        wanted, sensitivity = self._sonotrode.preload_voltage, self._sonotrode.preload_sensitivity
 
         def checked(logger: Logger) -> dict[str, Any]:
             level = logger.levels(logger.watch(_PRELOAD_TIME))["load_cell"]
             checks.check_preload(level, wanted)
-            return {"preload_V": level}
+            return {"preload_V": level} | (
+                {} if sensitivity is None else {"preload_N": level * sensitivity}
+            )
 
         return self._tried(action, checked)
 

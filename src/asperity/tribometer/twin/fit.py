@@ -9,7 +9,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
-from asperity.errors import InputError, choices, suggestion
+from asperity.errors import InputError, one_of
 from asperity.tribometer.options import Twin
 from asperity.tribometer.parameters import LONGITUDINAL
 from asperity.tribometer.recording import Recording
@@ -158,10 +158,7 @@ def fit_states(case: Case, rows: Sequence[Measured], free: Sequence[str] = USUAL
 
     for key in free:
         if key not in BOUNDS:
-            raise InputError(
-                f"twin.{key} cannot be fitted; it must be one of {choices(BOUNDS)}"
-                f"{suggestion(key, BOUNDS)}"
-            )
+            raise InputError(f"twin.{key} cannot be fitted; {one_of(BOUNDS, key)}")
     if 4 * len(rows) < len(free) + 1:
         raise InputError(
             f"{len(rows)} segments hold too few numbers for {len(free)} parameters; give more "
