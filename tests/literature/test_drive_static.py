@@ -27,7 +27,7 @@ from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.clearance import cut_root
 from asperity.drive.static.equilibrium import Equilibrium
-from asperity.drive.static.recorder import Pattern, contact_means
+from asperity.drive.static.recorder import Pattern, contact_means, resolved
 from asperity.drive.static.reduction import teeth_reduced
 from asperity.drive.static.result import PATTERNS
 from asperity.drive.static.solve import (
@@ -293,6 +293,18 @@ def test_driven_backwards_the_other_flank_bears_as_the_first_does_half_a_turn_ab
     # A worm that sits aside of the middle of the wheel does not bear alike.
     forward, back = patterns_of("mount.axial_offset=0.1 mm")
     assert np.abs(back[-1] - forward).max() > 0.1 * forward.max()
+
+
+@pytest.mark.slow
+def test_the_pattern_of_a_line_over_the_whole_face_has_no_gaps():
+    # A worm's own hob: two teeth bear along all of the face, on patches longer than the grid's.
+    model = model_of(*ONE_TOOTH, "hob.oversize=1", "hob.tilt=0 deg", phases=2)
+    found = resolved(model.resolved, model.equilibrium.balance(0.75, LOAD), finer=False)
+    for tooth in found.teeth:
+        pattern = Pattern(model.resolved)
+        pattern.add(dataclasses.replace(found, teeth=(tooth,)))
+        on = np.flatnonzero(pattern.largest.reshape(41, -1).any(axis=0))
+        np.testing.assert_array_equal(np.diff(on), 1)
 
 
 def test_the_other_flank_s_balance_with_a_shaft_that_gives_is_the_first_s_mirrored():

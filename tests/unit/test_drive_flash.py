@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from asperity.drive.static.flash import HEAT, effusivity, flash_temperature
+from asperity.drive.static.flash import HEAT, effusivity, flash_temperature, passing
 from asperity.gearset.masses import DENSITY
 
 
@@ -30,6 +30,30 @@ def test_it_is_the_highest_temperature_of_a_band_of_elliptic_heat():
     )  # fmt: skip
     heat = 0.1 * load * sliding
     assert found[0] == pytest.approx(highest(heat, width, rolling, own), rel=5e-3)
+
+
+@pytest.mark.parametrize(("across", "along"), [(0.7, 0.0), (0.0, 1.8), (0.1, 1.5), (0.3, -0.9)])
+def test_it_is_the_highest_of_an_ellipse_whichever_way_it_moves(across, along):
+    width, length, flux, own = 0.4e-3, 2.2e-3, 1e8, 12900.0
+    way = np.array([2.0 * across / width, 2.0 * along / length])
+    speed = math.hypot(*way)
+    # Where the ellipse is a circle of radius 1, paths are beside its middle by `aside`.
+    s, weight = np.polynomial.legendre.leggauss(100)
+    best = 0.0
+    for aside in (-0.3, 0.0, 0.3):
+        half = math.sqrt(1.0 - aside**2)
+        for end in np.linspace(-0.2, 1.0, 601) * half:
+            r = 0.5 * math.sqrt(end + half) * (s + 1.0)
+            heat = flux * np.sqrt(np.maximum(1.0 - aside**2 - (end - r**2) ** 2, 0.0))
+            rise = np.sum(weight * heat) * math.sqrt((end + half) / speed)
+            best = max(best, rise / (own * math.sqrt(math.pi)))
+    load = 0.25 * math.pi * flux * width
+    moved = passing(np.array([across]), np.array([along]), np.array([width / length]))
+    still = np.zeros(1)
+    found = flash_temperature(
+        1.0, np.array([load]), np.ones(1), (moved, still), np.array([width]), (own, 1.0)
+    )
+    assert found[0] == pytest.approx(best, rel=5e-3)
 
 
 def test_both_bodies_take_the_heat_that_makes_them_equally_warm():

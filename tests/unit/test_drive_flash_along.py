@@ -10,6 +10,8 @@ from asperity.drive.static.reduction import _along
 
 ACROSS, ALONG = 2e-4, 1e-3
 SLIDING, WORM, WHEEL = np.array([3.0, 5.0]), np.array([-0.4, 0.9]), np.array([0.16, 0.25])
+WORM_ALONG, WHEEL_ALONG = np.array([2.0, -4.0]), np.array([0.5, 0.0])
+LENGTH = 5e-3
 
 
 def flash():
@@ -27,7 +29,7 @@ def flash():
         (2e4, 9e3),
     )
     one.course, one.worst = [], Line(np.zeros(0), np.zeros(0))
-    one.__dict__["_motion"] = (SLIDING, WORM, WHEEL)
+    one.__dict__["_motion"] = np.array([SLIDING, WORM, WHEEL, WORM_ALONG, WHEEL_ALONG])
     return one, asked
 
 
@@ -38,7 +40,9 @@ def tooth(force, share):
     points = np.stack([np.zeros(z.size), np.ones(z.size), z.ravel()], axis=1)
     frame = SimpleNamespace(shape=(rows, columns), spacing=(ACROSS, ALONG))
     strip = SimpleNamespace(frame=frame, points=points, share=np.ravel(share))
-    return SimpleNamespace(force=np.ravel(np.array(force, dtype=float)), strip=strip)
+    return SimpleNamespace(
+        force=np.ravel(np.array(force, dtype=float)), strip=strip, extent=lambda: (LENGTH, ACROSS)
+    )
 
 
 def test_a_band_is_as_hot_as_blok_has_it():
@@ -51,7 +55,12 @@ def test_a_band_is_as_hot_as_blok_has_it():
     assert asked[0][0] == pytest.approx([0.25 * 0.2 + 0.75 * 0.4, 0.7])
     assert asked[0][1] == pytest.approx(line.face)
     for n, (whole, wide, at) in enumerate(((4.0, 2, 0), (8.0, 2, 1))):
-        carried = 2e4 * abs(WORM[at]) ** 0.5 + 9e3 * WHEEL[at] ** 0.5
+        slender = wide * ACROSS / LENGTH
+        worm, wheel = (
+            (across[at] ** 2 + (slender * along[at]) ** 2) ** 0.25
+            for across, along in ((WORM, WORM_ALONG), (WHEEL, WHEEL_ALONG))
+        )
+        carried = 2e4 * worm + 9e3 * wheel
         rise = SHARE * 0.05 * whole / ALONG * SLIDING[at] / carried / (wide * ACROSS) ** 0.5
         assert line.rise[n] == pytest.approx(rise)
 

@@ -289,9 +289,10 @@ def test_each_axis_has_a_column_of_its_own_and_a_line_where_it_alone_is_off(cach
     assert all(axes.get_legend() is None for axes in figure.axes[1:])
 
 
-def test_where_no_point_has_an_axis_off_alone_there_is_no_line_and_no_legend(cached):
+def test_where_no_point_has_an_axis_off_alone_there_is_no_line_yet_the_points_are_named(cached):
     made = study(over=["mount.axial_offset=50 um", "mount.shaft_angle_error=0.1 deg"])
     figure = over_axes(misalign.answer(made, Run()).to_dataset())
-    assert all(axes.get_legend() is None for axes in figure.axes)
+    named = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert named == ["flank", "edge"]
     # The points of each curve, and the case as it is.
     assert [len(axes.lines) for axes in figure.axes[:2]] == [4, 4]

@@ -52,6 +52,13 @@ def flank_triangles(dataset: "xr.Dataset", side: float = 1.0) -> "Triangulation"
     return Triangulation(side * z, r, halves)
 
 
+def pressure_label(dataset: "xr.Dataset") -> str:
+    """Return what a colour bar of pressures is of, with their limit."""
+    flow = dataset.get("flow_pressure")
+    limit = "" if flow is None else f"\nflows at {float(flow):.4g}"
+    return f"pressure (MPa){limit}"
+
+
 def _percent(share: float) -> str:
     """Return a balance in percent; below what is resolved it is none."""
     return f"{100.0 * share:.2g} %" if abs(share) > _RESOLVED else "0 %"

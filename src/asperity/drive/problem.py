@@ -169,6 +169,11 @@ class DriveProblem:
         return self.operation.output_torque
 
     @property
+    def flow_pressure(self) -> float | None:
+        """Pressure at which the wheel flows, Pa; None where it stays elastic."""
+        return self.gearset.wheel_material.flow_pressure if self.drive.plastic else None
+
+    @property
     def reference_radius(self) -> float:
         """Of the worm's reference circle, m."""
         return 0.5e-3 * self.geometry.worm_pitch_diameter

@@ -9,6 +9,11 @@ rolling through it at :math:`u_1` and :math:`u_2` across, it is warmer than both
 heat as an ellipse over the width, shared so that both have the same highest temperature, and both
 faster than heat spreads. :math:`w` and :math:`2b` are those of the resolved pressures across each
 place along a contact, speeds those of the flank's exact kinematics there.
+
+A worm slides along its contacts more than across them, and where it hardly rolls that alone takes
+its heat away. A path through the middle of an ellipse :math:`2b` wide and :math:`l` long takes as
+long as one straight across at :math:`u = \sqrt{u_a^2 + (2b\,v_a/l)^2}`, :math:`u_a` the speed
+across, :math:`v_a` along: that is what `flash_temperature` is given (`passing`).
 """
 
 from __future__ import annotations
@@ -88,6 +93,14 @@ def flash_temperature(
     return np.asarray(SHARE * friction * line_load * sliding / (carried * np.sqrt(width)))
 
 
+def passing(across: FloatArray, along: FloatArray, slenderness: FloatArray) -> FloatArray:
+    """Return how fast a surface would cross a contact in the time that it is in it, m/s.
+
+    Of its speeds across and along, m/s, and the width of the contact over its length.
+    """
+    return np.asarray(np.hypot(across, slenderness * along))
+
+
 class Line(NamedTuple):
     """Flash temperatures along a contact."""
 
@@ -116,12 +129,19 @@ class Flash:
         self.worst = Line(np.zeros(0), np.zeros(0))  #: Of the contact with the largest
 
     @functools.cached_property
-    def _motion(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Speeds at the points of the exact flank: sliding, worm and wheel across, m/s."""
+    def _motion(self) -> FloatArray:
+        """Speeds at the points of the exact flank: sliding, worm's and wheel's across, along, m/s.
+
+        (5, k)
+        """
         wheel = self._flank.sector.wheel
         motion = kinematics(wheel.pair, exact_grid(wheel), 1, self._speed)
-        one, other = motion.worm_rolling, motion.wheel_rolling
-        return _MILLI * motion.sliding_speed.ravel(), _MILLI * one.ravel(), _MILLI * other.ravel()
+        x, y, _ = np.moveaxis(motion.position, -1, 0)
+        turning = self._speed / wheel.pair.ratio
+        other = turning * (x * motion.along[..., 1] - y * motion.along[..., 0])
+        one = other + np.sum(motion.sliding * motion.along, axis=-1)
+        across = motion.worm_rolling, motion.wheel_rolling
+        return _MILLI * np.array([motion.sliding_speed, *across, one, other]).reshape(5, -1)
 
     def take(self, resolved_pressure: Resolved) -> None:
         """Take the pressures of a phase."""
@@ -142,9 +162,12 @@ class Flash:
             for values in (strip.share, strip.points[:, 2])
         )
         at = self._flank.nearest(np.clip(share, 0.0, 1.0), z)
-        sliding, one, other = self._motion
+        width = across * (force > 0.0).sum(axis=0)[on]
+        slender = width / max(tooth.extent()[0], along)
+        sliding, worm, wheel, worm_along, wheel_along = self._motion[:, at]
         rise = flash_temperature(
-            self._friction, whole / along, sliding[at], (one[at], other[at]),
-            across * (force > 0.0).sum(axis=0)[on], self._effusivities,
+            self._friction, whole / along, sliding,
+            (passing(worm, worm_along, slender), passing(wheel, wheel_along, slender)),
+            width, self._effusivities,
         )  # fmt: skip
         return Line(z, rise)

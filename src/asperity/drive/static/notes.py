@@ -88,7 +88,7 @@ def _pressures(problem: DriveProblem, record: PhaseRecord) -> Iterator[str]:
     peaks, forces = np.array(record.peaks), np.array(record.forces)
     whole = forces.sum(axis=1)
     wheel = problem.gearset.wheel_material
-    cap = wheel.flow_pressure if problem.drive.plastic else None
+    cap = problem.flow_pressure
     for zone, (edge, mend) in _EDGES.items():
         bearing = forces[:, zone] > _BEARS * whole
         if not bearing.any():

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.drive.plots import flank_triangles
+from asperity.drive.plots import flank_triangles, pressure_label
 from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, axes_grid, legend
 from asperity.results.panels import Panel, drawn, line
 
@@ -96,7 +96,7 @@ def pattern(dataset: "xr.Dataset") -> "Figure":
             flank_triangles(dataset, side), mega, levels=_LEVELS, cmap="cividis"
         )
         bar = figure.colorbar(drawn, ax=panel)
-        bar.set_label("pressure (MPa)")
+        bar.set_label(pressure_label(dataset))
         panel.set_aspect("equal")
         panel.grid(visible=False)
         panel.set_title(

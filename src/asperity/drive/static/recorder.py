@@ -58,9 +58,12 @@ class Pattern:
         """Keep what was resolved."""
         flank = self.owner.flank
         for tooth in resolved_pressure.teeth:
-            on = tooth.force > 0.0
-            nearest = flank.nearest(tooth.strip.share[on], tooth.strip.points[on, 2])
-            np.maximum.at(self.largest, nearest, tooth.pressure[on])
+            on, frame = tooth.force > 0.0, tooth.strip.frame
+            # Patches are as long as the grid is wide: their middles alone would leave points out.
+            for part in (-0.4, 0.0, 0.4):
+                points = tooth.strip.points[on] + part * frame.spacing[1] * frame.axes[1]
+                nearest = flank.nearest(flank.share_at(points), points[:, 2])
+                np.maximum.at(self.largest, nearest, tooth.pressure[on])
 
 
 class PhaseRecord:

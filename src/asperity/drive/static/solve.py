@@ -156,7 +156,7 @@ class StaticModel:
         return ResolvedContact(
             ExactFlank.of(self.sector, wheel, give),
             modulus_of(wheel, worm),
-            wheel.flow_pressure if problem.drive.plastic else None,
+            problem.flow_pressure,
         )
 
     def _sliding_speed(self) -> float:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.drive.plots import flank_triangles
+from asperity.drive.plots import flank_triangles, pressure_label
 from asperity.results.figures import BLACK, BLUE, GREEN, VERMILION, axes_grid, legend
 
 if TYPE_CHECKING:
@@ -48,11 +48,19 @@ def over_axes(dataset: "xr.Dataset") -> "Figure":
         what, curves = shown[row]
         at = values[:, column]
         alone = _alone(values, column)
+        lined = len(alone) > 1
         for label, numbers, colour, marker in curves:
             panel.plot(
-                at, numbers, marker, color=colour, markersize=4, alpha=0.35, markeredgewidth=0.0
+                at,
+                numbers,
+                marker,
+                color=colour,
+                markersize=4,
+                alpha=0.35,
+                markeredgewidth=0.0,
+                label=None if lined else label or None,
             )
-            if len(alone) > 1:
+            if lined:
                 order = alone[np.argsort(at[alone])]
                 panel.plot(
                     at[order], numbers[order], marker=marker, color=colour, label=label or None
@@ -64,7 +72,9 @@ def over_axes(dataset: "xr.Dataset") -> "Figure":
             panel.set_ylabel(what)
         if row == len(shown) - 1:
             panel.set_xlabel(_named(dataset, column))
-        if place == 0 and len(alone) > 1:
+        if row == 0 and (flow := float(dataset.get("flow_pressure", np.inf))) < panel.get_ylim()[1]:
+            panel.axhline(flow, color=BLACK, linewidth=1.0, linestyle=":", label="flows")
+        if place == 0:
             legend(panel)
     return figure
 
@@ -91,12 +101,12 @@ def patterns(dataset: "xr.Dataset") -> "Figure":
         if number % columns == 0:
             panel.set_ylabel("radius (mm)")
         if number + columns >= len(chosen):
-            panel.set_xlabel("along the axis (mm)")
+            panel.set_xlabel("along the wheel's axis (mm)")
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
     bar = figure.colorbar(ScalarMappable(Normalize(0.0, most), "cividis"), ax=axes)
-    bar.set_label("pressure (MPa)")
+    bar.set_label(pressure_label(dataset))
     return figure
 
 

@@ -57,6 +57,10 @@ class Misaligned(OfDrive):
     )
     pressure_flank: FloatArray = quantity("p", "Pa", "largest pressure on the flank", dims=_POINT)
     pressure_edge: FloatArray = quantity("p", "Pa", "largest pressure at an edge", dims=_POINT)
+    flow_pressure: float | None = quantity(
+        "H", "MPa", "limit: pressure at which the wheel flows, its hardness",
+        key="flow_pressure_MPa", default=None,
+    )  # fmt: skip
     force_worm_tip: FloatArray = quantity(
         "N", "N", "largest force at the worm's tip edge", dims=_POINT
     )
@@ -132,6 +136,7 @@ class Misaligned(OfDrive):
             axis=np.array([axis.path for axis in axes]),
             axis_unit=np.array([axis.unit or "1" for axis in axes]),
             value=np.array(values, np.float64),
+            flow_pressure=None if (flow := problem.flow_pressure) is None else _MEGA * flow,
             pressure_edge=np.max(
                 [column(f"pressure_{edge}") for edge in ("worm_tip", "wheel_tip", "face_end")], 0
             ),

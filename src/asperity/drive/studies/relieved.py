@@ -174,12 +174,8 @@ class Relieved(OfDrive):
         before, after = self.peak_before, self.peak_after
         if not math.isclose(before, after, rel_tol=_SAME):
             return f"the largest pressure from {before:.4g} to {after:.4g} MPa"
-        flow = self.problem.gearset.wheel_material.flow_pressure
-        flows = (
-            self.problem.drive.plastic
-            and flow is not None
-            and math.isclose(after, _MEGA * flow, rel_tol=_SAME)
-        )
+        flow = self.problem.flow_pressure
+        flows = flow is not None and math.isclose(after, _MEGA * flow, rel_tol=_SAME)
         return f"the largest pressure stays at {after:.4g} MPa" + (
             ", at which the wheel flows" if flows else ""
         )

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.drive.plots import flank_triangles
+from asperity.drive.plots import flank_triangles, pressure_label
 from asperity.results.figures import axes_grid
 from asperity.results.panels import Panel, drawn, line
 
@@ -49,8 +49,8 @@ def flank(dataset: "xr.Dataset") -> "Figure":
     most = float(max(new.max(), worn.max()))
     shown = (
         (1e6 * dataset["depth"].values, None, "worn off", "depth (µm)"),
-        (new, most, "new", "pressure (MPa)"),
-        (worn, most, "worn", "pressure (MPa)"),
+        (new, most, "new", pressure_label(dataset)),
+        (worn, most, "worn", pressure_label(dataset)),
     )
     figure, axes = axes_grid(3, 1, width=7.4, height=7.2)
     for panel, (values, top, title, unit) in zip(axes, shown, strict=True):

@@ -47,6 +47,10 @@ class WheelWorn(OfDrive):
         "p_m", "MPa", "normal force over the area that bears, new", key="pressure_mean_new_MPa"
     )
     pressure_mean: float = quantity("p_m", "MPa", "the same, worn", key="pressure_mean_MPa")
+    flow_pressure: float | None = quantity(
+        "H", "MPa", "limit: pressure at which the wheel flows, its hardness",
+        key="flow_pressure_MPa", default=None,
+    )  # fmt: skip
     transmission_error_new: float = quantity(
         "", "rad", "transmission error under load, peak to peak, new"
     )

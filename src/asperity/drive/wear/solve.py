@@ -181,6 +181,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
         friction_work=new.friction * now.work,
         pressure_mean_new=float(columns["pressure_course"][0]) / _MEGA,
         pressure_mean=float(columns["pressure_course"][-1]) / _MEGA,
+        flow_pressure=None if (flow := problem.flow_pressure) is None else flow / _MEGA,
         transmission_error_new=fresh.transmission_error,
         transmission_error=worn.transmission_error,
         efficiency_new=ideal / fresh.input_torque,
