@@ -161,10 +161,23 @@ def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
     Those with an exponent :math:`i` above 1 come to their limit as :math:`t^{-1/(i - 1)}`: what is
     left is :math:`i - 1` times the change in as long a time as has passed.
     """
-    if model.friction.model != "dahl" or model.friction.exponent <= 1.0:
+    if not bends_ever_more(model):
         return 0.0
     change = residual * (model.duration - model.start) / (0.5 * table.window * table.step)
     return (model.friction.exponent - 1.0) * change
+
+
+def bends_ever_more(model: Model) -> bool:
+    """Whether asperities come to their limit by a power of time: those that are not bent back."""
+    friction = model.friction
+    return friction.model == "dahl" and friction.exponent > 1.0 and not turns_back(model)
+
+
+def turns_back(model: Model) -> bool:
+    """Whether a vibration that is faster than the drive turns the slip back in every cycle."""
+    along, across, _ = model.unit_direction
+    flat = math.hypot(along, across) if model.friction.law == "vector" else abs(along)
+    return model.vibrates and flat * model.peak_velocity > model.slider.drive_velocity
 
 
 def still_loads(model: Model, table: Timetable, residual: float) -> bool:
@@ -179,18 +192,19 @@ def still_loads(model: Model, table: Timetable, residual: float) -> bool:
     return residual * model.full_friction > LAGS * way * slider.drive_stiffness
 
 
-def unseen_ring(model: Model, table: Timetable) -> float:
-    """Return the period of a ring of the body on its drive that is longer than the window, s.
+def unseen_ring(model: Model, table: Timetable, rings: float = 1.0) -> float:
+    """Return the period of a ring of the body on its drive, of which a window has fewer, s.
 
     The means of less than one ring are those of where the body swings just then. Zero where the
-    window has room for one, and where nothing rings.
+    window has room for so many, and where nothing rings.
     """
     slider = model.slider
     if slider.drive_stiffness is None or slider.mass is None:
         return 0.0
     if slider.drive_damping >= 2.0 * math.sqrt(slider.drive_stiffness * slider.mass):
         return 0.0
-    return model.ring_period if table.window * table.step < model.ring_period else 0.0
+    span = table.window * table.step
+    return model.ring_period if span < rings * model.ring_period else 0.0
 
 
 def pull_across(model: Model, mean: float) -> float:
