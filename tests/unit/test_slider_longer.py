@@ -91,19 +91,9 @@ def test_asperities_that_are_bent_back_in_every_cycle_fade_and_have_no_tail():
     assert on == across > 10.0
 
 
-def test_a_window_of_one_ring_takes_no_part_of_it_for_what_fades():
-    means = [0.750558, 0.909011, 1.022254, 1.044476]
-    damped = "slider.drive_damping=4 N s/m"
-    short = come_to(means, 0.207, 0.022, damped)
-    ring = short.model.ring_period
-    assert ring < short.table.window * short.table.step < 2.0 * ring
-    assert needed(short) >= short.model.usual_duration
-    assert needed(come_to(means, 0.207, 0.06, damped)) < short.model.usual_duration
-
-
 def test_nothing_is_foreseen_for_a_ring_on_the_drive_that_nothing_damps():
-    # 8 m (v_d - v_a) over the window and mu F_N is 1.1e-3 with a heavy body.
-    rings = "slider.mass=0.6 kg", "vibration.velocity_ratio=0.1"
+    # 8 m (v_d - v_a) over the window and mu F_N is 1.15e-3 with a heavy body.
+    rings = "slider.mass=0.7 kg", "vibration.velocity_ratio=0.1"
     means = [0.795, 0.966, 0.977, 0.976]
     lasting = come_to(means, 0.0955, 0.2, *rings)
     assert needed(lasting) is None
@@ -117,5 +107,6 @@ def test_nothing_is_foreseen_for_a_ring_on_the_drive_that_nothing_damps():
 
 
 def test_what_has_not_settled_by_chance_is_told_the_usual_duration():
-    chance = come_to([0.998, 0.9957, 0.997, 0.9976], 4e-4, 0.02, "slider.drive_damping=400 N s/m")
-    assert needed(chance) == pytest.approx(chance.model.usual_duration, rel=0.1)
+    chance = come_to([0.998, 0.9957, 0.997, 0.9976], 4e-4, 0.05, "slider.drive_damping=400 N s/m")
+    usual = chance.model.usual_duration
+    assert usual <= needed(chance) < 1.2 * usual

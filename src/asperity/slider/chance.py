@@ -74,7 +74,7 @@ def _by_the_power(model: Model, table: Timetable, cycles: int) -> float:
     """Return how far asperities still bend, of their change from the window to further cycles."""
     end = table.steps * table.step - model.start
     window = end - 0.5 * table.window * table.step
-    left = (window / (end + 0.5 * cycles / model.frequency)) ** (
+    left: float = (window / (end + 0.5 * cycles / model.frequency)) ** (
         1.0 / (model.friction.exponent - 1.0)
     )
     return 1.0 / (1.0 - left)

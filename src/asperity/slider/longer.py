@@ -41,7 +41,6 @@ _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
 _MOST_TIMES = 1e3  # what has been marched, that a body is told to be marched for
 _NEXT, _MOST_TRIED = 1.02, 400
-_TOLD = 2.0  # rings of a window, whose quarters do not take a part of one for what fades
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
 
 M = TypeVar("M", bound=Model)
@@ -129,7 +128,7 @@ def needed(window: WindowMeans) -> float | None:
         fading = _fading(window)
         if fading is not None:
             least.append(fading)
-        if fading is None or not steadily(means) or unseen_ring(model, table, _TOLD) > 0.0:
+        if fading is None or not steadily(means):
             least.append(loaded)
         if fading is None and max(least) <= model.duration:
             return None

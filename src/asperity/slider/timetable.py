@@ -192,19 +192,18 @@ def still_loads(model: Model, table: Timetable, residual: float) -> bool:
     return residual * model.full_friction > LAGS * way * slider.drive_stiffness
 
 
-def unseen_ring(model: Model, table: Timetable, rings: float = 1.0) -> float:
-    """Return the period of a ring of the body on its drive, of which a window has fewer, s.
+def unseen_ring(model: Model, table: Timetable) -> float:
+    """Return the period of a ring of the body on its drive that is longer than the window, s.
 
     The means of less than one ring are those of where the body swings just then. Zero where the
-    window has room for so many, and where nothing rings.
+    window has room for one, and where nothing rings.
     """
     slider = model.slider
     if slider.drive_stiffness is None or slider.mass is None:
         return 0.0
     if slider.drive_damping >= 2.0 * math.sqrt(slider.drive_stiffness * slider.mass):
         return 0.0
-    span = table.window * table.step
-    return model.ring_period if span < rings * model.ring_period else 0.0
+    return model.ring_period if table.window * table.step < model.ring_period else 0.0
 
 
 def pull_across(model: Model, mean: float) -> float:
