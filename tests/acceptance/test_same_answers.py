@@ -25,6 +25,7 @@ CHANGES = (
     ),
     # (command lines, what in their answers, why it is no longer what was recorded)
     ("drive *", "*flash_*", "what a worm slides along its contacts carries heat off as well"),
+    ("drive *", "*contact_width*", "it is of the area that bears, not of how a contact is bent"),
     *(
         (f"{line} *", place, "patterns have no gaps between patches, and a limit beside them")
         for line in ("drive", "misalign", "wear")
