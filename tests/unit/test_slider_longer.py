@@ -86,7 +86,8 @@ def test_asperities_that_are_bent_back_in_every_cycle_fade_and_have_no_tail():
         )
     )
     fades = needed(come_to(means, 0.17, 0.1, *bent[1:], "vibration.velocity_ratio=1.1"))
-    assert back == fades < 0.5
+    # They slow down as they come nearer to it.
+    assert back == 2.0 * fades < 1.0
     # Split, what is across bends nothing back along the drive.
     assert on == across > 10.0
 

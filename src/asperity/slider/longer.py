@@ -127,7 +127,9 @@ def needed(window: WindowMeans) -> float | None:
     if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(window)
         if fading is not None:
-            least.append(fading)
+            # Asperities with an exponent above 1 slow down as they come nearer to their limit.
+            slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
+            least.append(fading * max(slower, 1.0))
         if fading is None or not steadily(means):
             least.append(loaded)
         if fading is None and max(least) <= model.duration:
