@@ -22,9 +22,12 @@ from asperity.gearset import Geometry
 
 GEOMETRY = Geometry.of(starts=4, wheel_teeth=60, axial_module=2.15380, diameter_factor=8.4)
 RELIEF = Modification(tip_relief="20 um", tip_relief_start=0.2, lead_correction="0.05 deg")
+BOTH = Modification(tip_relief="20 um", root_relief="30 um", root_relief_start=0.2)
 WORMS = {kind: Helicoid.worm(GEOMETRY, kind) for kind in TYPES} | {
     "ZI with relief": Helicoid.worm(GEOMETRY, "ZI", RELIEF),
     "ZA with relief": Helicoid.worm(GEOMETRY, "ZA", RELIEF),
+    "ZI with relief at its root": Helicoid.worm(GEOMETRY, "ZI", BOTH),
+    "ZK with relief at its root": Helicoid.worm(GEOMETRY, "ZK", BOTH),
     "hob": Helicoid.hob(GEOMETRY, "ZI", Hob(oversize=1.12)),
     "one start": Helicoid.worm(
         Geometry.of(starts=1, wheel_teeth=40, axial_module=2.0, diameter_factor=10.0), "ZI"

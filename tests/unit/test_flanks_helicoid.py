@@ -179,6 +179,32 @@ def test_a_tip_relief_begins_with_no_step_in_slope_or_curvature():
         assert float(after[k]) == pytest.approx(float(before[k]), abs=1e-8)
 
 
+@pytest.mark.parametrize("flank", ["ZI", "ZA"])
+def test_a_root_relief_takes_its_amount_off_the_root_and_nothing_above_its_start(flank):
+    relief = Modification(root_relief="20 um", root_relief_start=0.3)
+    plain, relieved = Helicoid.worm(GEOMETRY, flank), Helicoid.worm(GEOMETRY, flank, relief)
+    r, root = plain.pitch_radius, GEOMETRY.worm_root_diameter / 2.0
+    above = np.linspace(r - 0.3 * (r - root), plain.tip_radius, 9)
+    assert (relieved.width(above)[0] == plain.width(above)[0]).all()
+    missing = relieved.width(root)[0] - plain.width(root)[0]
+    normal = missing * math.cos(plain.lead_angle) * math.cos(plain.pressure_angle)
+    assert normal == pytest.approx(0.020, rel=1e-12)
+    start = relieved.root_relief_radius
+    before, after = relieved.width(start - 1e-9), relieved.width(start + 1e-9)
+    for k in range(3):
+        assert float(after[k]) == pytest.approx(float(before[k]), abs=1e-7)
+    radii, h = np.linspace(root + 1e-3, start - 1e-3, 50), 1e-5
+    w, w1, w2 = relieved.width(radii)
+    ahead, behind = relieved.width(radii + h), relieved.width(radii - h)
+    assert np.abs((ahead[0] - behind[0]) / (2.0 * h) - w1).max() < 1e-8
+    assert np.abs((ahead[1] - behind[1]) / (2.0 * h) - w2).max() < 1e-7
+
+
+def test_a_root_relief_that_undercuts_the_thread_is_refused():
+    with pytest.raises(InputError, match="root_relief undercuts .* take less, or begin it nearer"):
+        Helicoid.worm(GEOMETRY, "ZI", Modification(root_relief="0.3 mm", root_relief_start=0.8))
+
+
 def test_a_root_whose_space_would_close_is_lifted():
     steep = Geometry.of(
         starts=2,

@@ -135,6 +135,12 @@ class Modification(Table):
         Where the relief begins, as a fraction of the addendum: 0 at the pitch radius (the
         modification of a worm that drives a yielding wheel), 0.5 if left out. It grows with the
         third power of the distance from there, so that no edge arises.
+    root_relief : float or str
+        What is taken off at the root, normal to the flank, m ("10 um" in a file).
+    root_relief_start : float
+        Where that begins, as a fraction of the dedendum: 0 at the pitch radius, 0.5 if left out.
+        It begins and ends smoothly, with no step of slope or curvature; where the wheel's tip
+        reaches, most of it is there.
     tip_rounding : str
         Rounding of the thread's tip: a number of axial modules or a length; 0.05 modules if left
         out.
@@ -146,6 +152,10 @@ class Modification(Table):
     tip_relief: Annotated[float, _length("10 um", ge=0.0, le=1e-2)] = 0.0
     tip_relief_start: Annotated[
         float, Quantity("", what="a fraction of the addendum", example="0.5", ge=0.0, le=0.95)
+    ] = 0.5
+    root_relief: Annotated[float, _length("10 um", ge=0.0, le=1e-2)] = 0.0
+    root_relief_start: Annotated[
+        float, Quantity("", what="a fraction of the dedendum", example="0.5", ge=0.0, le=0.95)
     ] = 0.5
     tip_rounding: Size = "0.05"
 

@@ -17,7 +17,7 @@ _NOISE = 3.0
 _FEW = 8
 _EDGES = {
     WORM_TIP: ("the worm's tip edge", "modification.tip_relief takes it off"),
-    WHEEL_TIP: ("the wheel's tip edge", "it is sharp here; relief at the worm's root takes it off"),
+    WHEEL_TIP: ("the wheel's tip edge", "it is sharp here; modification.root_relief takes it off"),
     FACE_END: ("an end of the wheel's face", "a hob of some oversize or tilt moves it inwards"),
 }
 

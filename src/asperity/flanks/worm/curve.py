@@ -20,7 +20,8 @@ FORM = np.dtype(
             for name in (
                 *("side", "lead", "half_pitch", "shift", "root", "tip", "rounding"),
                 *("arc_radius", "arc_z", "arc_angle", "flank_end", "relief_from", "relief"),
-                *("base", "cos_base", "sin_base", "closed_to"),
+                *("root_relief_from", "root_relief_to", "root_relief"),
+                *("base", "cos_base", "sin_base", "closed_from", "closed_to"),
             )
         ),
         ("section", SECTION),
@@ -30,8 +31,8 @@ FORM = np.dtype(
 
 ``side`` is the flank that counts, 0 for the nearest; ``lead`` is for one radian; ``shift`` is what
 the axial section lacks to half the thread space; the arc is that of the tip's rounding, with its
-middle's radius and axial place; ``closed_to`` is how far along its generator from the base cylinder
-the distance to an involute helicoid is a closed form.
+middle's radius and axial place; ``closed_from`` and ``closed_to`` are between which lengths of its
+generator from the base cylinder the distance to an involute helicoid is a closed form.
 """
 
 
@@ -54,6 +55,14 @@ def width(rho, worm):
         w += c * x * x * x
         w1 += 3.0 * c * x * x
         w2 += 6.0 * c * x
+    if rho < form.root_relief_from:
+        length = form.root_relief_from - form.root_relief_to
+        t = min((form.root_relief_from - rho) / length, 1.0)
+        c = form.root_relief
+        w += c * t * t * t * (10.0 - t * (15.0 - 6.0 * t))
+        c *= 30.0 * t * (1.0 - t) / length
+        w1 -= c * t * (1.0 - t)
+        w2 += 2.0 * c * (1.0 - 2.0 * t) / length
     return w, w1, w2
 
 

@@ -107,7 +107,7 @@ def nearest(rho, v, worm):
             d = form.cos_base * (form.lead * (x - math.atan(x)) + form.shift - v)
             foot = t - d * form.sin_base
             radial = foot < 0.0
-            closed = not radial and foot <= form.closed_to
+            closed = not radial and form.closed_from <= foot <= form.closed_to
             w1 = form.lead * x / rho
             w2 = form.lead / (x * rho * rho)
     if not closed:

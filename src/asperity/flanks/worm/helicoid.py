@@ -10,6 +10,7 @@ import functools
 import math
 from typing import Any
 
+import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
@@ -47,6 +48,8 @@ class Helicoid:
         :math:`\gamma` at the pitch radius, :math:`\alpha_n`.
     tip_relief, relief_radius : float
         What is missing at the tip, axially, and where that begins; infinite where nothing is.
+    root_relief, root_relief_radius, root_relief_end : float
+        Likewise at the root, where that begins and where it ends; 0 where nothing is.
     """
 
     starts: int
@@ -61,11 +64,21 @@ class Helicoid:
     pressure_angle: float
     tip_relief: float = 0.0
     relief_radius: float = math.inf
+    root_relief: float = 0.0
+    root_relief_radius: float = 0.0
+    root_relief_end: float = 0.0
     name: str = "worm"
 
     def __post_init__(self) -> None:
         # What cannot be a solid is refused before anything is cut with it.
         _ = self.thread
+        if self.root_relief:
+            radii = np.linspace(self.root_relief_end, self.root_relief_radius, 65)
+            if self.width(radii)[1].min() < 0.0:
+                raise InputError(
+                    "modification.root_relief undercuts the worm's threads near the root: take "
+                    "less, or begin it nearer to the pitch radius (root_relief_start)"
+                )
 
     @classmethod
     def worm(
@@ -92,19 +105,22 @@ class Helicoid:
                 "together must lie between 0 and 90 deg"
             )
         start = r + given.tip_relief_start * (tip - r)
+        root = geometry.worm_root_diameter / 2.0
+        axial = _MILLIMETRES / (math.cos(gamma) * math.cos(geometry.pressure_angle))
         draft = _draft(
             geometry,
             flank,
             disc,
             pitch_radius=r,
             tip_radius=tip,
-            root_radius=geometry.worm_root_diameter / 2.0,
+            root_radius=root,
             half_space=math.pi * geometry.axial_module / 4.0,
             lead_angle=gamma,
-            tip_relief=given.tip_relief
-            * _MILLIMETRES
-            / (math.cos(gamma) * math.cos(geometry.pressure_angle)),
+            tip_relief=given.tip_relief * axial,
             relief_radius=start if given.tip_relief else math.inf,
+            root_relief=given.root_relief * axial,
+            root_relief_radius=r - given.root_relief_start * (r - root) if given.root_relief else 0,
+            root_relief_end=root,
         )
         asked = "tip_rounding" in given.model_fields_set
         rounding = size_in_mm(given.tip_rounding, geometry.axial_module)
@@ -178,6 +194,9 @@ class Helicoid:
             rounding=self.tip_rounding,
             relief_from=self.relief_radius,
             relief=self.tip_relief / (self.tip_radius - self.relief_radius) ** 3,
+            root_relief_from=self.root_relief_radius,
+            root_relief_to=self.root_relief_end,
+            root_relief=self.root_relief,
             section=self.profile.section,
         )
         thread = Thread(form, self.profile.table)
@@ -194,6 +213,8 @@ class Helicoid:
             form["sin_base"] = p / math.hypot(base, p)
             last = min(end, self.relief_radius)
             form["closed_to"] = math.sqrt(max(last * last - base * base, 0.0))
+            first = max(self.root_relief_radius, base)
+            form["closed_from"] = math.sqrt(first * first - base * base)
         return thread
 
     def _tip_arc(self, thread: Thread, r: float) -> tuple[float, float, float]:
