@@ -194,14 +194,14 @@ def test_a_root_relief_takes_its_amount_off_the_root_and_nothing_above_its_start
     for k in range(3):
         assert float(after[k]) == pytest.approx(float(before[k]), abs=1e-7)
     radii, h = np.linspace(root + 1e-3, start - 1e-3, 50), 1e-5
-    w, w1, w2 = relieved.width(radii)
+    _, w1, w2 = relieved.width(radii)
     ahead, behind = relieved.width(radii + h), relieved.width(radii - h)
     assert np.abs((ahead[0] - behind[0]) / (2.0 * h) - w1).max() < 1e-8
     assert np.abs((ahead[1] - behind[1]) / (2.0 * h) - w2).max() < 1e-7
 
 
 def test_a_root_relief_that_undercuts_the_thread_is_refused():
-    with pytest.raises(InputError, match="root_relief undercuts .* take less, or begin it nearer"):
+    with pytest.raises(InputError, match=r"root_relief undercuts .* take less, or begin it nearer"):
         Helicoid.worm(GEOMETRY, "ZI", Modification(root_relief="0.3 mm", root_relief_start=0.8))
 
 
