@@ -206,7 +206,7 @@ for entry in for_all_processors():
 def test_lanes_in_wide_registers_are_the_same_to_the_bit(tmp_path):
     environment = os.environ | {"ASPERITY_NATIVE": "0"}
     subprocess.run([sys.executable, "-c", LANES, tmp_path], env=environment, check=True)
-    settings = "solve.method=march", "solve.duration=50 ms"
+    settings = "solve.method=march", "vibration.start=20 ms", "solve.duration=50 ms"
     models = [
         Model.from_case(
             read_case(
