@@ -27,7 +27,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.contact import _Teeth
-from asperity.drive.resolved.strip import BESIDE, FLANK, WORM_TIP, Frame, Strip
+from asperity.drive.resolved.strip import BESIDE, FLANK, WHEEL_TIP, WORM_TIP, Frame, Strip
 from asperity.drive.static.recorder import resolved
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.sector import lattice
@@ -260,6 +260,24 @@ def test_20_um_of_tip_relief_take_the_worm_s_edge_away_and_10_um_do_not():
     assert (whole[1] < 1.2 * sharp[1]).all()
     # So the largest on the worm's side falls to a third.
     assert whole[:2].max() < 0.33 * sharp[:2].max()
+
+
+def test_root_relief_takes_the_wheel_s_edge_away_and_leaves_the_worm_s():
+    def forces(*settings):
+        pairs = []
+        for beta in EDGE_BEARS:
+            _, found = at(beta, ELASTIC, *settings)
+            pairs.append(np.sum([tooth.forces()[[WHEEL_TIP, WORM_TIP]] for tooth in found.teeth], 0))
+        return np.array(pairs).T
+
+    wheel, worm = forces()
+    some, _ = forces("modification.root_relief=40 um")
+    none, still = forces("modification.root_relief=80 um", "modification.root_relief_start=0.1")
+    bears = wheel > 10.0
+    assert bears.any()
+    assert (some[bears] < wheel[bears]).all()
+    assert none.sum() < 0.1 * wheel.sum()
+    assert still.sum() == pytest.approx(worm.sum(), rel=0.1)
 
 
 def test_an_edge_flows_at_the_hardness_of_the_wheel():

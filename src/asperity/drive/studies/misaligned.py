@@ -232,8 +232,10 @@ class Misaligned(OfDrive):
             "face (mm)": ("shift_face_mm", ".3f", 1.0),
             "radial (mm)": ("shift_radial_mm", ".3f", 1.0),
         }
+        flow = self.flow_pressure
         remarks = (
             "the first row is the case as it is; face, radial: shift of the pattern's middle",
+            *((f"flank: the wheel flows at {flow:.0f} MPa",) if flow is not None else ()),
             *(f"the second row is the gearset {name}" for name in self.name[1:2] if "warm" in name),
             *self.notes,
         )  # fmt: skip
