@@ -51,7 +51,7 @@ def answer(problem: DriveProblem, run: Run) -> RootStress:
         run.checkpoint(1, 3, what="meshes")
         wheel = right_handed(static.sector.wheel)
         material, body = problem.gearset.wheel_material, problem.wheel_body
-        rim = None if body is None else moving_rim(static.sector, material, body)
+        rim = None if body is None else moving_rim(static.sector, material, body, run.notify)
         teeth = min(TEETH, static.sector.teeth)
         found: list[Roots] = []
         for done, counts in enumerate((COARSER, COUNTS)):
