@@ -218,11 +218,10 @@ def test_a_study_that_was_stopped_ends_as_one_that_was_not(monkeypatch, tmp_path
     of_this_user = Cache.of_this_user
 
     def answered(name, run):
-        loaded_in = {"loaded": Cache(tmp_path / name)}
+        (tmp_path / name).mkdir(exist_ok=True)
+        own = {"loaded": Cache(tmp_path / name)}
         monkeypatch.setattr(
-            Cache,
-            "of_this_user",
-            lambda kind, *told: loaded_in.get(kind) or of_this_user(kind, *told),
+            Cache, "of_this_user", lambda kind, *told: own.get(kind) or of_this_user(kind, *told)
         )
         return misalign.answer(study(over=["mount.axial_offset=-20,20 um"]), run)
 
