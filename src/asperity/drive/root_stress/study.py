@@ -44,7 +44,7 @@ def answer(problem: DriveProblem, run: Run) -> RootStress:
     ConvergenceError
         No balance was found.
     """
-    run.forecast(100.0, "loads and two meshes")
+    run.forecast(200.0, "loads and two meshes")
     with run.interruptible():
         static = StaticModel(problem, run)
         loads = loads_of(static)
