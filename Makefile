@@ -29,6 +29,9 @@ test slow: export PYTEST_XDIST_AUTO_NUM_WORKERS = $(shell $(PYTHON) -c 'import o
 test: KERNELS = $(BIN)/python tests/warm.py &
 slow: KERNELS = $(BIN)/python tests/warm.py --slow &
 
+# Tests as bytecode, which every worker would make by itself, all at the same time.
+test slow: TESTS = $(BIN)/python -m pytest --collect-only -qq >/dev/null;
+
 test: .venv/.dev  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
 
@@ -84,5 +87,5 @@ clean:  ## remove everything that was made
 
 # Kernels are compiled, if they are to be, on the core that pip leaves free.
 .venv/.dev: .venv/.runtime
-	$(KERNELS) $(INSTALL) -e '.[dev]' && wait
+	$(KERNELS) $(INSTALL) -e '.[dev]' && { $(TESTS) wait; }
 	@touch $@
