@@ -102,3 +102,23 @@ def test_halves_of_a_window_of_few_rings_that_agree_are_not_enough():
     assert answer.residual < 1e-3
     assert not answer.settled
     assert "its cycles do not repeat themselves" in answer.settled_by
+
+
+BENDS = (
+    "friction.law=vector", "friction.mu=0.44735", "slider.normal_force=82.653 N",
+    "friction.exponent=2", "friction.max_deflection=0.50567 um", "slider.mass=0.086233 kg",
+    "slider.drive_velocity=39.7527 mm/s", "slider.lateral=guided",
+    "slider.drive_stiffness=2.14863 MN/m", "slider.drive_damping=216.42 N s/m",
+    "vibration.frequency=11236.5 Hz", "vibration.waveform=triangle", "vibration.start=0 s",
+    "vibration.velocity_ratio=0.411665", "solve.step=0.22249 us",
+)  # fmt: skip
+
+
+def test_asperities_that_bend_ever_more_are_further_off_than_the_next_cycles_show():
+    model = Model.from_case(read_case("table-4.3", TABLES, (*BENDS, "solve.duration=6.5193 ms")))
+    answer = solve(model, history=False)
+    late = Model.from_case(read_case("table-4.3", TABLES, (*BENDS, "solve.duration=0.1 s")))
+    assert answer.residual < 1e-3
+    assert abs(solve(late, history=False).ratio - answer.ratio) > 2e-3
+    assert not answer.settled
+    assert any("would do, by the means" in note for note in answer.notes)

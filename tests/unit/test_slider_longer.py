@@ -8,7 +8,7 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider.fading import apart, mean_left, quarters_in_time
-from asperity.slider.longer import needed
+from asperity.slider.longer import advice, needed
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.tables import TABLES
 from asperity.slider.timetable import Timetable, WindowMeans
@@ -65,3 +65,49 @@ def test_quarters_that_come_and_go_with_a_ring_foresee_no_fading():
     means = [0.5 - 0.4 * 0.1**quarter for quarter in range(4)]
     come_to = WindowMeans(model, Timetable(model), 0.27, means, broke=True)
     assert needed(come_to) < 0.1 * model.usual_duration
+
+
+def come_to(means, residual, duration, *settings):
+    body = Model.from_case(read_case("table-4.3", TABLES, ["vibration.start=0 s", *settings]))
+    solve = body.solve.model_copy(update={"duration": duration}, units="SI")
+    model = dataclasses.replace(body, solve=solve)
+    return WindowMeans(model, Timetable(model), residual, means, broke=True)
+
+
+def test_asperities_that_are_bent_back_in_every_cycle_fade_and_have_no_tail():
+    means = [0.5 - 0.4 * 0.3**quarter for quarter in range(4)]
+    bent = "friction.exponent=2", "slider.drive_damping=400 N s/m"
+    on, back, across = (
+        needed(come_to(means, 0.17, 0.1, *bent, f"vibration.velocity_ratio={ratio}", *more))
+        for ratio, more in (
+            (0.9, ()),
+            (1.1, ()),
+            (1.1, ("vibration.direction=90 deg",)),
+        )
+    )
+    fades = needed(come_to(means, 0.17, 0.1, *bent[1:], "vibration.velocity_ratio=1.1"))
+    # They slow down as they come nearer to it.
+    assert back == 2.0 * fades < 1.0
+    # Split, what is across bends nothing back along the drive.
+    assert on == across > 10.0
+
+
+def test_nothing_is_foreseen_for_a_ring_on_the_drive_that_nothing_damps():
+    # 8 m (v_d - v_a) over the window and mu F_N is 1.15e-3 with a heavy body.
+    rings = "slider.mass=0.7 kg", "vibration.velocity_ratio=0.1"
+    means = [0.795, 0.966, 0.977, 0.976]
+    lasting = come_to(means, 0.0955, 0.2, *rings)
+    assert needed(lasting) is None
+    assert advice(None, lasting.model).endswith("give slider.drive_damping")
+    for damps in (
+        "slider.drive_damping=1 N s/m",
+        "vibration.velocity_ratio=1.1",
+        "slider.mass=0.3 kg",
+    ):
+        assert needed(come_to(means, 0.0955, 0.2, *rings, damps)) is not None
+
+
+def test_what_has_not_settled_by_chance_is_told_the_usual_duration():
+    chance = come_to([0.998, 0.9957, 0.997, 0.9976], 4e-4, 0.05, "slider.drive_damping=400 N s/m")
+    usual = chance.model.usual_duration
+    assert usual <= needed(chance) < 1.2 * usual

@@ -303,7 +303,7 @@ def _answer(
         return failed
     if answer.settled:
         return answer
-    return dataclasses.replace(answer, notes=(*answer.notes, advice(needed(window))))
+    return dataclasses.replace(answer, notes=(*answer.notes, advice(needed(window), model)))
 
 
 def _load(column: FloatArray, body: _Body) -> None:

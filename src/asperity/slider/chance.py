@@ -14,8 +14,9 @@ from asperity.results.settled import Standing
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import alike_after, ratio_of
 from asperity.slider.integrators import Integrator
+from asperity.slider.model import Model
 from asperity.slider.step_error import at_the_end, run_once
-from asperity.slider.timetable import FAR, SHORT, Timetable
+from asperity.slider.timetable import FAR, SHORT, Timetable, bends_ever_more
 
 _LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
 _BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
@@ -63,8 +64,20 @@ def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, st
     means += _marched(there, _BLOCKS * cycles - len(means))
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
-    off = max(uncertain, abs(float(np.mean(blocks)) - ratio))
-    return off, "its cycles do not repeat themselves"
+    on = abs(float(np.mean(blocks)) - ratio)
+    if bends_ever_more(body.model):
+        on *= _by_the_power(body.model, table, _BLOCKS * cycles)
+    return max(uncertain, on), "its cycles do not repeat themselves"
+
+
+def _by_the_power(model: Model, table: Timetable, cycles: int) -> float:
+    """Return how far asperities still bend, of their change from the window to further cycles."""
+    end = table.steps * table.step - model.start
+    window = end - 0.5 * table.window * table.step
+    left: float = (window / (end + 0.5 * cycles / model.frequency)) ** (
+        1.0 / (model.friction.exponent - 1.0)
+    )
+    return 1.0 / (1.0 - left)
 
 
 def _marched(cycle: Cycle, cycles: int) -> list[float]:

@@ -204,7 +204,7 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     )
     notes = march_notes(come_to)
     if not marched.settled:
-        notes += (advice(needed(come_to)),)
+        notes += (advice(needed(come_to), model),)
     return dataclasses.replace(
         answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes),
         **standing._asdict(),

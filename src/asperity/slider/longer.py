@@ -16,7 +16,14 @@ from asperity.slider.fading import (
 )
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import FARTHEST, faded_after, ringing_time, still_rings, upward
+from asperity.slider.ringing import (
+    FARTHEST,
+    faded_after,
+    ringing_time,
+    rings_on_drive,
+    still_rings,
+    upward,
+)
 from asperity.slider.timetable import (
     FAR,
     UNSTEADY,
@@ -79,7 +86,7 @@ def until_settled(model: Model, marching: Marching[A], instead: str | None = "pe
                 low, high = (share * marched for share in _FURTHER)
                 marching.go_on(min(max(foreseen or high, low), high, farthest))
                 continue
-            note = advice(foreseen, instead)
+            note = advice(foreseen, model, instead)
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:
             return answer
@@ -97,7 +104,7 @@ def lasting(model: M, duration: float) -> M:
 def needed(window: WindowMeans) -> float | None:
     """Return the duration in s that a march needs to settle; None where none is foreseen."""
     model, table, residual, means, broke, across = window
-    if math.isinf(ringing_time(model)):
+    if math.isinf(ringing_time(model)) or rings_on_drive(model):
         return None
     slider = model.slider
     spans = model.window / WINDOW_SHARE
@@ -120,8 +127,10 @@ def needed(window: WindowMeans) -> float | None:
     if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(window)
         if fading is not None:
-            least.append(fading)
-        if not (fading is not None and steadily(means)):
+            # Asperities with an exponent above 1 slow down as they come nearer to their limit.
+            slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
+            least.append(fading * max(slower, 1.0))
+        if fading is None or not steadily(means):
             least.append(loaded)
         if fading is None and max(least) <= model.duration:
             return None
@@ -130,7 +139,8 @@ def needed(window: WindowMeans) -> float | None:
         if times > _MOST_TIMES:
             return None
         least.append(model.start + (model.duration - model.start) * times)
-    longest = max(least)
+    # What lacks something else has had no more than chance for it in less than the usual duration.
+    longest = max(least) if max(least) > model.duration else loaded
     return longest if longest > model.duration else None
 
 
@@ -179,8 +189,13 @@ def _fading(of: WindowMeans) -> float | None:
     return None
 
 
-def advice(duration: float | None, instead: str | None = "periodic") -> str:
-    """Say what duration would do; or, where none is foreseen, which method to take instead."""
+def advice(duration: float | None, model: Model, instead: str | None = "periodic") -> str:
+    """Say what duration would do; or, where none is foreseen, what would instead."""
+    if duration is None and rings_on_drive(model):
+        return (
+            "no solve.duration is foreseen that would do: nothing damps the body's ring on its "
+            "drive; give slider.drive_damping"
+        )
     if duration is None:
         other = (
             "" if instead is None else f": solve.method '{instead}' looks for a state that lasts"

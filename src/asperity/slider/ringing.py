@@ -10,7 +10,7 @@ import math
 from asperity.results.settled import Standing
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
-from asperity.slider.timetable import FAR
+from asperity.slider.timetable import FAR, UNSTEADY, turns_back
 
 _LEVEL = 1e-9  # part of the vibration normal to the plane, below which it lifts nothing
 _GONE = -math.log(FAR)  # time constants, in which a ringing has come down to that
@@ -39,6 +39,26 @@ def ringing_time(model: Model) -> float:
         return 0.0
     rate = 0.5 * normal.loss(model.slider.normal_force, mass) * model.slider.normal_force / mass
     return 1.0 / rate if rate > 0.0 else math.inf
+
+
+def rings_on_drive(model: Model) -> bool:
+    r"""Whether a ring on the drive that nothing damps may keep the halves of a window apart.
+
+    Friction damps none where the slip keeps its direction, as it does up to a ring's velocity of
+    :math:`v_d - v_a`. Halves of a window of length :math:`T` differ by up to
+    :math:`8m(v_d - v_a)/T`.
+    """
+    slider, friction = model.slider, model.friction
+    if slider.drive_stiffness is None or slider.mass is None or slider.drive_damping > 0.0:
+        return False
+    damped = (friction.viscous_damping or 0.0) > 0.0 or turns_back(model)
+    if damped or model.normal is not None or not model.vibrates:
+        return False
+    along, across, _ = model.unit_direction
+    if abs(across) > _LEVEL:
+        return False
+    left = slider.drive_velocity - abs(along) * model.peak_velocity
+    return 8.0 * slider.mass * left > UNSTEADY * model.window * model.full_friction
 
 
 def faded_after(model: Model) -> float:

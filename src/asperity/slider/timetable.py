@@ -161,10 +161,23 @@ def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
     Those with an exponent :math:`i` above 1 come to their limit as :math:`t^{-1/(i - 1)}`: what is
     left is :math:`i - 1` times the change in as long a time as has passed.
     """
-    if model.friction.model != "dahl" or model.friction.exponent <= 1.0:
+    if not bends_ever_more(model):
         return 0.0
     change = residual * (model.duration - model.start) / (0.5 * table.window * table.step)
     return (model.friction.exponent - 1.0) * change
+
+
+def bends_ever_more(model: Model) -> bool:
+    """Whether asperities come to their limit by a power of time: those that are not bent back."""
+    friction = model.friction
+    return friction.model == "dahl" and friction.exponent > 1.0 and not turns_back(model)
+
+
+def turns_back(model: Model) -> bool:
+    """Whether a vibration that is faster than the drive turns the slip back in every cycle."""
+    along, across, _ = model.unit_direction
+    flat = math.hypot(along, across) if model.friction.law == "vector" else abs(along)
+    return model.vibrates and flat * model.peak_velocity > model.slider.drive_velocity
 
 
 def still_loads(model: Model, table: Timetable, residual: float) -> bool:

@@ -59,14 +59,19 @@ class ToothPressure:
         return float(self.strip.area[self.force > 0.0].sum())
 
     def extent(self) -> tuple[float, float]:
-        """Return length and width of the area that bears, as of an ellipse of its moments, m."""
+        """Return length and width of the area that bears, as of an ellipse, m.
+
+        It has the area's largest moment and the area: the other moment of a long contact that is
+        bent tells of its bend.
+        """
         frame = self.strip.frame
         x, y = (a.ravel() for a in np.meshgrid(frame.x, frame.y, indexing="ij"))
         on = self.force > 0.0
         places = np.stack([x[on], y[on]])
-        spread = np.linalg.eigvalsh(np.cov(places, bias=True)) if on.sum() > 1 else np.zeros(2)
-        width, length = 4.0 * np.sqrt(np.maximum(spread, 0.0))
-        return float(length), float(width)
+        if on.sum() < 2:
+            return 0.0, 0.0
+        length = 4.0 * float(np.sqrt(np.linalg.eigvalsh(np.cov(places, bias=True))[-1]))
+        return length, 4.0 * self.area / (np.pi * length)
 
     def peaks(self) -> FloatArray:
         """Return the largest pressure of each of `ZONES`, Pa; 0 where it bears nothing."""

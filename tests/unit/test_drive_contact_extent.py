@@ -1,0 +1,41 @@
+"""Length and width of what bears on a tooth: of Hertz's ellipse, and of a line that is bent."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from asperity.drive.resolved.contact import ToothPressure
+
+
+def extent(bears):
+    x, y = np.linspace(-1.0, 1.0, 401), np.linspace(-10.0, 10.0, 401)
+    frame = SimpleNamespace(x=x, y=y)
+    force = bears(*np.meshgrid(x, y, indexing="ij")).ravel().astype(float)
+    area = np.full(force.size, (x[1] - x[0]) * (y[1] - y[0]))
+    strip = SimpleNamespace(frame=frame, area=area)
+    return ToothPressure(0, strip, force, force, True).extent()
+
+
+def test_an_ellipse_has_its_own_axes():
+    turn = 0.02
+    c, s = np.cos(turn), np.sin(turn)
+
+    def bears(x, y):
+        return ((c * x - s * y) / 0.3) ** 2 + ((s * x + c * y) / 6.0) ** 2 < 1.0
+
+    assert extent(bears) == pytest.approx((12.0, 0.6), rel=5e-3)
+
+
+def test_a_bent_line_is_no_wider_than_its_band():
+    def bears(x, y):
+        return np.abs(x - 0.8 * np.sin(np.pi * y / 20.0)) < 0.125
+
+    length, width = extent(bears)
+    # As of an ellipse: 4/sqrt(12) of a straight band's length, 1.1 of its width.
+    assert length == pytest.approx(20.0 * 4.0 / 12.0**0.5, rel=0.03)
+    assert width == pytest.approx(0.25 * 12.0**0.5 / np.pi, rel=0.03)
+
+
+def test_nothing_that_bears_has_no_extent():
+    assert extent(lambda x, y: x > 5.0) == (0.0, 0.0)
