@@ -29,7 +29,8 @@ def signature(symbol, arguments, returns):
     """Return a row of the table."""
     back = words_of(returns)
     words = [back, Plan(arguments, back).words]
-    return {"symbol": symbol, "arguments": arguments, "returns": returns, "words": words}
+    told = {"symbol": symbol, "arguments": arguments, "returns": returns, "words": words}
+    return told | {"features": []}
 
 
 def function(row, words=None, status=0):

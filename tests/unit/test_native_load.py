@@ -15,8 +15,10 @@ from apparatus.native_library import function, object_files, signature
 
 import asperity
 from asperity.kernels import compiled
+from asperity.kernels.building import link
 from asperity.kernels.compiled import kernel
-from asperity.kernels.native import layout, load, table
+from asperity.kernels.native import keys, layout, load, table, target
+from asperity.kernels.native.entries import for_all_processors
 
 SOURCE = "asperity/errors.py"
 NAME = "asperity.errors.half"
@@ -40,7 +42,7 @@ def linked(tmp_path_factory):
 def rows(linked):
     return {
         "format": table.FORMAT,
-        "target": f"{load.platform.machine().lower()}-{sys.platform}",
+        "target": target.platform_name(),
         "features": [],
         "library": hashlib.sha256(linked).hexdigest(),
         "sources": {SOURCE: hashlib.sha256((HERE / SOURCE).read_bytes()).hexdigest()},
@@ -56,7 +58,7 @@ def made(linked, rows, tmp_path, monkeypatch):
     monkeypatch.setattr(load, "_SHIPPED", tmp_path)
     monkeypatch.setattr(load, "_kept", lambda name: None)
     monkeypatch.setenv("ASPERITY_NATIVE", "1")
-    for each in (load._shipped, load._digest, load._features):
+    for each in (load._shipped, load._digest, target.features):
         each.cache_clear()
     yield tmp_path
     load._shipped.cache_clear()
@@ -162,12 +164,42 @@ def test_a_python_of_another_layout_has_no_library(made, monkeypatch):
 
 
 def test_the_processor_is_asked_for_what_the_library_needs(made, rows, monkeypatch):
-    known = sorted(load._features())
+    known = sorted(target.features())
     assert known
     table.write(made, rows | {"features": known})
     assert answer() == 0.5
-    monkeypatch.setattr(load, "_features", lambda: frozenset(known[1:]))
+    monkeypatch.setattr(target, "features", lambda: frozenset(known[1:]))
     assert answer() is None
+
+
+def test_of_alike_entries_the_first_is_called_that_the_processor_can_do(made, rows, monkeypatch):
+    known = sorted(target.features())
+    # Of another symbol: called, it would be another address, of nothing.
+    first = ROW | {"symbol": "asperity_none", "features": known[:1]}
+    rows["entries"][NAME]["signatures"] = [first, ROW]
+    table.write(made, rows)
+    with pytest.raises(AttributeError, match="asperity_none"):
+        answer()
+    monkeypatch.setattr(target, "features", lambda: frozenset(known[1:]))
+    assert answer() == 0.5
+    rows["entries"][NAME]["signatures"] = [first]
+    table.write(made, rows)
+    assert answer() is None
+
+
+LANES = "asperity.slider.batch_kernels"
+
+
+def test_lanes_are_made_for_wide_processors_where_this_is_one(monkeypatch):
+    for lacks, expected in [(set(), target.WIDE), ({"avx512dq"}, target.PLAIN)]:
+        has = frozenset(target.WIDE.features) - lacks
+        monkeypatch.setattr(target, "features", lambda has=has: has)
+        assert target.here(LANES) is expected
+        assert target.here("asperity.slider.kernels") is target.PLAIN
+    wide, plain = (entry for entry in for_all_processors() if entry.module == LANES)
+    assert (wide.target, plain.target) == (target.WIDE, target.PLAIN)
+    assert keys.key(wide) != keys.key(plain)
+    assert link.symbol(wide) != link.symbol(plain)
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,9 @@ from asperity.arrays import FloatArray
 from asperity.slider import kernels as k
 from asperity.slider.integrators import LoadedIntegrator, integrator
 from asperity.slider.model import Model
+from asperity.slider.on_twice import DIFFERENTIATE, at_state
 from asperity.slider.pressed import march_pressed
-from asperity.slider.shooting import ACCEPTED, differentiated, run, shoot
+from asperity.slider.shooting import ACCEPTED, run, shoot
 from asperity.slider.unknowns import (
     most_unknowns,
     read_unknowns,
@@ -175,9 +176,10 @@ class Cycle:
         same, along = self.rises is self.increments, _repeated(self.increments, cycles)
         unknowns = len(self.jacobian)
         found = np.empty((unknowns + 1, unknowns))
-        differentiated(
+        at_state(
             self.body.kept["state"], self.springs, self.body.p, self.q, along,
-            along if same else _repeated(self.rises, cycles), self.body.no_sums()[0], found,
+            along if same else _repeated(self.rises, cycles), self.body.no_sums(), found, 0,
+            DIFFERENTIATE,
         )  # fmt: skip
         return _growth(found[:unknowns]) if np.isfinite(found).all() else math.inf
 

@@ -7,8 +7,10 @@ from asperity.kernels.dense import copy
 from asperity.kernels.elimination import eliminate
 from asperity.slider.other_drives import in_longer_steps, pressed_in_longer_steps
 from asperity.slider.search_room import room_for
-from asperity.slider.shooting import CLOSE, close, defect_of, mean_drive, run_cycle
+from asperity.slider.shooting import CLOSE, close, defect_of, differentiated, mean_drive, run_cycle
 from asperity.slider.unknowns import unknown_scales
+
+DIFFERENTIATE, CLOSE_HERE, CLOSE_ON_TWICE = range(3)
 
 
 @kernel
@@ -47,15 +49,24 @@ def _moved(start, springs, p, q, increments, rises, sums, longer):
 
 
 @kernel
-def close_on_twice(start, springs, p, q, increments, rises, sums, jacobian, most):
-    """Go to the state on steps twice as long, as `close`; what is given is left as it is.
+def at_state(start, springs, p, q, increments, rises, sums, jacobian, most, task):
+    """Do one of three things at a state: `differentiated`, `close`, or `close` on twice the step.
 
-    Returns the defect that is left and the state's mean drive force over mu F_N.
+    Each marches the same cycle, which is compiled once where they are one kernel. On twice the step
+    what is given is left as it is. Returns the defect that is left and the state's mean drive force
+    over mu F_N; nothing of a state that is differentiated.
     """
-    states, held, longer, pressing, pairs, rise_pairs, records = _moved(
-        start, springs, p, q, increments, rises, sums, 2.0
-    )
-    left, _ = close(states, held, longer, pressing, pairs, rise_pairs, records[0], jacobian, most)
+    if task == DIFFERENTIATE:
+        differentiated(start, springs, p, q, increments, rises, sums[0], jacobian)
+        return 0.0, 0.0
+    at, held, own, pressing, steps, rise_steps, records = (
+        start, springs, p, q, increments, rises, sums,
+    )  # fmt: skip
+    if task == CLOSE_ON_TWICE:
+        at, held, own, pressing, steps, rise_steps, records = _moved(
+            start, springs, p, q, increments, rises, sums, 2.0
+        )
+    left, _ = close(at, held, own, pressing, steps, rise_steps, records[0], jacobian, most)
     return left, records[0].drive_force / records[0].steps
 
 

@@ -20,15 +20,15 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError
-from asperity.slider import at_corners
+from asperity.slider import at_corners, on_twice
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
-from asperity.slider.on_twice import close_on_twice, friction_on_twice, predicted_on_half
+from asperity.slider.on_twice import at_state, friction_on_twice, predicted_on_half
 from asperity.slider.orders import ORDER_ONE, ORDER_TWO, of_the_error, part_of_difference
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
-from asperity.slider.shooting import close, differentiated, run_cycle
+from asperity.slider.shooting import run_cycle
 from asperity.slider.timetable import Timetable
 from asperity.slider.unknowns import unknown_scales
 
@@ -177,9 +177,9 @@ def _of_march(body: Integrator, table: Timetable, sums: np.void) -> float | None
     if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
         found, part = np.zeros((unknowns + 1, unknowns)), part_of_difference(model)
         if unknowns:
-            differentiated(
+            at_state(
                 end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums()[0], found,
+                end.body.no_sums(), found, 0, on_twice.DIFFERENTIATE,
             )  # fmt: skip
         jacobian, slopes = found[:unknowns], found[unknowns]
         there = end.copied()
@@ -312,11 +312,10 @@ def _found_beside(cycle: Cycle) -> float | None:
 def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
     """Return the ratio of the state next to where a body is, which goes there; None if none is."""
     body = cycle.body
-    left, _ = close(
+    left, ratio = at_state(
         body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
-        body.sums, np.ascontiguousarray(jacobian), _CLOSING,
+        body.kept["sums"], np.ascontiguousarray(jacobian), _CLOSING, on_twice.CLOSE_HERE,
     )  # fmt: skip
-    ratio = _ratio(cycle)
     return ratio if left <= _LEFT and math.isfinite(ratio) else None
 
 
@@ -333,9 +332,9 @@ def _closed_beside(
         foreseen, hidden = _foreseen(cycle, jacobian, slopes, here, part)
         return (_closed(_on_half(cycle), jacobian) if foreseen is None else foreseen), hidden
     kept = cycle.body.kept
-    left, ratio = close_on_twice(
+    left, ratio = at_state(
         kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
-        kept["sums"], jacobian, _CLOSING,
+        kept["sums"], jacobian, _CLOSING, on_twice.CLOSE_ON_TWICE,
     )  # fmt: skip
     let_down = at_corners.ratio_let_down(cycle, jacobian, slopes)
     hidden = 0.0 if let_down is None else abs(let_down - here)

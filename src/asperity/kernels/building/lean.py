@@ -22,7 +22,7 @@ from numba.core.runtime import nrtdynmod, rtsys
 from asperity.kernels import compiled
 from asperity.kernels.building import quicker, runtime
 from asperity.kernels.building.specs import Spec, UnknownTypeError, numba_type, spec
-from asperity.kernels.native.target import PROCESSOR
+from asperity.kernels.native.target import PLAIN, Target
 
 
 class UnfitError(Exception):
@@ -66,10 +66,15 @@ class _Codegen(codegen.JITCPUCodegen):
     _library_class = _Library
 
     def _customize_tm_options(self, options: dict[str, Any]) -> None:
-        options.update(cpu=PROCESSOR, features="", reloc="pic", codemodel="default")
+        options.update(_options(PLAIN))
 
     def _customize_tm_features(self) -> str:
         return ""
+
+
+def _options(target: Target) -> dict[str, str]:
+    made_for = {"cpu": target.processor, "features": target.tuning}
+    return {**made_for, "reloc": "pic", "codemodel": "default"}
 
 
 def begin() -> None:
@@ -100,7 +105,7 @@ def _compiled(function: Any, options: dict[str, Any], key: object) -> Any:
     return numba.njit(nogil=True, error_model="numpy", **options)(function)
 
 
-def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
+def make(kernel: Any, arguments: list[Spec], symbol: str, target: Target = PLAIN) -> Made:
     """Compile a kernel for types of arguments.
 
     Parameters
@@ -111,6 +116,8 @@ def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
         What it is called with, as `asperity.kernels.building.specs.spec` says it.
     symbol : str
         The name that it is called by.
+    target : Target
+        The processors that it is for.
 
     Raises
     ------
@@ -131,10 +138,10 @@ def make(kernel: Any, arguments: list[Spec], symbol: str) -> Made:
     native = result.fndesc.llvm_func_name
     module, words = _linked(result, native, symbol)
     _internal(module, native, symbol)
-    _optimise(module)
+    _optimise(module, target)
     if foreign := _foreign(module):
         raise UnfitError(f"it needs {', '.join(foreign)}")
-    return Made(_machine().emit_object(module), returns, words)
+    return Made(_machine(target).emit_object(module), returns, words)
 
 
 def support(*texts: str) -> bytes:
@@ -145,12 +152,15 @@ def support(*texts: str) -> bytes:
     for function in module.functions:
         if function.linkage == ll.Linkage.linkonce_odr:
             function.linkage = "internal"
-    _optimise(module)
-    return bytes(_machine().emit_object(module))
+    _optimise(module, PLAIN)
+    return bytes(_machine(PLAIN).emit_object(module))
 
 
-def _machine() -> Any:
-    return cpu_target.target_context.codegen()._tm
+@functools.cache
+def _machine(target: Target) -> Any:
+    """What LLVM makes code for."""
+    made_by = ll.Target.from_triple(ll.get_process_triple())
+    return made_by.create_target_machine(opt=numba.config.OPT, **_options(target))
 
 
 def _parsed(text: str) -> Any:
@@ -190,9 +200,10 @@ def _internal(module: Any, native: str, symbol: str) -> None:
     module.get_function(native).add_function_attribute("noinline")
 
 
-def _optimise(module: Any) -> None:
+def _optimise(module: Any, target: Target) -> None:
     """Do what Numba does for a function that is called from Python, in its order."""
     made_by = cpu_target.target_context.codegen()
+    made_by._tm = _machine(target)
     cheap, options = made_by._module_pass_manager(
         loop_vectorize=made_by._loopvect, slp_vectorize=False, opt=made_by._opt_level, cost="cheap"
     )

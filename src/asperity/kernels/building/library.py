@@ -21,7 +21,7 @@ from asperity import exit_codes
 from asperity.kernels import folder as kernel_folder
 from asperity.kernels.building.compiler import TARGET, hindrance, without_settings
 from asperity.kernels.native import keys, load
-from asperity.kernels.native.entries import Entry, listed, shared_out
+from asperity.kernels.native.entries import Entry, for_all_processors, shared_out
 from asperity.kernels.native.kept import UNFIT
 from asperity.kernels.native.target import FEATURES
 
@@ -220,7 +220,7 @@ def main() -> None:
     parser.add_argument("--only", type=int, nargs="+", metavar="NUMBER", help=argparse.SUPPRESS)
     parser.add_argument("--processes", type=int, default=os.cpu_count() or 1)
     given = parser.parse_args()
-    entries = listed().entries
+    entries = for_all_processors()
     if given.only:
         _make(given.folder, (entries[number] for number in given.only), given.processes)
         return

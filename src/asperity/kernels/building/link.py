@@ -22,7 +22,7 @@ def support() -> bytes:
 
 def symbol(entry: Entry) -> str:
     """Return the name that an entry's machine code is called by."""
-    told = json.dumps([entry.name, entry.arguments])
+    told = json.dumps([entry.name, entry.arguments, entry.target])
     return f"asperity_{hashlib.sha256(told.encode()).hexdigest()[:16]}"
 
 
@@ -129,6 +129,7 @@ def _table(made: Sequence[tuple[Entry, lean.Made]], held: bytes) -> dict[str, An
                 "arguments": entry.arguments,
                 "returns": one.returns,
                 "words": one.words,
+                "features": entry.target.features,
             }
         )
     return {

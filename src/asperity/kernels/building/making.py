@@ -74,7 +74,7 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
     new.mkdir(mode=0o700)
     try:
         try:
-            made = lean.make(kernel(entry), entry.arguments, link.symbol(entry))
+            made = lean.make(kernel(entry), entry.arguments, link.symbol(entry), entry.target)
             link.keep(new, entry, made, _support())
         except (OSError, MemoryError, subprocess.SubprocessError):
             raise  # it may pass

@@ -12,6 +12,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from asperity.kernels.native.target import PLAIN, Target, here, targets
+
 LIST = Path(__file__).parent / "entries.json"
 
 
@@ -29,17 +31,20 @@ class Entry:
         What it is called with, as the table of a library says it.
     seconds : float
         About how long it is compiled, s, beside others of its kind.
+    target : Target
+        The processors that its machine code is for.
     """
 
     number: int
     name: str
     arguments: list[Any] = dataclasses.field(hash=False)
     seconds: float
+    target: Target = PLAIN
 
     @property
     def module(self) -> str:
         """Full name of the module that the kernel stands in."""
-        return self.name.rpartition(".")[0]
+        return _module(self.name)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -64,11 +69,11 @@ class Listed:
 
 @functools.cache
 def listed() -> Listed:
-    """Return the list as it stands."""
+    """Return the list as it stands, each entry for this processor."""
     held = json.loads(LIST.read_text("utf-8"))
     types, rows = held["types"], held["entries"]
     entries = (
-        Entry(number, name, [types[each] for each in arguments], seconds)
+        Entry(number, name, [types[each] for each in arguments], seconds, here(_module(name)))
         for number, (name, arguments, seconds) in enumerate(rows.values())
     )
     numbers = {mark: number for number, mark in enumerate(rows)}
@@ -76,6 +81,19 @@ def listed() -> Listed:
         line: tuple(numbers[mark] for mark in called) for line, called in held["lines"].items()
     }
     return Listed(tuple(entries), lines)
+
+
+def for_all_processors() -> tuple[Entry, ...]:
+    """Return the entries of a library that goes elsewhere: of alike ones the fastest first."""
+    each = [(entry, one) for entry in listed().entries for one in targets(entry.module)]
+    return tuple(
+        dataclasses.replace(entry, number=number, target=one)
+        for number, (entry, one) in enumerate(each)
+    )
+
+
+def _module(name: str) -> str:
+    return name.rpartition(".")[0]
 
 
 def write(

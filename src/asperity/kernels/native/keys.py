@@ -9,7 +9,7 @@ from pathlib import Path
 
 from asperity.kernels.closure import closure, digest_of, source_key
 from asperity.kernels.native.entries import Entry
-from asperity.kernels.native.target import PROCESSOR, platform_name
+from asperity.kernels.native.target import platform_name
 
 _ROOT = Path(__file__).parents[3]
 
@@ -53,11 +53,12 @@ def _maker() -> str:
     own = source_key("asperity.kernels.building.lean", "asperity.kernels.native.gather", lazy=False)
     made_with = versions()
     # NumPy is not in the machine code, nor does it make any.
-    parts = (own, made_with["numba"], made_with["llvmlite"], PROCESSOR, platform_name())
+    parts = (own, made_with["numba"], made_with["llvmlite"], platform_name())
     return "\0".join(parts)
 
 
 def key(entry: Entry) -> str:
     """Return the name that an entry is kept under: 32 hexadecimal digits."""
-    parts = (_maker(), closure_digest(entry.module), entry.name, json.dumps(entry.arguments))
+    told = json.dumps([entry.arguments, entry.target])
+    parts = (_maker(), closure_digest(entry.module), entry.name, told)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]

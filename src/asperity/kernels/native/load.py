@@ -11,13 +11,12 @@ import hashlib
 import importlib
 import logging
 import os
-import platform
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from asperity.kernels.native import layout, table
+from asperity.kernels.native import layout, table, target
 from asperity.kernels.native.call import Addresses, Caller, Native
 
 _ROOT = Path(__file__).parents[3]
@@ -66,7 +65,9 @@ class Library:
         digests = self._rows["sources"]
         if any(_digest(source) != digests[source] for source in row["sources"]):
             return None
-        return self._caller.entry(name, row["signatures"])
+        has = target.features()
+        fitting = [each for each in row["signatures"] if has.issuperset(each["features"])]
+        return self._caller.entry(name, fitting)
 
 
 def from_folder(folder: Path, remedy: str = "install asperity anew") -> Library | None:
@@ -151,22 +152,10 @@ def _kept(name: str) -> Library | None:
     return library
 
 
-def is_for_here(target: str, features: Iterable[str]) -> bool:
+def is_for_here(made_for: str, features: Iterable[str]) -> bool:
     """Return whether machine code for a platform and a processor's features runs here."""
-    here = f"{platform.machine().lower()}-{sys.platform}"
-    return target == here and set(features) <= _features() and bool(layout.types())
-
-
-@functools.cache
-def _features() -> frozenset[str]:
-    """Return what the processor can do, in the words of Linux."""
-    # The first processor's lines only: asking for all of them can take long.
-    with contextlib.suppress(OSError), open("/proc/cpuinfo", encoding="ascii") as lines:
-        for line in lines:
-            name, _, words = line.partition(":")
-            if name.strip() in ("flags", "Features"):
-                return frozenset(words.split())
-    return frozenset()
+    fits = made_for == target.platform_name() and set(features) <= target.features()
+    return fits and bool(layout.types())
 
 
 @functools.cache
