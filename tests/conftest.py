@@ -18,12 +18,12 @@ import warm
 
 from asperity.kernels import compiled
 
-if "PYTEST_XDIST_WORKER" in os.environ:
-    # The workers have the cores among themselves; threads of linear algebra on top of them wait
-    # for each other. Read by the libraries when they are first imported, here or by a program
-    # that a test starts.
-    for _library in ("OMP", "OPENBLAS", "MKL"):
-        os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+# Workers have the cores among themselves; threads of linear algebra on top of them wait for each
+# other. Without workers too: an active set follows the last digits of a sum, and with it recorded
+# answers. Read by the libraries when they are first imported, here or by a program that a test
+# starts.
+for _library in ("OMP", "OPENBLAS", "MKL"):
+    os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
 # Tests and the libraries they load are millions of objects that stay to the end: looking through
 # them takes a tenth of the time. What is not theirs is still found, less often.

@@ -24,13 +24,7 @@ CHANGES = (
         for name in ("time", "drive_force", "friction", "deflection", "position", "velocity")
     ),
     # (command lines, what in their answers, why it is no longer what was recorded)
-    ("drive *", "*flash_*", "what a worm slides along its contacts carries heat off as well"),
     ("drive *", "*contact_width*", "it is of the area that bears, not of how a contact is bent"),
-    *(
-        (f"{line} *", place, "patterns have no gaps between patches, and a limit beside them")
-        for line in ("drive", "misalign", "wear")
-        for place in ("*.nc:pattern*", "*flow_pressure*")
-    ),
     ("slide oblique *", "json.thrust_N", "a vibration that drives the body tells its thrust"),
     ("cases", "json.cases", "three cases of vibration out of the plane have come"),
     ("check *", "json.refused.shafts", "a command of shafts has come"),

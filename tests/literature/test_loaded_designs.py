@@ -1,10 +1,13 @@
 """Loaded teeth of many designs: ranked alike on every mesh, and of every type of flank."""
 
+import functools
+
 import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
+from asperity.drive.static.loaded import loaded
 from asperity.drive.static.solve import solve_static
 from asperity.runs import Run
 
@@ -23,17 +26,17 @@ DESIGNS = {
 }
 
 
-def loaded(*given, phases=4):
-    settings = [f"drive.phases={phases}", *given]
+def problem(*settings):
     case = read_case("drive-screw", case_tables(), settings)
-    return solve_static(DriveProblem.from_case(case, shaken=False), Run())
+    return DriveProblem.from_case(case, shaken=False)
 
 
+@functools.cache
 def ranked(density):
     found = {}
+    mesh = "drive.phases=4", "drive.teeth=3", "drive.plastic=false", f"drive.density={density}"
     for name, given in DESIGNS.items():
-        mesh = ("drive.teeth=3", "drive.plastic=false", f"drive.density={density}")
-        one = loaded(*mesh, *(f"modification.{each}" for each in given))
+        one = loaded(problem(*mesh, *(f"modification.{each}" for each in given)), Run())
         found[name] = max(one.pressure_flank, one.pressure_worm_tip), one.force_worm_tip
     return [sorted(found, key=lambda name, k=k: found[name][k]) for k in (0, 1)]
 
@@ -56,7 +59,7 @@ def test_ten_modifications_rank_alike_on_three_meshes(density):
 @pytest.mark.slow
 @pytest.mark.parametrize("flank", ["ZA", "ZN", "ZK", "ZC", "ZI"])
 def test_every_type_of_flank_goes_the_whole_way(flank):
-    one = loaded(f"gearset.flank={flank}", "drive.teeth=1", phases=2)
+    one = solve_static(problem(f"gearset.flank={flank}", "drive.teeth=1", "drive.phases=2"), Run())
     assert one.output_torque == pytest.approx(366.0)
     # What is lost over a pitch is all that friction takes.
     assert one.input_torque_reversed < one.input_torque_frictionless < one.input_torque

@@ -41,8 +41,12 @@ def goes_the_whole_way(case):
     assert max(pressures) == pytest.approx(static.hertz_pressure_max, rel=0.1)
 
     roots = answered("roots", case)
-    # The loaded side is pulled, the other pushed, by no more than three times as much.
-    assert 0.0 < roots.tension < -3.0 * roots.compression
+    # The loaded side is pulled, the other pushed; in bending no less than a third as much. A force
+    # at the foot has hardly an arm: of ZN it is 94 % of all, and the answer says so.
+    assert roots.compression < 0.0 < roots.tension
+    assert roots.tension < -3.0 * roots.compression or roots.tension_foot > 0.5
+    if roots.tension_foot > 0.5:
+        assert any("on the lowest fifth of its flank" in note for note in roots.notes)
     assert roots.residual < 1e-8
 
     worn = answered("wear", case, depth="1 um")

@@ -213,6 +213,33 @@ def test_a_left_hand_gearset_is_off_as_the_right_hand_one_mirrored():
     assert right.centre_face != pytest.approx(numbers().centre_face, rel=1e-2)
 
 
+@pytest.mark.slow
+def test_a_study_that_was_stopped_ends_as_one_that_was_not(monkeypatch, tmp_path):
+    of_this_user = Cache.of_this_user
+
+    def answered(name, run):
+        (tmp_path / name).mkdir(exist_ok=True)
+        own = {"loaded": Cache(tmp_path / name)}
+        monkeypatch.setattr(
+            Cache, "of_this_user", lambda kind, *told: own.get(kind) or of_this_user(kind, *told)
+        )
+        return misalign.answer(study(over=["mount.axial_offset=-20,20 um"]), run)
+
+    class Stopped(Run):
+        def checkpoint(self, done, total, state=None, what="steps"):
+            if done == 2:
+                raise Interrupted("")
+
+    with pytest.raises(Interrupted, match="2 of 3 points are kept"):
+        answered("stopped", Stopped())
+    told = []
+    after = answered("stopped", Run(progress=lambda *done: told.append(done)))
+    assert told[0] == (2, 3)
+    whole = answered("whole", Run())
+    assert after.to_json() == whole.to_json()
+    np.testing.assert_array_equal(after.pattern, whole.pattern)
+
+
 WARM = ("tolerances.temperatures={ housing = '60 degC', gears = '80 degC' }",)
 
 

@@ -72,10 +72,10 @@ def test_a_depth_is_read_where_it_was_worn_and_smooth_between():
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"depth": "20"}, "--depth is 20; it must be a length such as '20 um'"),
-        ({"depth": "0 um"}, "--depth is 0 um"),
+        ({"depth": "20"}, "--depth is 20; it must be a positive length such as '20 um'"),
+        ({"depth": "-5um"}, "--depth is -5um; it must be a positive length"),
         ({"depth": "2 mm"}, "at most 0.5 mm"),
-        ({"revolutions": "-1"}, "--revolutions is -1; it must be a number of turns"),
+        ({"revolutions": "-1"}, "--revolutions is -1; it must be a positive number of turns"),
     ],
 )
 def test_a_limit_that_is_none_is_refused_in_a_line(options, said):

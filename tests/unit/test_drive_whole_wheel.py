@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,11 +15,12 @@ from asperity.drive.deck.setup import TeethSetup
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.teeth.rim_moves import MovingRim
 from asperity.drive.teeth.sector import right_handed
-from asperity.drive.teeth.whole import Ring, with_web
+from asperity.drive.teeth.whole import Ring, kept_blocks, with_web
 from asperity.errors import InputError
 from asperity.flanks.mesh.tooth import Counts, tooth
 from asperity.flanks.wheel.frame import turned
 from asperity.gearset.blanks import WheelBody, rim_radius
+from asperity.runs.cache import Cache
 
 COUNTS = Counts(flank=4, face=6, thickness=3, rim=3, land=2, low_fillet=2, high_fillet=2)
 MATERIAL = ElasticMaterial(120e9, 0.35, 7500.0)
@@ -141,6 +143,29 @@ def test_a_case_says_which_and_its_blank_how_wide():
     assert given.hub_radius == pytest.approx(30.0)
     assert dataclasses.astuple(given)[0] == pytest.approx(0.5 * wheel(4.3).blank.face_width)
     assert rim_radius(wheel(4.3).pair.geometry) > 50.0
+
+
+def test_a_hub_that_leaves_no_rim_is_refused_before_anything_is_solved():
+    with pytest.raises(InputError, match=r"blank\.hub_diameter is 150 mm; the inside of the rim"):
+        problem("drive.wheel_body=web", "blank.hub_diameter=150 mm")
+
+
+def test_a_wheel_is_condensed_once(monkeypatch, tmp_path):
+    made = []
+
+    def condensed(*asked):
+        made.append(asked)
+        return SimpleNamespace(blocks=lambda: [np.eye(3)] * 2)
+
+    monkeypatch.setattr(Ring, "of", condensed)
+    monkeypatch.setattr(Cache, "of_this_user", lambda *_: Cache(tmp_path))
+    mesh = tooth(wheel(4.3), COUNTS)
+    nodes = np.arange(8)
+    for loaded in (nodes, nodes, nodes[:4]):
+        found = kept_blocks(mesh, nodes[:2], loaded, MATERIAL, 60)
+        np.testing.assert_array_equal(found, [np.eye(3)] * 2)
+    # What else is loaded is another condensation.
+    assert len(made) == 2
 
 
 def test_a_deck_of_a_wheel_on_its_web_is_refused():

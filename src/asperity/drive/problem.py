@@ -92,6 +92,7 @@ class DriveProblem:
             )
         if self.vibration is not None:
             self._check_vibration(self.vibration)
+        _ = self.wheel_body  # A hub that leaves no rim is refused before anything is solved.
 
     @classmethod
     def from_case(cls, case: Case, *, shaken: bool = True) -> Self:

@@ -44,14 +44,14 @@ def answer(problem: DriveProblem, run: Run) -> RootStress:
     ConvergenceError
         No balance was found.
     """
-    run.forecast(100.0, "loads and two meshes")
+    run.forecast(200.0, "loads and two meshes")
     with run.interruptible():
         static = StaticModel(problem, run)
         loads = loads_of(static)
         run.checkpoint(1, 3, what="meshes")
         wheel = right_handed(static.sector.wheel)
         material, body = problem.gearset.wheel_material, problem.wheel_body
-        rim = None if body is None else moving_rim(static.sector, material, body)
+        rim = None if body is None else moving_rim(static.sector, material, body, run.notify)
         teeth = min(TEETH, static.sector.teeth)
         found: list[Roots] = []
         for done, counts in enumerate((COARSER, COUNTS)):

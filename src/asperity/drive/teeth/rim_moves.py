@@ -8,13 +8,14 @@ stands on the rim's inside. On a wheel with a web that moves, by what the whole 
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Callable
 
 import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.contact.elastic import ElasticMaterial
 from asperity.contact.interface.surface import ContactSurface
-from asperity.drive.teeth.whole import FURTHER, Ring, with_web
+from asperity.drive.teeth.whole import FURTHER, kept_blocks, with_web
 from asperity.gearset.blanks import WheelBody
 from asperity.gearset.geometry import Geometry
 from asperity.mesh import HexMesh
@@ -43,7 +44,7 @@ class MovingRim:
     @classmethod
     def of(
         cls, one: HexMesh, surface: ContactSurface, body: WheelBody, geometry: Geometry,
-        material: ElasticMaterial,
+        material: ElasticMaterial, notify: Callable[[str], None] | None = None,
     ) -> MovingRim:  # fmt: skip
         """Return it of a wheel; parameters as of `asperity.drive.teeth.whole.whole_wheel`."""
         mesh, held = with_web(one, body, geometry)
@@ -54,7 +55,7 @@ class MovingRim:
         if not len(inside):
             return cls(pitch, x, z, {})
         kept = np.concatenate([surface.nodes, inside])
-        made = Ring.of(mesh, held, kept, material, geometry.wheel_teeth).blocks()
+        made = kept_blocks(mesh, held, kept, material, geometry.wheel_teeth, notify)
         n = 3 * len(surface.nodes)
         # Blocks are of teeth further about +Z, which in the mesh are further towards -X.
         blocks = {-m: block[n:, :n] for m, block in enumerate(made)}

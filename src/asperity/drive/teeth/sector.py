@@ -197,12 +197,17 @@ def _whole(
     return _Blocks(middle, neighbours, found.seconds, found.residual)
 
 
-def moving_rim(sector: Sector, material: WheelMaterial, body: WheelBody) -> MovingRim:
+def moving_rim(
+    sector: Sector,
+    material: WheelMaterial,
+    body: WheelBody,
+    notify: Callable[[str], None] | None = None,
+) -> MovingRim:
     """Return how the rim's inside moves on a web under forces on the flanks of the coarse mesh."""
     wheel, coarse = sector.wheel, contact_counts(_COARSE)
     elastic = ElasticMaterial(material.youngs_modulus, material.poisson_ratio, DENSITY)
     one, surface = own_mesh(wheel, coarse), _own_surface(wheel, coarse)
-    return MovingRim.of(one, surface, body, wheel.pair.geometry, elastic)
+    return MovingRim.of(one, surface, body, wheel.pair.geometry, elastic, notify)
 
 
 def on_coarse(sector: Sector, forces: FloatArray) -> FloatArray:

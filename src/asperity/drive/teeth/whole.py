@@ -210,15 +210,26 @@ def whole_wheel(
         Takes one line about a kept file that is damaged.
     """
     mesh, held = with_web(one, body, geometry)
+    return kept_blocks(mesh, held, surface.nodes, material, geometry.wheel_teeth, notify)
+
+
+def kept_blocks(
+    mesh: HexMesh,
+    held: IntArray,
+    loaded: IntArray,
+    material: ElasticMaterial,
+    teeth: int,
+    notify: Callable[[str], None] | None = None,
+) -> list[FloatArray]:
+    """Return `Ring.blocks`, or find them among those that are kept; parameters as of `Ring.of`."""
     cache = Cache.of_this_user("condensed", notify)
     name = key(
         source_key("asperity.contact.elastic"), source_key(__name__), mesh.points, mesh.cells,
-        held, surface.nodes, repr((material, geometry.wheel_teeth, FURTHER)),
+        held, loaded, repr((material, teeth, FURTHER)),
     )  # fmt: skip
     kept = cache.get(name)
     if kept is not None:
         return list(np.asarray(kept["blocks"]))
-    ring = Ring.of(mesh, held, surface.nodes, material, geometry.wheel_teeth)
-    found = ring.blocks()
+    found = Ring.of(mesh, held, loaded, material, teeth).blocks()
     cache.put(name, {"blocks": np.array(found)})
     return found

@@ -99,8 +99,8 @@ def prepare(case: Case, *, depth: str = "20 um", revolutions: str = "") -> Weari
     problem = DriveProblem.from_case(case, shaken=False)
     turns = math.inf
     if revolutions:
-        turns = _number(revolutions, "", "--revolutions", "a number of turns such as 1e4")
-    deep = _number(depth, "m", "--depth", "a length such as '20 um'")
+        turns = _number(revolutions, "", "--revolutions", "a positive number of turns such as 1e4")
+    deep = _number(depth, "m", "--depth", "a positive length such as '20 um'")
     if not deep <= _MOST_DEPTH:
         raise InputError(
             f"--depth is {plain(depth)}; it may be at most {1e3 * _MOST_DEPTH:g} mm: beyond, the "
