@@ -262,12 +262,14 @@ def test_20_um_of_tip_relief_take_the_worm_s_edge_away_and_10_um_do_not():
     assert whole[:2].max() < 0.33 * sharp[:2].max()
 
 
-def test_root_relief_takes_the_wheel_s_edge_away_and_leaves_the_worm_s():
+def test_root_relief_takes_the_wheel_s_edge_away_and_not_the_worm_s():
     def forces(*settings):
         pairs = []
         for beta in EDGE_BEARS:
             _, found = at(beta, ELASTIC, *settings)
-            pairs.append(np.sum([tooth.forces()[[WHEEL_TIP, WORM_TIP]] for tooth in found.teeth], 0))
+            pairs.append(
+                np.sum([tooth.forces()[[WHEEL_TIP, WORM_TIP]] for tooth in found.teeth], 0)
+            )
         return np.array(pairs).T
 
     wheel, worm = forces()
@@ -277,7 +279,8 @@ def test_root_relief_takes_the_wheel_s_edge_away_and_leaves_the_worm_s():
     assert bears.any()
     assert (some[bears] < wheel[bears]).all()
     assert none.sum() < 0.1 * wheel.sum()
-    assert still.sum() == pytest.approx(worm.sum(), rel=0.1)
+    # The worm's tip edge is not relieved by it, and bears what the rest of the flank lacks.
+    assert (still > worm).all()
 
 
 def test_an_edge_flows_at_the_hardness_of_the_wheel():
