@@ -144,7 +144,8 @@ def suggestion(word: str, known: Iterable[str]) -> str:
 def one_of(known: Iterable[object], given: object) -> str:
     """Return what a word that is not known must be, and which was meant if one is near."""
     words = [str(word) for word in known]
-    return f"it must be one of {choices(words)}{suggestion(str(given), words)}"
+    which = "one of " if len(words) > 1 else ""
+    return f"it must be {which}{choices(words)}{suggestion(str(given), words)}"
 
 
 def nearest(word: str, known: Iterable[str]) -> str:

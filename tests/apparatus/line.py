@@ -30,8 +30,9 @@ class Line:
     def pull(self):
         """Pull the cable out, once nobody reads any more: a number is given to who opens next."""
         if not self._pulled:
-            self._pulled = True
+            # In this order: what serves closes both ends as soon as it is pulled.
             os.write(self._stop, b".")
+            self._pulled = True
         if threading.current_thread() is not self._thread:
             self._thread.join()
 

@@ -76,4 +76,5 @@ def test_a_word_that_is_not_known_is_told_those_that_are_and_the_nearest():
     assert one_of(("sine", "square"), "sin") == (
         "it must be one of 'sine', 'square' (did you mean 'sine'?)"
     )
+    assert one_of(("sine",), "saw") == "it must be 'sine'"
     assert one_of((5, 6), 13.0) == "it must be one of '5', '6'"

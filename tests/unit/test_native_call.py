@@ -404,7 +404,7 @@ def test_the_signature_that_fits_is_called():
 
 def test_a_signature_of_unknown_types_is_left_out():
     good = signature("k0", [["d"]], ["d"])
-    bad = {"symbol": "k1", "arguments": [["?"]], "returns": ["d"], "words": [1, 1]}
+    bad = {"symbol": "k1", "arguments": [["?"]], "returns": ["d"], "words": [1, 1], "features": []}
     odd = {**good, "symbol": "k2", "words": [1, 2]}
     assert library([bad], function(good)).entry("kernel") is None
     assert library([odd], function(good)).entry("kernel") is None

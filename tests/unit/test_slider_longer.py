@@ -111,3 +111,13 @@ def test_what_has_not_settled_by_chance_is_told_the_usual_duration():
     chance = come_to([0.998, 0.9957, 0.997, 0.9976], 4e-4, 0.05, "slider.drive_damping=400 N s/m")
     usual = chance.model.usual_duration
     assert usual <= needed(chance) < 1.2 * usual
+
+
+def test_a_body_whose_friction_falls_with_the_speed_is_promised_no_end():
+    falls = "friction.model=lugre", "friction.static_mu=0.2", "friction.stribeck_velocity=1 mm/s"
+    elastic = "slider.drive_stiffness=1e6 N/m", "slider.mass=0.4 kg"
+    body = Model.from_case(read_case("table-4.3", TABLES, [*falls, *elastic]))
+    assert advice(0.5, body).endswith("would do, by the means; a body whose friction falls with "
+                                      "the speed may never settle")  # fmt: skip
+    level = Model.from_case(read_case("table-4.3", TABLES, [falls[0], *elastic]))
+    assert advice(0.5, level).endswith("would do, by the means")

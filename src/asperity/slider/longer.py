@@ -201,4 +201,7 @@ def advice(duration: float | None, model: Model, instead: str | None = "periodic
             "" if instead is None else f": solve.method '{instead}' looks for a state that lasts"
         )
         return f"no solve.duration is foreseen that would do{other}"
-    return f"a solve.duration of {upward(duration):.3g} s would do, by the means"
+    friction = model.friction
+    falls = (friction.static_mu or 0.0) > friction.mu and model.slider.drive_stiffness is not None
+    unless = "; a body whose friction falls with the speed may never settle" if falls else ""
+    return f"a solve.duration of {upward(duration):.3g} s would do, by the means{unless}"
