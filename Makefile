@@ -13,7 +13,7 @@ BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 -x '/tests/' .venv/lib |
 PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder --durations 25 --durations-min 5
 # Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.
 SHARE ?= 1
-# Of the others, this part: 0/3, 1/3 and 2/3 are all of them together.
+# Of the others, this part: 0/6 to 5/6 are all of them together.
 PART ?= 0/1
 # Compiled modules are kept: the tests start hundreds of processes.
 export PYTHONDONTWRITEBYTECODE :=
