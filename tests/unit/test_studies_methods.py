@@ -239,7 +239,7 @@ def test_methods_of_a_file_of_ones_own_are_compared(file):
         ("reduction = 0.2", "", r"\[method\.wax\]: method\.base_oil is missing; give one of"),
         ("reduction = 0.2", "reduction = 1.2", r"method\.reduction is 1\.2"),
         ("reduction", "reductoin", r"method\.reductoin is not a key .*did you mean 'reduction'"),
-        ('"us"', '"them"', r"from is 'them'; it must be one of 'us'"),
+        ('"us"', '"them"', r"from is 'them'; it must be 'us'"),
         ('"one source"', '"sure"', r"\[source\.us\]: confidence is 'sure'"),
         ("[method.wax]", "[method.wax", r"methods\.toml: not valid TOML"),
         ("[method.wax]", "[methods.wax]", r"\[methods\] is not a table .*did you mean 'method'"),
