@@ -230,3 +230,31 @@ def test_lanes_in_wide_registers_are_the_same_to_the_bit(tmp_path):
         first, second = called.copied(given), called.copied(given)
         assert (wide(first), plain(second)) == (None, None)
         assert called.words(first) == called.words(second) != called.words(given)
+
+
+LOOPS = """
+from asperity.kernels.building import lean, link, making
+from asperity.kernels.native.entries import listed
+optimise = lean._optimise
+def told(*module, **options):
+    optimise(*module, **options)
+    print(str(module[0]).count("\\nvector.body"))
+lean._optimise = told
+making.began()
+(entry,) = listed().named("asperity.slider.batch_pressed_kernels.march_pressed_batch")
+lean.make(making.kernel(entry), entry.arguments, link.symbol(entry), entry.target)
+"""
+
+
+@pytest.mark.slow
+def test_all_loops_over_pressed_lanes_are_of_vector_instructions():
+    done = subprocess.run(
+        [sys.executable, "-c", LOOPS],
+        env=os.environ | {"ASPERITY_NATIVE": "0"},
+        check=True,
+        capture_output=True,
+        text=True,
+    )
+    # Three before the window, five in it while some wait and five when none does; three that make
+    # the increments in the plane, and three those up.
+    assert int(done.stdout) >= 3 + 5 + 5 + 3 + 3
