@@ -9,6 +9,7 @@ for ever: what they would differ by then is not held against them.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -88,13 +89,36 @@ def _after(period: int) -> str:
     return f"the motion repeats itself after {after}"
 
 
-def comes_again(body: Integrator, window: WindowMeans, ratio: float) -> Standing | None:
+def standing_of(
+    window: WindowMeans, body: Callable[[], Integrator], sums: np.void
+) -> tuple[Standing, WindowMeans]:
+    """Return whether a march has settled, and its window without what parts of a motion make.
+
+    Parameters
+    ----------
+    window : WindowMeans
+        What it has come to.
+    body : callable
+        Gives the body at the end; called where the halves of the window differ.
+    sums : np.void
+        Over the whole window.
+    """
+    if window.residual > UNSTEADY:
+        ratio = float(sums["drive_force"] / sums["steps"])
+        if (again := comes_again(body, window, ratio)) is not None:
+            return again, window._replace(residual=0.0)
+    return march_standing(window), window
+
+
+def comes_again(
+    body: Callable[[], Integrator], window: WindowMeans, ratio: float
+) -> Standing | None:
     """Return that a march has settled whose halves have no whole number of its motion's cycles.
 
     Parameters
     ----------
-    body : Integrator
-        At the end of its march; left as it is.
+    body : callable
+        Gives it at the end of its march; left as it is.
     window : WindowMeans
         What it has come to.
     ratio : float
@@ -112,7 +136,7 @@ def comes_again(body: Integrator, window: WindowMeans, ratio: float) -> Standing
         return None
     if not march_standing(window._replace(residual=0.0)).settled:
         return None
-    means = _marched(at_the_end(body, table), _LOOKED_AT)
+    means = _marched(at_the_end(body(), table), _LOOKED_AT)
     period = _period(means)
     if period < 2:
         return None

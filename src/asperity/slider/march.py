@@ -17,7 +17,7 @@ from asperity.results.settled import Standing
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
-from asperity.slider.chance import comes_again, judged
+from asperity.slider.chance import judged, standing_of
 from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
 from asperity.slider.integrators import Integrator, integrator
@@ -38,11 +38,9 @@ from asperity.slider.step_error import error_of_march, refined
 from asperity.slider.summary import history_of, summarise
 from asperity.slider.timetable import (
     BLOCK,
-    UNSTEADY,
     Timetable,
     WindowMeans,
     march_notes,
-    march_standing,
     pull_across,
 )
 from asperity.vibration.waveform import AT_REST
@@ -304,11 +302,7 @@ def judged_answer(
     table = window.table
     wanders: tuple[str, ...] = ()
     step_error = None
-    standing, steady = march_standing(window), window
-    if window.residual > UNSTEADY:
-        mean = float(sums["drive_force"] / sums["steps"])
-        if (again := comes_again(body(), window, mean)) is not None:
-            standing, steady = again, window._replace(residual=0.0)
+    standing, steady = standing_of(window, body, sums)
     if standing.settled and leaves:
         standing = Standing(False, leaves)
     standing = heard(standing, model, window.model.duration)
