@@ -134,8 +134,10 @@ def choices(known: Iterable[str]) -> str:
     return ", ".join(f"'{word}'" for word in known)
 
 
-def suggestion(word: str, known: Iterable[str]) -> str:
+def suggestion(word: object, known: Iterable[str]) -> str:
     """Return `` (did you mean 'x'?)`` if a known word is near, else nothing."""
+    if not isinstance(word, str):
+        return ""
     lowered = {name.lower(): name for name in known}
     near = difflib.get_close_matches(word.lower(), lowered, n=1)
     return f" (did you mean '{lowered[near[0]]}'?)" if near else ""
@@ -148,13 +150,13 @@ def one_of(known: Iterable[object], given: object) -> str:
     return f"it must be {which}{choices(words)}{suggestion(str(given), words)}"
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
+def nearest(word: object, known: Iterable[str]) -> str:
     """Return the end of a message about an unknown word.
 
     Parameters
     ----------
     word : str
-        What was given.
+        What was given; near to what is no text there is nothing.
     known : iterable of str
         What is allowed.
 

@@ -50,6 +50,11 @@ def test_a_near_word_is_suggested_and_otherwise_all_are_listed():
     assert suggestion("xyz", known) == ""
 
 
+def test_nothing_is_near_to_what_is_no_text():
+    assert suggestion(5, ["5"]) == ""
+    assert nearest(None, ["split"]) == " (allowed: 'split')"
+
+
 def test_a_plain_text_is_the_same_and_any_other_can_do_nothing():
     for text in ("CuSn12-C-GZ", "\u03bc = 0.1 \u00b0C", "\u65e5\u672c", "non\u00a0breaking", ""):
         assert is_plain(text)

@@ -421,7 +421,7 @@ def test_a_damper_that_drowns_the_friction_in_its_rounding_is_refused():
     text = refusal("table-4.3", "slider.drive_damping=1e20 N s/m")
     assert "must be at most 1.1e+11 N s/m" in text
     assert "leave slider.drive_stiffness out" in text
-    assert "must be at most" in refusal("table-4.3", "slider.drive_damping=1e165 N s/m")
+    assert "must be at most" in refusal("table-4.3", "slider.drive_damping=1e29 N s/m")
 
 
 def test_up_to_that_bound_a_stronger_damper_comes_nearer_to_a_rigid_drive():
@@ -436,11 +436,11 @@ def test_up_to_that_bound_a_stronger_damper_comes_nearer_to_a_rigid_drive():
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        (["solve.duration=1e308 s"], "a march takes at most"),
+        (["solve.duration=1e29 s"], "a march takes at most"),
         (["solve.step=1e-320 s"], "a march takes at most"),
         (
-            ["friction.tangential_stiffness=3.3e165 MN/m", "friction.mu=3.3e-156"],
-            "friction.tangential_stiffness is 3.3e+171 N/m",
+            ["friction.tangential_stiffness=3.3e23 MN/m", "friction.mu=3.3e-299"],
+            "friction.tangential_stiffness is 3.3e+29 N/m",
         ),
     ],
 )

@@ -65,6 +65,15 @@ def test_an_unknown_key_is_named_with_the_one_that_is_near():
         RATING["mu_z"]
 
 
+@pytest.mark.parametrize("key", [5, None, ("mu_zm",), b"mu_zm", ["mu_zm"], 2.5])
+def test_a_key_that_is_no_text_is_refused_in_one_line(key):
+    assert key not in RATING
+    with pytest.raises(InputError, match="is not part of the rating by ISO") as raised:
+        RATING[key]
+    assert "did you mean" not in str(raised.value)
+    assert "\n" not in str(raised.value)
+
+
 def test_json_has_each_value_under_its_key_and_the_lists():
     plain = json.loads(json.dumps(RATING.to_json(), allow_nan=False))
     assert plain["ratio"] == 15.0

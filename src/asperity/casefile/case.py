@@ -80,7 +80,9 @@ class Case:
         Table
             Of that class.
         """
-        name = table if isinstance(table, str) else table.table
+        name = getattr(table, "table", table)
+        if not isinstance(name, str):
+            raise InputError(f"{shown(table)} is no table of a case; name one, such as 'slider'")
         if name not in self.tables:
             raise InputError(f"{self.source}: the table [{name}] is missing; add it")
         return self.tables[name]

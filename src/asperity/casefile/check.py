@@ -109,7 +109,7 @@ def mistakes_of(model: type[Table], entries: Mapping[str, Any]) -> Iterator[tupl
     while True:
         wrong = False
         for key, sentence, of_all in _errors(model, left):
-            field = key.partition(".")[2]
+            field = key.rpartition(".")[2]
             if field in taken and field not in left:
                 continue
             if of_all and taken and not _alone(model, left, field, sentence):
@@ -162,8 +162,11 @@ def _alone(model: type[Table], entries: Mapping[str, Any], field: str, sentence:
 
 
 def _key_of(sentence: str, model: type[Table]) -> str:
-    found = _KEY.match(sentence)
-    return found.group() if found else model.table
+    # A table within a table has a dot in its name.
+    within = sentence.startswith(f"{model.table}.")
+    start = model.table.rpartition(".")[0] if within else ""
+    found = _KEY.match(sentence, len(start) + 1 if start else 0)
+    return f"{start}.{found.group()}".lstrip(".") if found else model.table
 
 
 def lines_of(text: str) -> dict[str, int]:

@@ -1,6 +1,7 @@
 """A table of a case file: frozen, in SI, refusing in one line what it cannot hold."""
 
 import json
+import math
 import re
 import threading
 from collections.abc import Collection, Iterator, Mapping
@@ -11,9 +12,9 @@ import pydantic
 from pydantic_core import ErrorDetails
 
 from asperity.errors import InputError, choices, is_plain, nearest, shown, suggestion
-from asperity.units import Held, Named, quantity_of
+from asperity.units import LARGEST, Held, Named, quantity_of
 
-_MOST_BITS = 1024  # of a whole number, as large as floats are
+_MOST_BITS = 128  # of a whole number: no seed has more, and no number that is calculated with
 _BUILDING = threading.Lock()
 
 
@@ -242,7 +243,10 @@ def trouble_with(value: object) -> str:
     if isinstance(value, str):
         return "" if is_plain(value) else "it must be one line without control characters"
     if isinstance(value, int):
-        return "" if value.bit_length() < _MOST_BITS else "it is too large"
+        return "" if value.bit_length() <= _MOST_BITS else "it is too large"
+    if isinstance(value, float):
+        # What is not finite is told what it must be.
+        return "it is too large" if LARGEST < abs(value) < math.inf else ""
     if isinstance(value, Mapping):
         return next(filter(None, map(trouble_with, (*value, *value.values()))), "")
     if isinstance(value, list | tuple):

@@ -43,15 +43,18 @@ def _size(value: object) -> str:
             size, text = to_si(value, ""), "{!r}"
     except InputError:
         raise InputError(expected) from None
-    if size < 0.0 or (text == "{!r}" and not _LEAST_ROUNDING <= size <= 1.0) or size == 0.0:
-        raise InputError(f"it must be positive, and from {_LEAST_ROUNDING:g} to 1 in modules")
+    least = _LEAST_ROUNDING if text == "{!r}" else 0.0
+    if not least <= size <= 1.0 or size == 0.0:
+        raise InputError(
+            f"it must be positive, and from {_LEAST_ROUNDING:g} to 1 in modules or at most 1 m"
+        )
     return text.format(size)
 
 
 _InModules = Annotated[
     float, Quantity("", what="a number", example="0.25", ge=_LEAST_ROUNDING, le=1.0)
 ]
-_AsLength = Annotated[float, Quantity("m", what="a length", example="0.5 mm", gt=0)]
+_AsLength = Annotated[float, Quantity("m", what="a length", example="0.5 mm", gt=0, le=1.0)]
 Size = Annotated[str, BeforeValidator(_size, json_schema_input_type=_InModules | _AsLength)]
 
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, nearest, shown
 from asperity.gearset.library import GIVEN
 from asperity.results.table import Column, Table
 from asperity.sources import Source
@@ -178,7 +178,7 @@ class Rating:
             return found
         names = [name for entry in self.entries for name in (entry.key, entry.symbol) if name]
         raise InputError(
-            f"{key!r} is not part of the rating by {self.standard}{nearest(key, names)}"
+            f"{shown(key)} is not part of the rating by {self.standard}{nearest(key, names)}"
         )
 
     def _entry(self, key: object) -> Entry | None:

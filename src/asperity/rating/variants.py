@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, nearest, shown
 from asperity.formulas import Mask, Reasons, masking
 from asperity.gearset.parameters import Gearset
 from asperity.rating.agma6034.rating import rated as rated_agma6034
@@ -49,14 +49,14 @@ class Variants:
     _masks: Mapping[str, Mask]
 
     def __getitem__(self, key: str) -> npt.NDArray[np.float64]:
-        if key not in self._values:
-            raise InputError(f"{key!r} is not part of the result{self._why(key)}")
+        if key not in self:
+            raise InputError(f"{shown(key)} is not part of the result{self._why(key)}")
         everywhere = np.broadcast_to(self._values[key], self._impossible.shape).astype(np.float64)
         everywhere[self._impossible] = np.nan
         return everywhere.reshape(self.shape)
 
     def __contains__(self, key: object) -> bool:
-        return key in self._values
+        return isinstance(key, str) and key in self._values
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._values)
@@ -98,12 +98,12 @@ class Variants:
         return MappingProxyType(self._mask(standard).legend)
 
     def _mask(self, standard: str) -> Mask:
-        if standard not in self._masks:
-            raise InputError(f"{standard!r} is not part of the result{self._why(standard)}")
+        if not isinstance(standard, str) or standard not in self._masks:
+            raise InputError(f"{shown(standard)} is not part of the result{self._why(standard)}")
         return self._masks[standard]
 
     def _why(self, key: str) -> str:
-        standard = key.partition(".")[0]
+        standard = str(key).partition(".")[0]
         notes = [note for note in self.notes if note.startswith(f"{standard}:")]
         return f": {notes[0]}" if notes else nearest(key, (*self._masks, *self))
 

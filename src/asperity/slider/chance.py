@@ -4,9 +4,12 @@ A body that is thrown and lands, or whose friction falls with the speed, may rep
 five cycles, of which a window has no whole number, or never; the halves of the window then agree
 now and then. So do those of a window of few rings of the body on its drive, each of which has as
 much of a ring. How its cycles go on at the end says how far its mean may be from that of all.
+And where it repeats itself after some cycles of which a half has no whole number, the halves differ
+for ever: what they would differ by then is not held against them.
 """
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -16,7 +19,16 @@ from asperity.slider.from_rest import alike_after, ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.model import Model
 from asperity.slider.step_error import at_the_end, run_once
-from asperity.slider.timetable import FAR, SHORT, Timetable, bends_ever_more
+from asperity.slider.timetable import (
+    FAR,
+    SHORT,
+    UNSTEADY,
+    Timetable,
+    WindowMeans,
+    bends_ever_more,
+    march_standing,
+    still_loads,
+)
 
 _LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
 _BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
@@ -53,13 +65,9 @@ def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, st
     """
     there = at_the_end(body, table)
     means = _marched(there, _LOOKED_AT)
-    for period in range(1, _LOOKED_AT // 3 + 1):
-        if alike_after(np.array(means), period):
-            mean = float(np.mean(means[-period:]))
-            after = "a cycle" if period == 1 else f"{period} cycles"
-            return abs(mean - ratio), (
-                f"the motion repeats itself after {after}, whose mean ratio is {mean:.5g}"
-            )
+    if period := _period(means):
+        mean = float(np.mean(means[-period:]))
+        return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
     cycles = max(table.cycles // _BLOCKS, _LEAST)
     means += _marched(there, _BLOCKS * cycles - len(means))
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
@@ -68,6 +76,84 @@ def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, st
     if bends_ever_more(body.model):
         on *= _by_the_power(body.model, table, _BLOCKS * cycles)
     return max(uncertain, on), "its cycles do not repeat themselves"
+
+
+def _period(means: list[float]) -> int:
+    """Return after how many cycles their means come again; 0 where they do not."""
+    periods = range(1, _LOOKED_AT // 3 + 1)
+    return next((each for each in periods if alike_after(np.array(means), each)), 0)
+
+
+def _after(period: int) -> str:
+    after = "a cycle" if period == 1 else f"{period} cycles"
+    return f"the motion repeats itself after {after}"
+
+
+def standing_of(
+    window: WindowMeans, body: Callable[[], Integrator], sums: np.void
+) -> tuple[Standing, WindowMeans]:
+    """Return whether a march has settled, and its window without what parts of a motion make.
+
+    Parameters
+    ----------
+    window : WindowMeans
+        What it has come to.
+    body : callable
+        Gives the body at the end; called where the halves of the window differ.
+    sums : np.void
+        Over the whole window.
+    """
+    if window.residual > UNSTEADY:
+        ratio = float(sums["drive_force"] / sums["steps"])
+        if (again := comes_again(body, window, ratio)) is not None:
+            return again, window._replace(residual=0.0)
+    return march_standing(window), window
+
+
+def comes_again(
+    body: Callable[[], Integrator], window: WindowMeans, ratio: float
+) -> Standing | None:
+    """Return that a march has settled whose halves have no whole number of its motion's cycles.
+
+    Parameters
+    ----------
+    body : callable
+        Gives it at the end of its march; left as it is.
+    window : WindowMeans
+        What it has come to.
+    ratio : float
+        The mean of its window.
+
+    Returns
+    -------
+    Standing or None
+        None where its halves differ by more than that makes, or anything else is missing.
+    """
+    model, table = window.model, window.table
+    if not model.vibrates or model.solve.scheme == "two-phase" or bends_ever_more(model):
+        return None
+    if still_loads(model, table, window.residual):
+        return None
+    if not march_standing(window._replace(residual=0.0)).settled:
+        return None
+    means = _marched(at_the_end(body(), table), _LOOKED_AT)
+    period = _period(means)
+    if period < 2:
+        return None
+    mean = float(np.mean(means[-period:]))
+    if abs(mean - ratio) > FAR:
+        return None
+    # Of the cycles before the end, which are as those after it.
+    before = [means[cycle % period] for cycle in range(-table.cycles, 0)]
+    half = table.cycles // 2
+    differ = abs(float(np.mean(before[half:]) - np.mean(before[:half])))
+    if not abs(window.residual - differ) <= UNSTEADY:
+        return None
+    return Standing(
+        True,
+        f"{_after(period)}, whose mean ratio is {mean:.5g}; the halves of the window have no whole "
+        "number of them",
+    )
 
 
 def _by_the_power(model: Model, table: Timetable, cycles: int) -> float:

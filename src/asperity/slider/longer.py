@@ -21,6 +21,7 @@ from asperity.slider.ringing import (
     faded_after,
     ringing_time,
     rings_on_drive,
+    rung_out,
     still_rings,
     upward,
 )
@@ -141,6 +142,7 @@ def needed(window: WindowMeans) -> float | None:
         least.append(model.start + (model.duration - model.start) * times)
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
+    longest = max(longest, rung_out(model))
     return longest if longest > model.duration else None
 
 

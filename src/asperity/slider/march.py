@@ -17,7 +17,7 @@ from asperity.results.settled import Standing
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
-from asperity.slider.chance import judged
+from asperity.slider.chance import judged, standing_of
 from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
 from asperity.slider.integrators import Integrator, integrator
@@ -41,7 +41,6 @@ from asperity.slider.timetable import (
     Timetable,
     WindowMeans,
     march_notes,
-    march_standing,
     pull_across,
 )
 from asperity.vibration.waveform import AT_REST
@@ -303,7 +302,7 @@ def judged_answer(
     table = window.table
     wanders: tuple[str, ...] = ()
     step_error = None
-    standing = march_standing(window)
+    standing, steady = standing_of(window, body, sums)
     if standing.settled and leaves:
         standing = Standing(False, leaves)
     standing = heard(standing, model, window.model.duration)
@@ -317,7 +316,7 @@ def judged_answer(
         standing=standing,
         step_error=step_error,
         residual=window.residual, steps=table.steps, cycles=table.cycles, substeps=model.substeps,
-        notes=(*march_notes(window), *ringing_notes(model), *wanders, *notes),
+        notes=(*march_notes(steady), *ringing_notes(model), *wanders, *notes),
         **told,
     )  # fmt: skip
 

@@ -13,6 +13,7 @@ from asperity.slider.result import SlideResult
 from asperity.slider.timetable import FAR, UNSTEADY, turns_back
 
 _LEVEL = 1e-9  # part of the vibration normal to the plane, below which it lifts nothing
+_NEXT, _MOST_TRIED = 1.05, 400  # durations that are looked at, one after the other
 _GONE = -math.log(FAR)  # time constants, in which a ringing has come down to that
 # Of a time constant, a window that tells a ringing that fades: its halves are then apart by a fifth
 # of what the ringing does to the mean, and their quarters tell the rest.
@@ -48,17 +49,46 @@ def rings_on_drive(model: Model) -> bool:
     :math:`v_d - v_a`. Halves of a window of length :math:`T` differ by up to
     :math:`8m(v_d - v_a)/T`.
     """
+    return model.slider.drive_damping == 0.0 and _ring_on_drive(model) > UNSTEADY * model.window
+
+
+def _ring_on_drive(model: Model) -> float:
+    """Return what a ring that friction does not damp makes halves differ by, times their span, s.
+
+    Over mu F_N; zero where friction damps it.
+    """
     slider, friction = model.slider, model.friction
-    if slider.drive_stiffness is None or slider.mass is None or slider.drive_damping > 0.0:
-        return False
+    if slider.drive_stiffness is None or slider.mass is None:
+        return 0.0
     damped = (friction.viscous_damping or 0.0) > 0.0 or turns_back(model)
     if damped or model.normal is not None or not model.vibrates:
-        return False
+        return 0.0
     along, across, _ = model.unit_direction
     if abs(across) > _LEVEL:
-        return False
+        return 0.0
     left = slider.drive_velocity - abs(along) * model.peak_velocity
-    return 8.0 * slider.mass * left > UNSTEADY * model.window * model.full_friction
+    return max(8.0 * slider.mass * left / model.full_friction, 0.0)
+
+
+def rung_out(model: Model) -> float:
+    r"""Return the duration in which a ring on the drive has faded by its damper alone, s.
+
+    It begins where the body is taken up, and fades by :math:`e^{-ht/2m}`; zero where there is none.
+    """
+    slider, makes = model.slider, _ring_on_drive(model)
+    if makes == 0.0 or slider.drive_damping == 0.0 or slider.mass is None:
+        return 0.0
+    stiffness = slider.drive_stiffness or math.inf
+    begins = max(model.start, model.full_friction / (stiffness * slider.drive_velocity))
+    rate, duration = 0.5 * slider.drive_damping / slider.mass, model.duration
+    for _ in range(_MOST_TRIED):
+        window = min(model.window, WINDOW_SHARE * (duration - model.start))
+        if window > 0.0:
+            faded = rate * max(duration - window - begins, 0.0)
+            if makes / window * math.exp(-faded) <= 0.5 * UNSTEADY:
+                return duration
+        duration *= _NEXT
+    return 0.0
 
 
 def faded_after(model: Model) -> float:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, nearest, shown
 from asperity.results import Quantities, Result, labelled, quantity
 from asperity.results.dataset import along, described
 from asperity.results.table import Cell, Table, table_of_rows
@@ -146,7 +146,7 @@ class Comparison(Result):
             if row.key == key:
                 return row
         known = nearest(key, [row.key for row in self.rows])
-        raise InputError(f"{key!r} is not compared here{known}")
+        raise InputError(f"{shown(key)} is not compared here{known}")
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys."""

@@ -13,7 +13,7 @@ from asperity.errors import InputError, nearest, one_of, shown
 from asperity.files import store
 from asperity.gearset.materials import BaseOilName
 from asperity.sources import Source
-from asperity.units import Quantity
+from asperity.vibration.shaking import Angle
 
 OWN = Source(
     "sliding body of asperity",
@@ -65,7 +65,7 @@ class Method(Table):
     base_friction: Annotated[float, Field(gt=0.0, lt=1.0)] | None = None
     reduction: Annotated[float, Field(ge=0.0, lt=1.0)] | None = None
     velocity_ratio: Annotated[float, Field(gt=0.0)] | None = None
-    direction: Annotated[float, Quantity("rad", what="an angle", example="90 deg")] | None = None
+    direction: Angle | None = None
     source: SkipValidation[Source]
 
 

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.casefile import Case
-from asperity.errors import InputError, nearest
+from asperity.errors import InputError, nearest, shown
 from asperity.formulas import Reasons
 from asperity.gearset.parameters import Gearset
 from asperity.rating.inputs import inputs as given_inputs
@@ -155,7 +155,7 @@ class Sensitivity(Result):
             if influence.quantity.name == name:
                 return influence
         names = [influence.quantity.name for influence in self.influences]
-        raise InputError(f"{name!r} is not varied in this study{nearest(name, names)}")
+        raise InputError(f"{shown(name)} is not varied in this study{nearest(name, names)}")
 
     def to_json(self) -> dict[str, Any]:
         """Return everything by key; the units are part of the keys, None is where no answer is."""

@@ -7,6 +7,7 @@
 """
 
 from asperity.units.quantities import (
+    LARGEST,
     Held,
     Named,
     Quantity,
@@ -20,6 +21,7 @@ from asperity.units.quantities import (
 )
 
 __all__ = [
+    "LARGEST",
     "Held",
     "Named",
     "Quantity",

@@ -32,6 +32,8 @@ _TORQUE = re.compile(r"lbf?[- \u00b7*]?(in|ft)|(in|ft)[- \u00b7*]?lbf?")
 _DEGREE = re.compile(r"\bdeg([CF])\b")
 _DIFFERENCE = {"C": "K", "F": "degR"}
 _PLAIN_POWER = re.compile(r"(?<=[A-Za-z])([23])(?![0-9])")
+LARGEST = 1e30
+"""In SI, either way: nothing of a machine is larger, and what is calculated with more overflows."""
 
 
 @functools.cache
@@ -227,6 +229,9 @@ def _kind(unit: str) -> Mapping[str, int]:
 class Quantity:
     """Annotation that makes a float field of a pydantic model a quantity with a unit.
 
+    None may be above 1e30 in SI either way, whatever its bounds: what is calculated with such a
+    number overflows.
+
     The model takes text with a unit, a quantity of pint, or a number in SI units. As validation
     context ``{"text_only": True}`` is that of a file: what has a unit must be text, a ratio may be
     a number; ``{"units": Named(...)}`` is that of Python: the unit of a number must be named.
@@ -335,6 +340,12 @@ class Quantity:
             or (self.le is not None and not result <= self.le)
         ):
             raise InputError(self.bounds())
+        if abs(result) > LARGEST:
+            either_way = "" if self.gt is not None or self.ge is not None else " either way"
+            most = f"{LARGEST:g} {self.unit}".rstrip()
+            raise InputError(
+                f"it must be at most {most}{either_way}; look at its unit and exponent"
+            )
         return result
 
     def __get_pydantic_core_schema__(

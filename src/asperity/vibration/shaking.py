@@ -28,6 +28,12 @@ MODES = ("axial", "torsional", "wheel-axial", "screw")
 """Which way a gearset is shaken."""
 
 _OF_BODIES = ("direction", "elevation", "normal_phase")
+_TURNS = 10.0  # of an angle: more are meant by nobody, and cost digits
+_FARTHEST = 2.0 * math.pi * _TURNS
+Angle = Annotated[
+    float, Quantity("rad", what="an angle", example="90 deg", ge=-_FARTHEST, le=_FARTHEST)
+]
+"""An angle of some turns at most, rad."""
 _PER_TURN = re.compile(r"\s*(\S+)\s+per\s+turn\s*")
 
 
@@ -51,7 +57,7 @@ class Vibration(Table):
         Displacement amplitude u_a, m.
     direction : float or str
         Angle theta between vibration and drive, seen from above (azimuth), rad; 0 longitudinal,
-        90 deg transverse.
+        90 deg transverse; ten turns at most either way.
     elevation : float or str
         Angle between vibration and plane of contact, rad, 0 to 180 deg; 90 deg is normal to the
         plane. Out of the plane it needs the ``[normal]`` table. Beyond 90 deg the base falls as it
@@ -102,11 +108,11 @@ class Vibration(Table):
     displacement_amplitude: (
         Annotated[float, Quantity("m", what="a displacement", example="0.2 um", ge=0)] | None
     ) = None
-    direction: Annotated[float, Quantity("rad", what="an angle", example="45 deg")] = 0.0
+    direction: Angle = 0.0
     elevation: Annotated[
         float, Quantity("rad", what="an angle", example="30 deg", ge=0, le=math.pi)
     ] = 0.0
-    normal_phase: Annotated[float, Quantity("rad", what="an angle", example="90 deg")] = 0.0
+    normal_phase: Angle = 0.0
     mode: Literal["axial", "torsional", "wheel-axial", "screw"] | None = None
     applied_to: Literal["base", "body", "worm", "seat", "wheel", "motor"] = "base"
     start: Annotated[float, Quantity("s", what="a time", example="0.14 s", ge=0)] = 0.0

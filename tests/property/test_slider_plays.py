@@ -1,0 +1,216 @@
+"""Fits, comparisons and branches of bodies by lot, beside the plain way of `apparatus.plain_body`.
+
+What has not settled is marked: it is no best, no saving and no prediction. What is not marked is
+where the plain way is, which marches on for as long as it takes.
+"""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from apparatus.bodies import lots
+from apparatus.plain_body import solved
+
+from asperity.casefile import read_case
+from asperity.commands import case_tables
+from asperity.errors import AsperityError
+from asperity.runs import Run
+from asperity.slider import Model, solve
+from asperity.start.compare import compare
+from asperity.sweep import branches
+from asperity.tribometer.fit.study import answer, prepare
+
+BAR = 2e-3
+LONG = 800  # cycles, of the plain way
+RATIOS = (0.4, 0.8, 1.3, 2.0, 3.5, 6.0)
+
+
+def case_of(lot, folder, name, **solved_by):
+    """Return a body by lot as a case, of a file in a folder where the samples lie."""
+    lot.model(folder)
+    tables = lot.tables | {"solve": lot.tables["solve"] | solved_by}
+    path = folder / f"{name}.toml"
+    path.write_text(lot._replace(tables=tables).toml())
+    return read_case(path, case_tables())
+
+
+def plain_ratio(model, cycles):
+    """Mean of the last fifth of so many cycles by the plain way, and by how much steps change."""
+    found = solved(model, cycles, max(cycles // 5, 4))
+    return found.ratio, found.error
+
+
+def compared(seed, folder):
+    """Compare two or three bodies; yield what is wrong with what the JSON and the tables say."""
+    rng = np.random.default_rng(seed)
+    drawn = lots(int(rng.integers(1 << 30)), int(rng.integers(2, 4)), folder)
+    cases = [case_of(lot, folder, f"body-{n}") for n, lot in enumerate(drawn)]
+    answers = []
+
+    def slid(_, case):
+        answers.append(solve(Model.from_case(case), history=False))
+        return answers[-1]
+
+    try:
+        found = compare(cases, slid)
+    except AsperityError:
+        return
+    told = json.loads(json.dumps(found.to_json(), allow_nan=False))
+    headings = [str(column.heading) for column in found.tables()[1].columns][2:]
+    remarks = [str(each) for each in found.tables()[1].remarks]
+    for n, (lot, one) in enumerate(zip(drawn, answers, strict=True)):
+        if told["settled"][n] is not one.settled:
+            yield n, "settled in JSON", told["settled"], lot.toml()
+        marked = any(remark.startswith(f"* {found.cases[n]}: Not settled") for remark in remarks)
+        if one.settled is headings[n].endswith(" *") or one.settled is marked:
+            yield n, "marked", headings, remarks, lot.toml()
+        ratios = told["results"].get("ratio")
+        if ratios is not None and ratios[n] != one.ratio:
+            yield n, "ratio", ratios, one.ratio, lot.toml()
+        if one.settled:
+            plain, error = plain_ratio(one.model, lot.cycles + LONG)
+            more = error + 2.0 * (one.step_error or 0.0) + one.residual
+            if abs(plain - one.ratio) > BAR + more:
+                yield n, "plain way", one.ratio, plain, error, one.notes, lot.toml()
+
+
+def test_a_comparison_marks_what_has_not_settled(tmp_path):
+    assert not list(compared((1, 0), tmp_path))
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_a_comparison_marks_what_has_not_settled")
+@pytest.mark.parametrize("part", range(10))
+def test_comparisons_mark_what_has_not_settled(tmp_path, part):
+    assert not [wrong for n in range(12) for wrong in compared((2, part, n), tmp_path)]
+
+
+def measured(rng, folder):
+    """Return a body by lot, and its ratios by the plain way at some velocity ratios; or None."""
+    (lot,) = lots(int(rng.integers(1 << 30)), 1, folder, models=("dahl",), pressed=False)
+    lot.tables["vibration"].pop("start", None)
+    rows = []
+    for ratio in RATIOS:
+        tables = lot.tables | {"vibration": lot.tables["vibration"] | {"velocity_ratio": ratio}}
+        model = lot._replace(tables=tables).model(folder)
+        plain, error = plain_ratio(model, LONG)
+        later, _ = plain_ratio(model, 2 * LONG)
+        rows.append((ratio, plain, max(error, abs(later - plain))))
+    return lot, rows
+
+
+def fitted(seed, folder):
+    """Fit two parameters to what the plain way measures; yield what is wrong with the answer."""
+    rng = np.random.default_rng(seed)
+    lot, rows = measured(rng, folder)
+    sd = 5e-3
+    noise = sd * rng.normal(size=len(rows))
+    path = folder / "data.csv"
+    lines = [f"{k},{ratio + off},{sd}" for (k, ratio, _), off in zip(rows, noise, strict=True)]
+    path.write_text("\n".join(["vibration.velocity_ratio,ratio,sd", *lines]))
+    case = case_of(lot, folder, "fitted")
+    free = "friction.max_deflection,friction.mu"
+    try:
+        found = answer(prepare(case, data=str(path), free=free), Run())
+    except AsperityError:
+        return
+    told = json.loads(json.dumps(found.to_json(), allow_nan=False))
+    loose = {row["row"] for row in told["failed"] if row["row"] is not None}
+    kept = [n for n in range(len(rows)) if n + 2 not in loose]
+    if len(kept) != told["points"]:
+        yield "rows", told["failed"], told["points"], lot.toml()
+        return
+    # What is predicted is where the plain way with the fitted parameters comes to.
+    given = {one["key"].partition(".")[2]: one["value"] for one in told["parameters"]}
+    friction = lot.tables["friction"] | {
+        "max_deflection": f"{given['max_deflection']!r} m", "mu": given["mu"]
+    }  # fmt: skip
+    for n, left in zip(kept, told["residuals"], strict=True):
+        k, ratio, unsteady = rows[n]
+        vibration = lot.tables["vibration"] | {"velocity_ratio": k}
+        tables = lot.tables | {"friction": friction, "vibration": vibration}
+        model = lot._replace(tables=tables).model(folder)
+        plain, error = plain_ratio(model, LONG)
+        predicted = ratio + noise[n] - left * sd
+        # Ductile asperities come to their limit as a power of time, the plain way too.
+        unsteady *= max(lot.tables["friction"]["exponent"], 1.0)
+        if unsteady > BAR:
+            continue
+        if abs(plain - predicted) > BAR + 2.0 * error + unsteady:
+            yield k, predicted, plain, error, unsteady, lot.toml()
+    # And what is left out is told with its reason.
+    for row in told["failed"]:
+        if not row["why"]:
+            yield "no reason", row, lot.toml()
+
+
+@pytest.mark.slow
+@pytest.mark.campaign
+@pytest.mark.parametrize("part", range(24))
+def test_fits_predict_as_the_plain_way_does(tmp_path, part):
+    assert not list(fitted((2, part, 0), tmp_path))
+
+
+def branched(seed, folder):
+    """Follow a body along its velocity ratio and back; yield states that are not as they are told.
+
+    A body by the plain way comes from rest: it is in one of the two states that stay, if both were
+    found.
+    """
+    rng = np.random.default_rng(seed)
+    (lot,) = lots(int(rng.integers(1 << 30)), 1, folder, models=("dahl", "lugre"))
+    lot.tables["vibration"].pop("start", None)
+    case = case_of(lot, folder, "followed", method="periodic")
+    values = [0.7, 1.1, 1.8, 3.0]
+    axis = f"vibration.velocity_ratio={','.join(map(str, values))}"
+    try:
+        found = branches.answer(branches.prepare(case, over=[axis]), Run())
+    except AsperityError:
+        return
+    told = json.loads(json.dumps(found.to_json(), allow_nan=False))
+    if told.get("ratio") is None:
+        return
+    for way, table in enumerate(found.tables()):
+        for place, row in enumerate(table.rows):
+            loose = told["settled"][way][place] == 0.0
+            if str(row[1]).endswith(" *") is not loose:
+                yield way, place, "marked", [str(cell) for cell in row], lot.toml()
+    for place, value in enumerate(values):
+        both = [told["ratio"][way][place] for way in (0, 1)]
+        stays = [told["settled"][way][place] == 1.0 for way in (0, 1)]
+        if not all(stays):
+            continue
+        vibration = lot.tables["vibration"] | {"velocity_ratio": value}
+        model = lot._replace(tables=lot.tables | {"vibration": vibration}).model(folder)
+        plain, error = plain_ratio(model, LONG)
+        later, _ = plain_ratio(model, 2 * LONG)
+        unsteady = abs(later - plain) * max(lot.tables["friction"].get("exponent", 1.0), 1.0)
+        if unsteady > BAR:
+            continue
+        more = error + 2.0 * unsteady
+        more += 2.0 * max(told["step_error"][way][place] or 0.0 for way in (0, 1))
+        if min(abs(later - ratio) for ratio in both) > BAR + more:
+            yield value, both, plain, later, error, told.get("notes"), lot.toml()
+
+
+@pytest.mark.slow
+@pytest.mark.campaign
+@pytest.mark.parametrize("part", range(24))
+def test_bodies_are_in_states_that_their_branches_have(tmp_path, part):
+    assert not list(branched((2, part, 0), tmp_path))
+
+
+def test_the_plain_way_knows_a_ratio_on_paper(tmp_path):
+    """Rigid friction along the drive: :math:`(2/\\pi)\\arcsin(1/k)`."""
+    (lot,) = lots(9, 1, tmp_path, models=("coulomb",), pressed=False)
+    vibration = lot.tables["vibration"] | {
+        "waveform": "sine", "direction": "0 deg", "velocity_ratio": 2.0, "applied_to": "base",
+    }  # fmt: skip
+    vibration.pop("rise_time", None)
+    vibration.pop("samples", None)
+    slider = {k: v for k, v in lot.tables["slider"].items() if not k.startswith("drive_s")}
+    slider.pop("drive_damping", None)
+    tables = lot.tables | {"vibration": vibration, "slider": slider | {"lateral": "guided"}}
+    plain, _ = plain_ratio(lot._replace(tables=tables).model(tmp_path), 20)
+    assert plain == pytest.approx(2.0 / math.pi * math.asin(0.5), abs=2e-3)
