@@ -2,8 +2,8 @@
 
 Numba counts for every function that an array goes through. One that gets its arrays as arguments,
 makes none and returns none has nothing to count for: who called it holds them. Without the counts
-there is less to compile (a sixth of LLVM's text in a march), and the same is calculated. In kernels that Numba compiles where
-they are called all is counted, but for those marked by `asperity.kernels.uncounted`.
+there is less to compile, and the same is calculated. In kernels that Numba compiles where they are
+called all is counted, but for those marked by `asperity.kernels.uncounted`.
 """
 
 from collections.abc import Callable, Iterator
