@@ -24,6 +24,10 @@ LONG = {
 }
 """The same of those that take a minute, since their own job is done first."""
 
+MINUTES = pytest.mark.campaign(
+    tried_by="test_a_screen_hands_its_report_over_which_prints_and_asks_for_nothing"
+)
+
 SAYS = {
     "slide": "--set vibration.direction=37 deg", "sweep": "Sliding body over a grid",
     "gear": "<h2>Verdict", "size": "200 N m", "thesis": "Of 94 claims", "flanks": "Pattern",
@@ -40,9 +44,7 @@ def taken(page, tmp_path):
     return path
 
 
-@pytest.mark.parametrize(
-    "screen", [*ASKED, *(pytest.param(each, marks=pytest.mark.campaign) for each in LONG)]
-)
+@pytest.mark.parametrize("screen", [*ASKED, *(pytest.param(each, marks=MINUTES) for each in LONG)])
 def test_a_screen_hands_its_report_over_which_prints_and_asks_for_nothing(
     seen, browser, tmp_path, screen
 ):

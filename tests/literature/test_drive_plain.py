@@ -59,7 +59,7 @@ def test_a_drive_is_that_of_the_plain_model(law, mode):
 
 
 @pytest.mark.slow
-@pytest.mark.campaign(over="part")
+@pytest.mark.campaign(over="part", tried_by="test_a_drive_is_that_of_the_plain_model")
 @pytest.mark.parametrize("part", range(15))
 def test_random_drives_are_those_of_the_plain_model(part):
     numbers = range(10 * part, 10 * part + 10)

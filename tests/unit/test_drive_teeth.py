@@ -19,9 +19,9 @@ from asperity.contact.interface.counter_motion import Drift, SurfaceMotion
 from asperity.contact.interface.friction import DAHL, PointFriction
 from asperity.contact.interface.normal import NormalLaw
 from asperity.contact.interface.rigid import Pose, RigidSurface
-from asperity.drive.elastic.friction import point_at
+from asperity.drive.elastic.friction import find_shares, point_at
 from asperity.drive.elastic.memory import states
-from asperity.drive.elastic.mesh import advance
+from asperity.drive.elastic.mesh import solve_teeth
 from asperity.drive.elastic.model import TeethModel
 from asperity.drive.interface import AT, OUTS, POSES
 from asperity.drive.problem import DriveProblem
@@ -105,6 +105,12 @@ def marched(model, q, v):
         advance(model.teeth, here, trial, q[k], v[k], STEP, outs[k - 1])
         here, trial = trial, here
     return outs, here
+
+
+def advance(mesh, committed, trial, q, v, dt, out):
+    """As `asperity.drive.elastic.mesh.advance`, by kernels that are in the list."""
+    find_shares(mesh.sliding, v)
+    solve_teeth(mesh, committed, trial, q, v, dt, out)
 
 
 def swung(amplitude, frequency=20e3):

@@ -258,3 +258,31 @@ def test_all_loops_over_pressed_lanes_are_of_vector_instructions():
     # Three before the window, five in it while some wait and five when none does; three that make
     # the increments in the plane, and three those up.
     assert int(done.stdout) >= 3 + 5 + 5 + 3 + 3
+
+
+BORROWED = """
+from asperity.kernels.building import borrowing, making
+from asperity.kernels.native.entries import listed
+found, decided = {}, borrowing.only_borrows
+def noted(state):
+    found[state.func_id.func_name] = decided(state)
+    return found[state.func_id.func_name]
+borrowing.only_borrows = noted
+from asperity.kernels.building import lean
+making.began()
+(entry, *_) = listed().named("asperity.slider.kernels.march_stretches")
+lean.make(making.kernel(entry), entry.arguments, "entry")
+print(found["march_block"], found["fill_increments"], found["march_stretches"])
+"""
+
+
+@pytest.mark.slow
+def test_what_makes_no_arrays_is_compiled_without_counts_of_them_and_what_makes_some_with():
+    told = subprocess.run(
+        [sys.executable, "-c", BORROWED],
+        env=os.environ | {"ASPERITY_NATIVE": "0"},
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout.split()
+    assert told == ["True", "True", "False"]

@@ -30,6 +30,10 @@ P = ParamSpec("P")
 
 _FLOAT = np.dtype(np.float64)
 
+# What a number or a word is known by.
+_BY_VALUE = frozenset([float, str, type(None)])
+_MOST_KNOWN = 200
+
 # Within `masking` NumPy is silent already.
 _UNTOLD = contextlib.nullcontext()
 
@@ -107,9 +111,11 @@ def formula(
                 return Masked(values, mask.reason, mask.legend)
             if on_invalid not in ("raise", "mask"):
                 raise InputError(f"on_invalid is {on_invalid!r}; it must be 'raise' or 'mask'")
-            kept = current_mask() if shape else None
+            kept = current_mask()
             if kept is None:
                 return made.evaluate(given, shape, system)
+            if not shape:
+                return made.known(given, system)
             # What rests on the same arrays is worked out once.
             of, whole = (made, system, *given), tuple(given.values())
             return kept.once(lambda: made.evaluate(given, shape, system), whole, *of)
@@ -144,6 +150,7 @@ class _Made:
         error: Callable[..., InputError] | None,
     ) -> None:
         self.body, self.undefined, self.error = body, undefined, error
+        self._known: dict[tuple[Any, ...], float] = {}
         self.symbols: dict[str, Symbol] = {}
         self.words: dict[str, tuple[str, ...]] = {}
         self.meanings: dict[str, str] = {}
@@ -214,6 +221,22 @@ class _Made:
                 raise InputError(f"{name} is {value!r}; {one_of(allowed, value)}")
         return given, common_shape(arrays) if arrays else ()
 
+    def known(self, given: dict[str, Any], system: str) -> Any:
+        """Return `evaluate` of numbers and words, remembered: beside arrays they come again."""
+        values = tuple(given.values())
+        # A zero of either sign is the same by value, and not to a body; NaN is not itself.
+        if not all(type(one) in _BY_VALUE and (one or one is None) for one in values):
+            return self.evaluate(given, (), system)
+        key = system, *given, *values
+        found = self._known.get(key)
+        if found is None:
+            found = self.evaluate(given, (), system)
+            if type(found) is float and math.isfinite(found):
+                if len(self._known) >= _MOST_KNOWN:
+                    self._known.clear()
+                self._known[key] = found
+        return found
+
     def evaluate(self, given: dict[str, Any], shape: tuple[int, ...], system: str) -> Any:
         """Return what the body gives for the arguments, checked before and after."""
         if system not in self.checks:
@@ -224,14 +247,21 @@ class _Made:
             value = given.get(name)
             if value is None:
                 continue
-            if type(value) is not float or not lowest <= value <= highest:
+            if mask is not None and type(value) is np.ndarray:
+                known = mask.seen(value)
+                if known is None or not (lowest <= known.lowest and known.highest <= highest):
+                    checked = check(name, value, symbol)
+                    if checked is not value:
+                        holes.append(np.isnan(checked))
+                    elif known is not None and known.holes is not None:
+                        holes.append(known.holes)
+                    value = checked
+                elif known.holes is not None:
+                    holes.append(known.holes)
+            elif type(value) is not float or not lowest <= value <= highest:
                 checked = check(name, value, symbol)
                 if checked is not value:
                     holes.append(np.isnan(checked))
-                elif mask is not None and type(value) is np.ndarray:
-                    known = mask.seen(value)
-                    if known is not None and known.holes is not None:
-                        holes.append(known.holes)
                 value = checked
             if type(value) is float:
                 # A Python float raises where an array has an infinite number.

@@ -278,6 +278,10 @@ def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     InputError
         They do not go together.
     """
+    several = iter(arrays.values())
+    first: tuple[int, ...] = np.shape(next(several))
+    if all(type(array) is np.ndarray and array.shape == first for array in several):
+        return first
     different: set[tuple[int, ...]] = {
         array.shape if type(array) is np.ndarray else np.shape(array) for array in arrays.values()
     }

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from asperity.arrays import Real, smaller
+from asperity.formulas import once
 from asperity.gearset import relations
 from asperity.gearset.parameters import Gearset
 from asperity.rating.load_steps import LoadStep
@@ -56,6 +57,12 @@ GEOMETRY = (
 def scaled(value: float, factor: float) -> float:
     """Return a number in another unit, to 15 digits: 1440 rpm come back as 1440 from rad/s."""
     return float(f"{value * factor:.15g}")
+
+
+@once
+def times(value: Real, factor: Real) -> Real:
+    """Return a product, of the same arrays the same array: what follows from it is known again."""
+    return value * factor
 
 
 MANY = 16

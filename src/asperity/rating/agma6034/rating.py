@@ -16,7 +16,7 @@ from asperity.rating.agma6034 import capacity, forces, limits, mesh, thermal
 from asperity.rating.agma6034.symbols import LEAD_ANGLES
 from asperity.rating.demands import failures
 from asperity.rating.entries import entries
-from asperity.rating.inputs import Inputs, Values
+from asperity.rating.inputs import Inputs, Values, times
 from asperity.rating.iso14521 import losses, strength
 from asperity.rating.result import Rating
 from asperity.sources import Range, Source
@@ -52,13 +52,20 @@ def rated(inputs: Inputs) -> Values:
     """
     inputs.gearset.wheel_material.require_covered("AGMA 6034")
     v = _rated(inputs)
-    parts = [_rated(part) for part in inputs.parted()]
+    # A part under the rated load has what is known of that.
+    parts = [dict(v) if _is_alike(part, inputs) else _rated(part) for part in inputs.parted()]
     if parts:
         for place, own in enumerate(() if inputs.together else parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
         v["safety_torque"] = _least(inputs, parts)
         v["t_s_degC"] = inputs.greatest(own["t_s_degC"] for own in parts)
     return v
+
+
+def _is_alike(part: Inputs, inputs: Inputs) -> bool:
+    """Whether speed and torque are the same numbers; arrays and cells are others."""
+    pairs = (part.worm_speed, inputs.worm_speed), (part.output_torque, inputs.output_torque)
+    return all(type(one) is type(other) is float and one == other for one, other in pairs)
 
 
 def _least(inputs: Inputs, parts: list[Values]) -> Real:
@@ -89,7 +96,7 @@ def _rated(inputs: Inputs) -> Values:
     mean = inputs.friction
     if mean is None:
         mean = mesh.friction(v["sliding_velocity_m_s"])
-    v["mu"] = mean * inputs.friction_factor
+    v["mu"] = times(mean, inputs.friction_factor)
     teeth = v["mu"], inputs.lead_angle, inputs.pressure_angle
     v["eta"] = mesh.worm_driving_efficiency(*teeth)
     v["eta_back"] = mesh.wheel_driving_efficiency(*teeth)

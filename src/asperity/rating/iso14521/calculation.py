@@ -16,7 +16,7 @@ import numpy as np
 
 from asperity.arrays import Real, smaller
 from asperity.formulas import current_mask, masking
-from asperity.rating.inputs import Inputs, Values
+from asperity.rating.inputs import Inputs, Values, times
 from asperity.rating.iso14521 import (
     balance,
     contact,
@@ -93,7 +93,7 @@ def _teeth(inputs: Inputs) -> Values:
     mean = inputs.friction
     if mean is None:
         mean = friction.mean_friction(v["mu_0T"], v["Y_S"], v["Y_G"], v["Y_W"], v["Y_R"])
-    v["mu_zm"] = mean * inputs.friction_factor
+    v["mu_zm"] = times(mean, inputs.friction_factor)
     v["eta_z1_2"] = efficiency.worm_driving_efficiency(inputs.lead_angle, v["mu_zm"])
     v["eta_z2_1"] = efficiency.wheel_driving_efficiency(inputs.lead_angle, v["mu_zm"])
     return v
