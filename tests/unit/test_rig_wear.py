@@ -1,8 +1,10 @@
 """A wear test: planned by distance, run on a rig whose discs wear, reduced to wear rates."""
 
 import csv
+import dataclasses
 import functools
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -264,3 +266,14 @@ def test_where_one_vibration_is_not_known_there_is_no_rate_by_path():
     assert wear.path_of([FileResult(file="0", distance=1.0, path=2.0)]) == 2.0
     # A zero is a path that is known: nobody slid.
     assert wear.path_of([FileResult(file="0", distance=0.0, path=0.0)]) == 0.0
+
+
+def test_a_run_has_the_frequency_of_its_vibration_and_none_has_zero():
+    (still,) = rates_of([10.0, 9.0], [1.0], 1e-10)[1]
+    assert still.frequency == 0.0
+    # One stretch that begins with a segment before the vibration, and no other.
+    (stretch,) = weighed([10.0, 9.0], [1.0])
+    segments = [SimpleNamespace(commanded=told) for told in (None, 750.0)]
+    shaken = dataclasses.replace(stretch, segments=segments)
+    (found,) = wear_rates(pair_of_the_rig(), [shaken], 1e-10, 0.95, [])
+    assert found.frequency == 750.0
