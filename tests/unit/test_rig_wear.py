@@ -14,6 +14,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.runs import Run
+from asperity.tribometer.journal_lines import NAME
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.plan.matrix import planned_files
 from asperity.tribometer.plan.study import answer as plan_of
@@ -277,3 +278,21 @@ def test_a_run_has_the_frequency_of_its_vibration_and_none_has_zero():
     shaken = dataclasses.replace(stretch, segments=segments)
     (found,) = wear_rates(pair_of_the_rig(), [shaken], 1e-10, 0.95, [])
     assert found.frequency == 750.0
+
+
+@pytest.mark.parametrize("begun", ["", "{", '{"line": 4, "kind": "do'])
+def test_a_line_of_the_journal_that_is_half_written_takes_no_weighing_away(tmp_path, begun):
+    lines = [
+        {"steps": [2], "steel_kg": 0.1, "bronze_kg": 0.2},
+        {"recording": "file-01.nc"},
+        {"steps": [26], "steel_kg": 0.0999, "bronze_kg": 0.1998, "action": "setting-1/weigh"},
+    ]
+    whole = [
+        json.dumps({"line": number, "kind": "done", **line}) + "\n"
+        for number, line in enumerate(lines, start=1)
+    ]
+    (tmp_path / NAME).write_text("".join(whole) + begun)
+    masses = {"steel": (0.1, 0.0999), "bronze": (0.2, 0.1998)}
+    found, why = wear.weighings_in([tmp_path])
+    assert not why
+    assert found == [(tmp_path, wear.Weighing("setting-1", masses, ("file-01.nc",)))]
