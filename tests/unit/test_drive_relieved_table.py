@@ -26,6 +26,7 @@ def test_the_best_row_is_marked_and_an_error_is_shown_in_microradians(best):
     )  # fmt: skip
     (table,) = Relieved.tables(fake)
     text = [[str(cell) for cell in row] for row in table.rows]
+    assert [float(row[0]) for row in text] == [0.0, 20.0, 40.0]
     assert [row[-1] for row in text] == ["best" if n == best else "" for n in range(3)]
     for n, row in enumerate(text):
         assert [float(cell) for cell in row[1:8]] == [

@@ -1,8 +1,10 @@
 """A wear test: planned by distance, run on a rig whose discs wear, reduced to wear rates."""
 
 import csv
+import dataclasses
 import functools
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.runs import Run
+from asperity.tribometer.journal_lines import NAME
 from asperity.tribometer.pair import Pair
 from asperity.tribometer.plan.matrix import planned_files
 from asperity.tribometer.plan.study import answer as plan_of
@@ -264,3 +267,32 @@ def test_where_one_vibration_is_not_known_there_is_no_rate_by_path():
     assert wear.path_of([FileResult(file="0", distance=1.0, path=2.0)]) == 2.0
     # A zero is a path that is known: nobody slid.
     assert wear.path_of([FileResult(file="0", distance=0.0, path=0.0)]) == 0.0
+
+
+def test_a_run_has_the_frequency_of_its_vibration_and_none_has_zero():
+    (still,) = rates_of([10.0, 9.0], [1.0], 1e-10)[1]
+    assert still.frequency == 0.0
+    # One stretch that begins with a segment before the vibration, and no other.
+    (stretch,) = weighed([10.0, 9.0], [1.0])
+    segments = [SimpleNamespace(commanded=told) for told in (None, 750.0)]
+    shaken = dataclasses.replace(stretch, segments=segments)
+    (found,) = wear_rates(pair_of_the_rig(), [shaken], 1e-10, 0.95, [])
+    assert found.frequency == 750.0
+
+
+@pytest.mark.parametrize("begun", ["", "{", '{"line": 4, "kind": "do'])
+def test_a_line_of_the_journal_that_is_half_written_takes_no_weighing_away(tmp_path, begun):
+    lines = [
+        {"steps": [2], "steel_kg": 0.1, "bronze_kg": 0.2},
+        {"recording": "file-01.nc"},
+        {"steps": [26], "steel_kg": 0.0999, "bronze_kg": 0.1998, "action": "setting-1/weigh"},
+    ]
+    whole = [
+        json.dumps({"line": number, "kind": "done", **line}) + "\n"
+        for number, line in enumerate(lines, start=1)
+    ]
+    (tmp_path / NAME).write_text("".join(whole) + begun)
+    masses = {"steel": (0.1, 0.0999), "bronze": (0.2, 0.1998)}
+    found, why = wear.weighings_in([tmp_path])
+    assert not why
+    assert found == [(tmp_path, wear.Weighing("setting-1", masses, ("file-01.nc",)))]

@@ -222,3 +222,18 @@ def test_of_a_ring_lasts_half_of_what_two_pushes_do_a_quarter_of_a_turn_apart(ve
     lasting = cycle._shift(mode.real, round(2.0 * turn))
     assert lasting == pytest.approx(np.mean(at_once), rel=0.05, abs=1e-10)
     assert abs(lasting) <= max(map(abs, at_once))
+
+
+@pytest.mark.parametrize(("damping", "ratio"), [(1e-2, 0.8922), (1e-3, 0.8917)])
+def test_a_march_that_rings_about_the_state_found_has_come_to_no_other(damping, ratio):
+    # Shaken a tenth below the resonance on its contact, where there may be two states.
+    model = model_of("normal-pin")
+    stiffness = model.normal.slope(model.slider.normal_force)
+    resonance = math.sqrt(stiffness / model.slider.mass) / (2.0 * math.pi)
+    answer = solved(
+        "normal-pin", f"vibration.frequency={0.9 * resonance!r} Hz", "solve.method=periodic",
+        f"normal.damping_ratio={damping}", "vibration.velocity_ratio=1",
+    )  # fmt: skip
+    assert answer.settled
+    assert answer.ratio == pytest.approx(ratio, abs=1e-4)
+    assert answer.notes == ()
