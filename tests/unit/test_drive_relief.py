@@ -112,12 +112,19 @@ def test_a_design_without_an_answer_is_none_and_told(monkeypatch, solved):
         relief.answer(search("modification.tip_relief=20 um", over=OVER[:1]), Run())
 
 
+LENGTHS = "axial_offset", "centre_distance_error"
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [
         ({"over": ["mount.axial_offset=0,10 um"]}, "--over mount.axial_offset: take keys"),
         ({"at": ["modification.tip_relief=0,10 um"]}, "--at modification.tip_relief: take keys"),
         ({"at": ["mount.axial_offset=-50:50:1 um"]}, "more than 200 points"),
+        ({"at": ["nan"]}, "^--at nan: it must be table.key="),
+        ({"at": ["mount.axial_offset=nan"]}, "^--at mount.axial_offset=nan: mount.axial_offset is"),
+        ({"at": 2 * ["mount.axial_offset=1,2 um"]}, "give one --at for the same thing"),
+        ({"at": [f"mount.{key}=0:1:0.0009 mm" for key in LENGTHS]}, "^--at: the grid has"),
     ],
 )
 def test_what_is_no_search_is_refused_in_a_line(options, said):

@@ -14,6 +14,8 @@ change by less than `CLOSE`, or stand at the pressure at which the softer body f
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -46,7 +48,6 @@ class ToothPressure:
     strip: Strip
     pressure: FloatArray  #: (N,): Pa, 0 beside what bears
     force: FloatArray  #: (N,): Normal forces of the patches, N
-    resolved: bool  #: Whether a finer strip changes no peak by more than `CLOSE`
 
     @property
     def normal(self) -> float:
@@ -59,19 +60,26 @@ class ToothPressure:
         return float(self.strip.area[self.force > 0.0].sum())
 
     def extent(self) -> tuple[float, float]:
-        """Return length and width of the area that bears, as of an ellipse, m.
+        """Return length and width of what bears, m.
 
-        It has the area's largest moment and the area: the other moment of a long contact that is
-        bent tells of its bend.
+        The length is that of all places along the contact at which it bears anywhere across, the
+        width the largest across one of them: so of an ellipse as of a band. Both are taken along
+        the patches and turned by the angle at which the contact lies to these.
         """
         frame = self.strip.frame
-        x, y = (a.ravel() for a in np.meshgrid(frame.x, frame.y, indexing="ij"))
-        on = self.force > 0.0
-        places = np.stack([x[on], y[on]])
-        if on.sum() < 2:
+        on = (self.force > 0.0).reshape(frame.shape)
+        i, j = np.nonzero(on)
+        places = np.array([frame.x[i], frame.y[j]])
+        if places.shape[1] < 2:
             return 0.0, 0.0
-        length = 4.0 * float(np.sqrt(np.linalg.eigvalsh(np.cov(places, bias=True))[-1]))
-        return length, 4.0 * self.area / (np.pi * length)
+        across, along = np.linalg.eigh(np.cov(places, bias=True))[1][:, -1]
+        if abs(along) < abs(across):
+            on, along, spacing = on.T, across, frame.spacing[::-1]
+        else:
+            spacing = frame.spacing
+        stations = on.sum(axis=0)
+        length = spacing[1] * int((stations > 0).sum()) / abs(float(along))
+        return length, spacing[0] * int(stations.max()) * abs(float(along))
 
     def peaks(self) -> FloatArray:
         """Return the largest pressure of each of `ZONES`, Pa; 0 where it bears nothing."""
@@ -85,6 +93,14 @@ class ToothPressure:
         return np.asarray(values[self.strip.zone == zone])
 
 
+class Change(NamedTuple):
+    """A peak that the finest strip still changes by more than `CLOSE`."""
+
+    tooth: int  #: Its number
+    zone: int  #: In `ZONES`
+    share: float  #: Of the change, in the larger of both
+
+
 @dataclasses.dataclass(frozen=True, eq=False)
 class Resolved:
     """The pressures at one angle of the worm."""
@@ -94,6 +110,7 @@ class Resolved:
     depth: float  #: By which patches at the pressure of plastic flow were pressed in, at most, m
     iterations: int
     residual: float
+    changes: tuple[Change, ...] = ()  #: What finer strips would still change; none: resolved
 
 
 class ResolvedContact:
@@ -146,8 +163,9 @@ class ResolvedContact:
         strips, found = teeth.solve_within(teeth.first_strips(), [None] * len(teeth.numbers))
         iterations = found.iterations
         done = [False] * len(strips)
+        changes: list[tuple[Change, ...]] = [()] * len(strips)
         for shape in _LEVELS if finer else ():
-            before = teeth.pressures(strips, found, done)
+            before = teeth.pressures(strips, found)
             next_strips = [
                 strip if ready else teeth.finer(strip, tooth, shape)
                 for strip, tooth, ready in zip(strips, before, done, strict=True)
@@ -158,21 +176,23 @@ class ResolvedContact:
             ]
             strips, found = teeth.solve_within(next_strips, start)
             iterations += found.iterations
-            after = teeth.pressures(strips, found, done)
-            done = [
-                one is None or two is None or ready or self._close(one, two)
+            after = teeth.pressures(strips, found)
+            changes = [
+                () if one is None or two is None or ready else tuple(self._changes(one, two))
                 for one, two, ready in zip(before, after, done, strict=True)
             ]
+            done = [not each for each in changes]
             if all(done):
                 break
-        pressures = teeth.pressures(strips, found, done)
+        pressures = teeth.pressures(strips, found)
         return Resolved(
             tuple(tooth for tooth in pressures if tooth is not None),
             found.approach, max(0.0, -float(found.gap.min())), iterations, found.residual,
+            tuple(change for each in changes for change in each),
         )  # fmt: skip
 
-    def _close(self, before: ToothPressure, after: ToothPressure) -> bool:
-        """Whether no peak that counts changes much, or it is at the cap."""
+    def _changes(self, before: ToothPressure, after: ToothPressure) -> Iterator[Change]:
+        """Yield the peaks that count, change much and are not at the cap."""
         old, new = before.peaks(), after.peaks()
         counts = np.maximum(before.forces(), after.forces()) > _COUNTS * after.normal
         # The wheel's edges are sharp: the finer the patches, the higher the peak.
@@ -180,7 +200,9 @@ class ResolvedContact:
         moved = np.abs(new - old) > CLOSE * np.maximum(new, old)
         if self.cap is not None:
             moved &= np.minimum(old, new) < 0.999 * self.cap
-        return not bool((moved & counts).any())
+        for zone in np.flatnonzero(moved & counts):
+            share = float(abs(new[zone] - old[zone]) / max(new[zone], old[zone]))
+            yield Change(after.number, int(zone), share)
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -267,19 +289,20 @@ class _Teeth:
         k = self.numbers.index(tooth.number)
         return Strip.of(self.contact.flank, frame, self.approaches[k])
 
-    def pressures(
-        self, strips: list[Strip | None], bearing: Bearing, done: list[bool]
-    ) -> list[ToothPressure | None]:
+    def pressures(self, strips: list[Strip | None], bearing: Bearing) -> list[ToothPressure | None]:
         """Return the pressures on each tooth; None where it bears nothing."""
         teeth: list[ToothPressure | None] = []
+        cap = np.inf if self.contact.cap is None else self.contact.cap
         at = 0
-        for number, strip, resolved in zip(self.numbers, strips, done, strict=True):
+        for number, strip in zip(self.numbers, strips, strict=True):
             if strip is None:
                 teeth.append(None)
                 continue
             force = bearing.force[at : at + len(strip.area)]
             at += len(strip.area)
-            some = ToothPressure(number, strip, force / strip.area, force, resolved)
+            # Where it flows the cap itself, which the quotient misses by its rounding.
+            pressure = np.minimum(force / strip.area, cap)
+            some = ToothPressure(number, strip, pressure, force)
             teeth.append(some if force.any() else None)
         return teeth
 
@@ -290,7 +313,7 @@ class _Teeth:
         for _ in range(_TRIES):
             found = self.solve(strips, start)
             grown = False
-            pressures = self.pressures(strips, found, [False] * len(strips))
+            pressures = self.pressures(strips, found)
             for k, tooth in enumerate(pressures):
                 if tooth is None:
                     continue

@@ -117,8 +117,20 @@ def _pressures(problem: DriveProblem, record: PhaseRecord) -> Iterator[str]:
             "the wheel's edges are sharp: their elastic pressures grow with finer patches, their "
             "forces do not"
         )
-    if not record.resolved:
-        yield "a peak still changed by more than 5 % with the finest patches"
+    yield from _unresolved(record, len(forces))
+
+
+def _unresolved(record: PhaseRecord, phases: int) -> Iterator[str]:
+    """Yield which peaks the finest patches still changed, where most and by how much."""
+    for zone, (edge, _) in {FLANK: ("the flank", ""), **_EDGES}.items():
+        own = [(number, change.share) for number, change in record.changes if change.zone == zone]
+        if own:
+            worst, share = max(own, key=lambda each: each[1])
+            yield (
+                f"the peak on {edge} is not resolved at {len({n for n, _ in own})} of {phases} "
+                f"phases: the finest patches still changed it by up to {100.0 * share:.2g} % "
+                f"(phase {worst + 1})"
+            )
 
 
 def _error(problem: DriveProblem, forward: PitchSweep, noise: float) -> Iterator[str]:

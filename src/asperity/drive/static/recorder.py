@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.contact.candidates.wrench import place_of
-from asperity.drive.resolved.contact import Resolved, ResolvedContact, ToothPressure
+from asperity.drive.resolved.contact import Change, Resolved, ResolvedContact, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.flash import Flash
@@ -81,11 +81,11 @@ class PhaseRecord:
         self.forces: list[FloatArray] = []  #: By phase and zone, N
         self.areas: list[float] = []  #: That bear, m^2
         self.depths: list[float] = []  #: Pressed in plastically, m
-        self.resolved = True
+        self.changes: list[tuple[int, Change]] = []  #: That finer patches would make, by phase
         self.worst: ToothPressure | None = None  #: Of the largest pressure on a flank
         self.nodal_forces = np.zeros((0, 3 * owner.flank.sector.body.nodes))
 
-    def evaluate(self, _number: int, balance: Balance) -> None:
+    def evaluate(self, number: int, balance: Balance) -> None:
         """Take what a balance has."""
         contact = balance.contact
         for k in range(contact.slots):
@@ -106,7 +106,7 @@ class PhaseRecord:
         self.forces.append(np.sum([tooth.forces() for tooth in found.teeth], axis=0))
         self.areas.append(sum(tooth.area for tooth in found.teeth))
         self.depths.append(found.depth)
-        self.resolved &= all(tooth.resolved for tooth in found.teeth)
+        self.changes += [(number, change) for change in found.changes]
         worst = found.teeth[int(np.argmax(peaks[:, FLANK]))]
         if self.worst is None or worst.peaks()[FLANK] > self.worst.peaks()[FLANK]:
             self.worst = worst

@@ -77,7 +77,7 @@ def prepare(
     axes = tuple(parse_axes(over or [_RELIEF], case))
     _only("--over", axes, _DESIGNS)
     if at:
-        where = parse_axes(at, case)
+        where = parse_axes(at, case, option="--at")
         _only("--at", where, _STANDS)
         stands = [
             (
