@@ -52,6 +52,20 @@ def few_phases(problem: DriveProblem) -> Iterator[str]:
         )
 
 
+def read_with_care(problem: DriveProblem) -> tuple[str, ...]:
+    """Return the sentence that a headline of few phases ends with; none where they do."""
+    phases = problem.drive.phases
+    if phases >= _FEW:
+        return ()
+    what = (
+        "a single phase, which has no error of its own" if phases == 1 else f"{phases} phases alone"
+    )
+    return (
+        f"all of it by {what}: what lies between them is not seen, of peaks as of the error "
+        f"(drive.phases, {_FEW} or more)",
+    )
+
+
 def rigid_parts(problem: DriveProblem) -> Iterator[str]:
     """Yield what of the drive is taken as rigid."""
     left_out = [

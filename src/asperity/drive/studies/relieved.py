@@ -11,7 +11,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.notes import cold, few_phases
+from asperity.drive.static.notes import cold, few_phases, read_with_care
 from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -152,7 +152,8 @@ class Relieved(OfDrive):
         """Return what relief does, in one sentence."""
         n = self.best_number
         if not n:
-            return ("no design that was tried is better than the case as it is",)
+            none = "no design that was tried is better than the case as it is"
+            return none, *read_with_care(self.problem)
         gone = [
             edge
             for edge, forces in (
@@ -167,6 +168,7 @@ class Relieved(OfDrive):
             f"{self.edge_force_after:.4g} N, {self._pressure()}, the transmission error from "
             f"{_MICRO * self.error_before:.3g} to {_MICRO * self.error_after:.3g} urad, K_Hbeta "
             f"from {self.k_h_beta[0]:.3g} to {self.k_h_beta[n]:.3g}",
+            *read_with_care(self.problem),
         )
 
     def _pressure(self) -> str:
