@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from asperity.drive.resolved.contact import ToothPressure
+from asperity.drive.resolved.pressures import ToothPressure
 
 
 def extent(bears):

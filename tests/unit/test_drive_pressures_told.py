@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from apparatus.drives import problem
 
-from asperity.drive.resolved.contact import CLOSE, Change, ResolvedContact, _Teeth
+from asperity.drive.resolved.contact import ResolvedContact, _Teeth
+from asperity.drive.resolved.pressures import CLOSE, Change
 from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP, ZONES
 from asperity.drive.static import notes
 

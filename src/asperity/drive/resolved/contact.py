@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 from scipy import sparse
@@ -24,12 +23,10 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.contact.halfspace.conjugate_gradients import Bearing, bear
 from asperity.contact.halfspace.influence import HalfSpace, HalfSpaces
 from asperity.drive.resolved.flank import ExactFlank
-from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Frame, Strip, ToothPose
+from asperity.drive.resolved.pressures import CLOSE, Change, Resolved, ToothPressure
+from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, Frame, Strip, ToothPose
 from asperity.drive.teeth.contact import TeethContact
 from asperity.errors import ConvergenceError
-
-CLOSE = 0.05
-"""Relative change of a peak from one strip to the next finer one."""
 
 # Near: less than this part of the greatest inward motion of the nodes, and this at least.
 _NEAR, _LEAST_NEAR = 0.1, 1e-6
@@ -38,79 +35,6 @@ _LEVELS = ((96, 64), (192, 80), (384, 96), (768, 112))
 # Force of an edge over that of the tooth from which on its peak counts.
 _COUNTS = 1e-3
 _TRIES = 12
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class ToothPressure:
-    """The pressure on one tooth."""
-
-    number: int  #: Of the tooth, as `Action.teeth` has them
-    strip: Strip
-    pressure: FloatArray  #: (N,): Pa, 0 beside what bears
-    force: FloatArray  #: (N,): Normal forces of the patches, N
-
-    @property
-    def normal(self) -> float:
-        """Normal force of the tooth, N."""
-        return float(self.force.sum())
-
-    @property
-    def area(self) -> float:
-        """Area that bears, m^2."""
-        return float(self.strip.area[self.force > 0.0].sum())
-
-    def extent(self) -> tuple[float, float]:
-        """Return length and width of what bears, m.
-
-        The length is that of all places along the contact at which it bears anywhere across, the
-        width the largest across one of them: so of an ellipse as of a band. Both are taken along
-        the patches and turned by the angle at which the contact lies to these.
-        """
-        frame = self.strip.frame
-        on = (self.force > 0.0).reshape(frame.shape)
-        i, j = np.nonzero(on)
-        places = np.array([frame.x[i], frame.y[j]])
-        if places.shape[1] < 2:
-            return 0.0, 0.0
-        across, along = np.linalg.eigh(np.cov(places, bias=True))[1][:, -1]
-        if abs(along) < abs(across):
-            on, along, spacing = on.T, across, frame.spacing[::-1]
-        else:
-            spacing = frame.spacing
-        stations = on.sum(axis=0)
-        length = spacing[1] * int((stations > 0).sum()) / abs(float(along))
-        return length, spacing[0] * int(stations.max()) * abs(float(along))
-
-    def peaks(self) -> FloatArray:
-        """Return the largest pressure of each of `ZONES`, Pa; 0 where it bears nothing."""
-        return np.array([self._of(self.pressure, k).max(initial=0.0) for k in range(len(ZONES))])
-
-    def forces(self) -> FloatArray:
-        """Return the normal force of each of `ZONES`, N."""
-        return np.array([self._of(self.force, k).sum() for k in range(len(ZONES))])
-
-    def _of(self, values: FloatArray, zone: int) -> FloatArray:
-        return np.asarray(values[self.strip.zone == zone])
-
-
-class Change(NamedTuple):
-    """A peak that the finest strip still changes by more than `CLOSE`."""
-
-    tooth: int  #: Its number
-    zone: int  #: In `ZONES`
-    share: float  #: Of the change, in the larger of both
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Resolved:
-    """The pressures at one angle of the worm."""
-
-    teeth: tuple[ToothPressure, ...]  #: Those that bear
-    approach: float  #: Turn of the wheel towards the worm beyond the condensed teeth's, rad
-    depth: float  #: By which patches at the pressure of plastic flow were pressed in, at most, m
-    iterations: int
-    residual: float
-    changes: tuple[Change, ...] = ()  #: What finer strips would still change; none: resolved
 
 
 class ResolvedContact:
@@ -124,12 +48,28 @@ class ResolvedContact:
         E* of both bodies, Pa.
     cap : float, optional
         Pressure at which the softer body flows, Pa; none if left out.
+    rigid_share : float
+        Of what the patches give as half-spaces, what is rigid in the balance: the worm's, or
+        nothing.
     """
 
-    def __init__(self, flank: ExactFlank, modulus: float, cap: float | None = None) -> None:
+    def __init__(
+        self, flank: ExactFlank, modulus: float, cap: float | None = None, rigid_share: float = 0.0
+    ) -> None:
         self.flank = flank
         self.modulus = modulus
         self.cap = cap
+        self.rigid_share = rigid_share
+
+    def mesh_error(self, found: Resolved) -> float:
+        """Return by how much the points of the mesh hold the wheel too far ahead, rad.
+
+        Patches bear wherever worm and wheel touch, the condensed teeth at the points of their mesh.
+        Of a body that is rigid in the balance the give is left out as Hertz has it: it goes by the
+        power 2/3 of 1/E*, and a contact's mean sink by pressure is four fifths of its approach.
+        """
+        rigid = float(1.0 - (1.0 - self.rigid_share) ** (2.0 / 3.0))
+        return found.approach - 1.25 * rigid * found.sink
 
     def resolve(
         self,
@@ -188,7 +128,7 @@ class ResolvedContact:
         return Resolved(
             tuple(tooth for tooth in pressures if tooth is not None),
             found.approach, max(0.0, -float(found.gap.min())), iterations, found.residual,
-            tuple(change for each in changes for change in each),
+            found.sink, tuple(change for each in changes for change in each),
         )  # fmt: skip
 
     def _changes(self, before: ToothPressure, after: ToothPressure) -> Iterator[Change]:
@@ -203,6 +143,13 @@ class ResolvedContact:
         for zone in np.flatnonzero(moved & counts):
             share = float(abs(new[zone] - old[zone]) / max(new[zone], old[zone]))
             yield Change(after.number, int(zone), share)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Borne(Bearing):
+    """What was found, and what the half-spaces sink."""
+
+    sink: float  #: As `Resolved.sink`
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -308,7 +255,7 @@ class _Teeth:
 
     def solve_within(
         self, strips: list[Strip | None], start: list[FloatArray | None]
-    ) -> tuple[list[Strip | None], Bearing]:
+    ) -> tuple[list[Strip | None], _Borne]:
         """Solve, with strips that grow where what bears comes to their border."""
         for _ in range(_TRIES):
             found = self.solve(strips, start)
@@ -329,7 +276,7 @@ class _Teeth:
                 return strips, found
         raise ConvergenceError("the pressures of the teeth find no bounds on the flank")
 
-    def solve(self, strips: list[Strip | None], start: list[FloatArray | None]) -> Bearing:
+    def solve(self, strips: list[Strip | None], start: list[FloatArray | None]) -> _Borne:
         """Return the forces of all patches, those of one tooth after the other."""
         owner = self.contact
         some = [(k, strip) for k, strip in enumerate(strips) if strip is not None]
@@ -358,10 +305,11 @@ class _Teeth:
             for (_, strip), first in ((pair, start[pair[0]]) for pair in some)
         ]
         most = np.where(inside, (np.inf if owner.cap is None else owner.cap) * area, 0.0)
-        return bear(
-            gap, deflection, arm, self.moment, most=most,
-            start=np.concatenate(begun),
+        found = bear(
+            gap, deflection, arm, self.moment, most=most, start=np.concatenate(begun)
         )  # fmt: skip
+        sunk = np.einsum("i,i->", found.force, spaces.deflection(found.force))
+        return _Borne(**vars(found), sink=float(sunk) / self.moment)
 
     def _smooth(self, teeth: list[int]) -> FloatArray:
         """What teeth give each other and themselves at their nodes, (K n, K n), m/N."""

@@ -8,7 +8,8 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.contact.candidates.wrench import place_of
-from asperity.drive.resolved.contact import Change, Resolved, ResolvedContact, ToothPressure
+from asperity.drive.resolved.contact import ResolvedContact
+from asperity.drive.resolved.pressures import Change, Resolved, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.flash import Flash
@@ -49,6 +50,7 @@ class Pattern:
     def __init__(self, owner: ResolvedContact) -> None:
         self.owner = owner
         self.largest = np.zeros(owner.flank.nodes)
+        self.mesh_errors: list[float] = []  #: What points of the mesh hold the wheel ahead by, rad
 
     def evaluate(self, _number: int, balance: Balance) -> None:
         """Keep what a balance presses, resolved by its first strips alone."""
@@ -57,6 +59,7 @@ class Pattern:
     def add(self, resolved_pressure: Resolved) -> None:
         """Keep what was resolved."""
         flank = self.owner.flank
+        self.mesh_errors.append(self.owner.mesh_error(resolved_pressure))
         for tooth in resolved_pressure.teeth:
             on, frame = tooth.force > 0.0, tooth.strip.frame
             # Patches are as long as the grid is wide: their middles alone would leave points out.
