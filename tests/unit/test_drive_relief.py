@@ -113,6 +113,51 @@ def test_a_design_without_an_answer_is_none_and_told(monkeypatch, solved):
         relief.answer(search("modification.tip_relief=20 um", over=OVER[:1]), Run())
 
 
+@pytest.fixture
+def at_the_wheel_s_tip(monkeypatch):
+    """The wheel's tip edge bears whatever the tip relief, and less with root relief."""
+
+    def solve(problems, _run):
+        found = []
+        for problem in problems:
+            made = problem.modification
+            tip, root = (1e6 * made.tip_relief, 1e6 * made.root_relief) if made else (0.0, 0.0)
+            edges = max(0.0, 900.0 - 45.0 * tip), max(0.0, 500.0 - 10.0 * root)
+            found.append(loaded(edges[0], 1e9 * (1.0 + 0.01 * (tip + root)), edges[1]))
+        return found
+
+    monkeypatch.setattr(relief, "solve_points", solve)
+
+
+def test_left_to_itself_the_search_goes_on_at_the_worm_s_root_where_the_wheel_s_tip_bears(
+    at_the_wheel_s_tip,
+):
+    found = relief.answer(search(over=()), Run())
+    # 20 um at the tip, and of what takes 500 N off the wheel's tip the least that is tried.
+    assert found.best == "modification.tip_relief=20 um, modification.root_relief=60 um"
+    assert found.edge_force_before == pytest.approx(1400.0)
+    assert found.edge_force_after == 0.0
+    assert found.value.shape == (found.tried, 2)
+    assert found.value[0].tolist() == [0.0, 0.0]
+    assert found.name[0] == "as the case is"
+    assert "takes the worm's tip edge and the wheel's tip edge away" in found.headline()[0]
+    assert not any("--over" in note for note in found.notes)
+
+
+def test_values_that_leave_the_wheel_s_tip_edge_are_told_what_takes_it_off(at_the_wheel_s_tip):
+    found = relief.answer(search(over=OVER[:1]), Run())
+    assert found.best == "modification.tip_relief=20 um"
+    (said,) = (note for note in found.notes if "the wheel's own tip edge" in note)
+    assert "bears the most then, 500 N" in said
+    assert "--over modification.root_relief" in said
+
+
+def test_left_to_itself_the_search_ends_at_the_tip_where_that_takes_the_edges_away(solved):
+    found = relief.answer(search(over=()), Run())
+    assert found.best == "modification.tip_relief=20 um"
+    assert [axis.path for axis in found.axes] == ["modification.tip_relief"]
+
+
 LENGTHS = "axial_offset", "centre_distance_error"
 
 
