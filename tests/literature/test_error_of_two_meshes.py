@@ -13,7 +13,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.recorder import Pattern
+from asperity.drive.static.pattern import Pattern
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.static.sweep import LoadCase
 from asperity.runs import Run

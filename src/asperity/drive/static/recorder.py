@@ -13,6 +13,7 @@ from asperity.drive.resolved.pressures import Change, Resolved, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.flash import Flash
+from asperity.drive.static.pattern import Pattern
 from asperity.drive.static.pressure import nodal_pressure
 from asperity.drive.static.spread import Spread
 from asperity.drive.teeth.contact import TeethContact
@@ -42,31 +43,6 @@ def resolved(owner: ResolvedContact, balance: Balance, *, finer: bool = True) ->
     """Return the resolved pressures of a balance; its contact must still hold its fields."""
     beta = balance.worm_angle + float(balance.yielded[0])
     return owner.resolve(balance.contact, beta, balance.wheel_angle, balance.shift, finer=finer)
-
-
-class Pattern:
-    """The largest resolved pressures of a pitch over the flank, on the grid of the exact flank."""
-
-    def __init__(self, owner: ResolvedContact) -> None:
-        self.owner = owner
-        self.largest = np.zeros(owner.flank.nodes)
-        self.mesh_errors: list[float] = []  #: What points of the mesh hold the wheel ahead by, rad
-
-    def evaluate(self, _number: int, balance: Balance) -> None:
-        """Keep what a balance presses, resolved by its first strips alone."""
-        self.add(resolved(self.owner, balance, finer=False))
-
-    def add(self, resolved_pressure: Resolved) -> None:
-        """Keep what was resolved."""
-        flank = self.owner.flank
-        self.mesh_errors.append(self.owner.mesh_error(resolved_pressure))
-        for tooth in resolved_pressure.teeth:
-            on, frame = tooth.force > 0.0, tooth.strip.frame
-            # Patches are as long as the grid is wide: their middles alone would leave points out.
-            for part in (-0.4, 0.0, 0.4):
-                points = tooth.strip.points[on] + part * frame.spacing[1] * frame.axes[1]
-                nearest = flank.nearest(flank.share_at(points), points[:, 2])
-                np.maximum.at(self.largest, nearest, tooth.pressure[on])
 
 
 class PhaseRecord:

@@ -24,8 +24,9 @@ from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
 from asperity.drive.static.flash import Flash
 from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
+from asperity.drive.static.pattern import Pattern
 from asperity.drive.static.pressure import hertz_pressure, modulus_of
-from asperity.drive.static.recorder import Pattern, PhaseRecord, contact_means
+from asperity.drive.static.recorder import PhaseRecord, contact_means
 from asperity.drive.static.result import PATTERNS, StaticResult
 from asperity.drive.static.spread import LOADED, k_h_alpha
 from asperity.drive.static.sweep import (
