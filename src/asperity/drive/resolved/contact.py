@@ -111,7 +111,7 @@ class ResolvedContact:
                 for strip, tooth, ready in zip(strips, before, done, strict=True)
             ]
             start = [
-                None if tooth is None or new is None else new.taken(tooth.strip, tooth.pressure)
+                None if tooth is None or new is None else new.taken(tooth.strip, tooth.force)
                 for new, tooth in zip(next_strips, before, strict=True)
             ]
             strips, found = teeth.solve_within(next_strips, start)
@@ -271,7 +271,7 @@ class _Teeth:
                     continue
                 grown = True
                 wider = Strip.of(self.contact.flank, frame, self.approaches[k])
-                strips[k], start[k] = wider, wider.taken(strip, tooth.pressure)
+                strips[k], start[k] = wider, wider.taken(strip, tooth.force)
             if not grown:
                 return strips, found
         raise ConvergenceError("the pressures of the teeth find no bounds on the flank")
