@@ -104,3 +104,24 @@ def test_a_data_file_of_plastics_is_begun_and_listed(asperity, tmp_path):
     code, _, errors = asperity("new", "plastic", str(tmp_path / "other.toml"), "--ratio", "4")
     assert code == 2
     assert "a data file of plastics has none" in errors
+
+
+def test_what_a_drive_begins_with_and_nobody_gave_is_said_to_be_assumed(asperity, tmp_path):
+    assumed = "shaft.torsional_stiffness", "drive.worm_mass"
+    file = tmp_path / "mine.toml"
+    code, out, _ = asperity("new", "drive", str(file), "--defaults")
+    assert code == 0
+    comments = file.read_text().replace("\n#  ", "").split("\n\n")
+    for path in assumed:
+        key = path.partition(".")[2]
+        assert f"{path} = " in out
+        (own,) = (part for part in comments if f"\n{key} = " in part)
+        assert "Assumed: give that of your" in own
+    # The diameter over the span says it as well.
+    other = tmp_path / "other.toml"
+    given = "--set=shaft.diameter=30 mm", "--set=shaft.span=150 mm", "--set=drive.worm_mass=1 kg"
+    code, out, _ = asperity("new", "drive", str(other), "--defaults", *given)
+    assert code == 0
+    assert not any(path in out for path in assumed)
+    assert "\n#torsional_stiffness" in other.read_text()
+    assert 'worm_mass = "1 kg"\n' in other.read_text()

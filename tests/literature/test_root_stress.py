@@ -8,7 +8,7 @@ import shutil
 
 import numpy as np
 import pytest
-from apparatus.calculix import solved
+from apparatus.calculix import of_twenty_nodes, solved
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -159,3 +159,30 @@ def test_calculix_finds_the_same_stress_at_the_fillet(tmp_path):
     assert Roots((theirs, theirs), (theirs, theirs)).principal(0)[..., 2].max() == pytest.approx(
         ours, rel=0.02
     )
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not shutil.which("ccx"), reason="CalculiX is not installed")
+def test_calculix_finds_the_same_stress_at_the_fillet_under_the_forces_of_the_contact(tmp_path):
+    worst = max(loads_of(static()), key=lambda load: load.normal)
+    surface = static().sector.surface
+    own = model(1, COUNTS)
+    ours = own.solve(own.nodal(surface, worst.forces)[:, None]).principal(0)[0, :, 2].max()
+    # Its stresses are carried on from inside to the nodes: with 8 hexahedra through the tooth they
+    # are 8 % less than its displacements say, with 12 5 %, with 16 4 %.
+    fine = model(1, COUNTS._replace(thickness=16, low_fillet=8, high_fillet=8))
+    nodal = fine.nodal(surface, worst.forces).reshape(-1, 3)
+    mesh = fine.mesh.converted("mm")
+    forces = of_twenty_nodes(mesh.cells, nodal)
+    for before, after in ((nodal, forces), (np.cross(mesh.points, nodal),
+                                            np.cross(mesh.points, forces))):  # fmt: skip
+        np.testing.assert_allclose(after.sum(axis=0), before.sum(axis=0), rtol=1e-4)
+    inner = np.unique(mesh.face_nodes("inner"))
+    moved, stress = solved(tmp_path, mesh.points, mesh.cells, inner, forces, fine.material)
+    fillet = fine.fillets[0]
+    of_fillet = stress[fillet.nodes]
+    known = Roots((1e6 * of_fillet[np.isfinite(of_fillet[:, 0])][None],) * 2, (of_fillet,) * 2)
+    assert known.principal(0)[..., 2].max() == pytest.approx(ours, rel=0.05)
+    theirs = fine.stress(fillet, 1e-3 * moved.reshape(-1, 1))[0]
+    strained = Roots((theirs, theirs), (theirs, theirs)).principal(0)[..., 2].max()
+    assert strained == pytest.approx(ours, rel=0.01)

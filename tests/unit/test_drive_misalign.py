@@ -102,6 +102,17 @@ def test_a_note_that_is_not_true_of_all_points_names_those_it_is_true_of(cached)
     assert not any("axial bearing and seat" in note for note in notes)
 
 
+@pytest.mark.parametrize(
+    ("phases", "said"),
+    [(1, "a single phase"), (2, "by 2 phases alone"), (7, "by 7 phases"), (8, "")],
+)
+def test_the_headline_says_what_few_phases_do_to_it(cached, phases, said):
+    over = ["mount.axial_offset=-20,20 um"]
+    *_, last = misalign.answer(study(f"drive.phases={phases}", over=over), Run()).headline()
+    assert said in last
+    assert ("what lies between them is not seen" in last) == (phases < 8)
+
+
 def test_many_points_that_a_note_is_true_of_are_counted(cached):
     over = ["drive.phases=2,3,4,8,9"]
     notes = misalign.answer(study("drive.phases=8", over=over), Run()).notes

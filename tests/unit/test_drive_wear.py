@@ -92,6 +92,23 @@ def test_the_coefficient_is_that_of_the_case_or_the_standard_s_intensity_by_its_
     assert standard.standard == pytest.approx(120.59666e-3 / 144e6, rel=1e-5)
 
 
+def curves(**given):
+    """Curves of ten steps that fall evenly, or as they are given."""
+    return {name: given.get(name, np.linspace(2.0, 1.0, 10)) for name in solve._CURVES}
+
+
+def test_curves_that_go_to_and_fro_with_the_phases_of_the_steps_are_told_by_how_much():
+    assert solve._to_and_fro(curves(), 2) == ()
+    to_and_fro = 10.0 + 0.5 * (-1.0) ** np.arange(10)
+    (said,) = solve._to_and_fro(curves(error_course=to_and_fro), 2)
+    assert said.startswith("from step to step the transmission error by 10 % of its mean")
+    assert "of which 2 do not tell the whole; that is no wear" in said
+    # Of a few steps nobody can tell.
+    assert solve._to_and_fro({name: v[:3] for name, v in curves().items()}, 2) == ()
+    (said,) = solve._to_and_fro(curves(error_course=to_and_fro, pressure_course=to_and_fro), 3)
+    assert "error by 10 % and the mean pressure by 10 % of its mean" in said
+
+
 @functools.cache
 def model():
     return StaticModel(DriveProblem.from_case(case(), shaken=False), Run())

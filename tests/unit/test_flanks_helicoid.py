@@ -134,6 +134,22 @@ def test_a_pointed_thread_is_refused_by_name(helicoid):
         helicoid(pointed, "ZI")
 
 
+def test_too_much_tip_relief_is_named_with_the_most_that_is_possible():
+    def relieved(amount):
+        return Helicoid.worm(GEOMETRY, "ZI", Modification(tip_relief=f"{amount} mm"))
+
+    with pytest.raises(
+        InputError, match=r"^modification\.tip_relief is 5 mm; .* pointed"
+    ) as caught:
+        relieved(5.0)
+    most = float(str(caught.value).rpartition("at most ")[2].removesuffix(" mm"))
+    # So much leaves a hundredth of the land; a hundredth more is refused.
+    worm = relieved(most)
+    assert 0.0 < worm.half_pitch - worm.curve(2.0)[1] < 0.01 * worm.half_pitch
+    with pytest.raises(InputError, match=r"modification\.tip_relief is .* pointed"):
+        relieved(1.01 * most)
+
+
 def test_too_much_backlash_is_named_as_what_makes_a_thread_pointed():
     worm = Helicoid.worm(GEOMETRY, "ZI")
     with pytest.raises(InputError, match=r"mount\.backlash: with thread spaces of 6 mm"):

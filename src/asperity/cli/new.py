@@ -79,6 +79,7 @@ def new(
         )
     if "gearset" in values and not read and name != "duty":
         remarks += _sized(values, given, ratio_of(wanted))
+    assumed = _assumed(kind, values, given)
     case = Case(path.name, path.parent.absolute(), {}, values, case_tables())
     if name == "duty":
         # What size refuses is not written; what a duty says of a gearset is a part of one.
@@ -87,17 +88,40 @@ def new(
     case = case.replace(())
     title = f"{kind.title}, begun by asperity new"
     names = (*kind.tables, *(table for table in values if table not in kind.tables))
-    text = case_text(title, values, case_tables(), names, remarks)
+    of_keys = {path: f"Assumed: {mend}." for path, mend in assumed.items()}
+    text = case_text(title, values, case_tables(), names, remarks, of_keys)
     write_text(path, text)
     for remark in told[1:]:
         show.note(remark)
     if as_json:
-        show.print_json({"file": str(path), "tables": list(case.tables)})
+        show.print_json({"file": str(path), "tables": list(case.tables), "assumed": list(assumed)})
     else:
         show.print_text(_what_next(path, kind))
         operation = case.get(Operation)
         if operation and operation.wear_assumed:
             show.print_text(f"\n{operation.wear_assumed}")
+        if assumed:
+            lines = [f"  {key} = {_value(values, key)}: {assumed[key]}" for key in assumed]
+            show.print_text("\n".join(["\nassumed, replace it by your own:", *lines]))
+
+
+def _assumed(kind: Kind, values: Values, keys: Collection[str]) -> dict[str, str]:
+    """Return what to do about each key that is assumed; leaves out those that others stand for."""
+    assumed = {}
+    for path, (mend, instead) in kind.assumed.items():
+        table, _, key = path.partition(".")
+        if path in keys or key not in values.get(table, {}):
+            continue
+        if instead and set(instead) <= set(keys):
+            values[table].pop(key)
+        else:
+            assumed[path] = mend
+    return assumed
+
+
+def _value(values: Values, path: str) -> object:
+    table, _, key = path.partition(".")
+    return values[table][key]
 
 
 def _follow(kind: Kind, values: Values, keys: Collection[str], only: str = "") -> None:

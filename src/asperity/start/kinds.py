@@ -39,6 +39,21 @@ class Question(NamedTuple):
         return not self.unless or str(values.get(table, {}).get(key)) != text
 
 
+class Assumption(NamedTuple):
+    """Something that a file begins with, that nobody is asked about and that no table knows.
+
+    Attributes
+    ----------
+    mend : str
+        What to do about it.
+    instead : tuple of str
+        Each a ``table.key``: where all of them are given it is left out.
+    """
+
+    mend: str
+    instead: tuple[str, ...] = ()
+
+
 class Kind(NamedTuple):
     """A kind of case file.
 
@@ -58,6 +73,8 @@ class Kind(NamedTuple):
         One that ships and whose values it begins with, beside `values`.
     follows : mapping
         What a ``table.key`` begins with once others are given: a text with their places in it.
+    assumed : mapping
+        What is said of a ``table.key`` that it begins with where nobody gives it.
     """
 
     title: str
@@ -67,6 +84,7 @@ class Kind(NamedTuple):
     then: tuple[str, ...]
     case: str = ""
     follows: Mapping[str, str] = MappingProxyType({})
+    assumed: Mapping[str, Assumption] = MappingProxyType({})
 
     def begun(self) -> Values:
         """Return a copy of what it begins with."""
@@ -238,6 +256,18 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                 "actuator",
             ),
             ("drive", "directions", "locking", "rate"),
+            assumed=MappingProxyType(
+                {
+                    "shaft.torsional_stiffness": Assumption(
+                        "give that of your shaft, or shaft.diameter and shaft.span in its place; "
+                        "deflection and resonances go by it",
+                        ("shaft.diameter", "shaft.span"),
+                    ),
+                    "drive.worm_mass": Assumption("give that of your worm with its shaft"),
+                    "drive.contact_damping": Assumption("give what was measured, if it was"),
+                    "mount.backlash": Assumption("give the play of your gearset"),
+                }
+            ),
         ),
         "rig": Kind(
             "A disc-on-disc tribometer and what is to be tested on it",

@@ -3,6 +3,7 @@
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from asperity.casefile.case import Case, read_raw
@@ -21,6 +22,7 @@ def case_text(
     tables: Mapping[str, type[Table]],
     names: Sequence[str],
     remarks: Sequence[str] = (),
+    of_keys: Mapping[str, str] = MappingProxyType({}),
 ) -> str:
     """Return the text of a case file.
 
@@ -36,6 +38,8 @@ def case_text(
         Of the tables in their order.
     remarks : sequence of str
         Sentences below the first line.
+    of_keys : mapping
+        What is said of a ``table.key`` behind its meaning.
     """
     lines = [f"# {title}", ""]
     for remark in remarks:
@@ -46,7 +50,8 @@ def case_text(
         lines += [*heading, f"[{name}]" if given else f"#[{name}]"]
         keys = {key.name: key for key in keys_of(model)}
         for own, value in given.items():
-            lines += [*comment(keys[own].meaning), f"{own} = {toml(value)}", ""]
+            meaning = " ".join(filter(None, (keys[own].meaning, of_keys.get(f"{name}.{own}"))))
+            lines += [*comment(meaning), f"{own} = {toml(value)}", ""]
         forms = {form for own in given for form in same_thing(model, own)}
         for key in keys.values():
             if key.name not in given:

@@ -22,6 +22,7 @@ from asperity.units import Quantity, quantity_of, split_unit, to_si
 
 MOST_POINTS = 1_000_000  # some 300 MB, and a quarter of an hour where each takes a millisecond
 _PATH = re.compile(KEY)
+_OVER = "--over"
 _FORMS = "1,2,3 or start:stop:step"
 _GRAIN = Decimal("1e-9")
 
@@ -142,7 +143,9 @@ def read_first(
     return read_grid(name_or_path, tables, settings, over or (), points)[0]
 
 
-def parse_axes(over: Sequence[str], case: Case, points: str = "") -> list[Axis]:
+def parse_axes(
+    over: Sequence[str], case: Case, points: str = "", option: str = _OVER
+) -> list[Axis]:
     """Parse the axes of a grid over a case that is complete without them.
 
     Parameters
@@ -153,6 +156,8 @@ def parse_axes(over: Sequence[str], case: Case, points: str = "") -> list[Axis]:
         Gives the tables.
     points : str
         As for `read_grid`.
+    option : str
+        Of the command, with which axes are given: refusals name it.
 
     Returns
     -------
@@ -165,8 +170,8 @@ def parse_axes(over: Sequence[str], case: Case, points: str = "") -> list[Axis]:
         An axis that cannot be read, stands twice or is out of the bounds of its key, or too many
         points.
     """
-    written = _written(over, points, case.known, subject_of(case))
-    return _within_bounds([_axis(axis) for axis in written])
+    written = _written(over, points, case.known, subject_of(case), option)
+    return _within_bounds([_axis(axis) for axis in written], option)
 
 
 def _named_tables(name_or_path: str, settings: Sequence[str]) -> dict[str, object]:
@@ -179,11 +184,12 @@ def _named_tables(name_or_path: str, settings: Sequence[str]) -> dict[str, objec
 
 
 def _written(
-    over: Sequence[str], points: str, tables: Mapping[str, type[Table]], subject: Subject
-) -> list[_Written]:
+    over: Sequence[str], points: str, tables: Mapping[str, type[Table]], subject: Subject,
+    option: str = _OVER,
+) -> list[_Written]:  # fmt: skip
     columns = _columns(points_file(points), tables, subject) if points else []
-    written = [*columns, *(_split(text, tables, subject) for text in over)]
-    _distinct(written)
+    written = [*columns, *(_split(text, tables, subject, option) for text in over)]
+    _distinct(written, option)
     return written
 
 
@@ -211,10 +217,10 @@ def _columns(path: Path, tables: Mapping[str, type[Table]], subject: Subject) ->
     return found
 
 
-def _split(text: str, tables: Mapping[str, type[Table]], subject: Subject) -> _Written:
+def _split(text: str, tables: Mapping[str, type[Table]], subject: Subject, option: str) -> _Written:
     text = " ".join(text.split())
     path, equals, values = (part.strip() for part in text.partition("="))
-    where = f"--over {text}"
+    where = f"{option} {text}".rstrip()
     if not equals or not _PATH.fullmatch(path):
         raise InputError(f"{where}: it must be table.key={_FORMS}, as in friction.mu=0.1,0.2")
     model, key = _key_of(path, where, tables, subject)
@@ -248,21 +254,21 @@ def _key_of(
     return model, key
 
 
-def _distinct(axes: Sequence[_Written]) -> None:
+def _distinct(axes: Sequence[_Written], option: str) -> None:
     for place, axis in enumerate(axes):
         for other in axes[:place]:
             if other.model is axis.model and other.key in same_thing(axis.model, axis.key):
                 both = "twice" if other.key == axis.key else f"and so is {other.path}"
                 again = f"{axis.path} is given {both}"
-                only = "column" if axis.along else "--over"
+                only = "column" if axis.along else option
                 axis.refuse(f"{again}; give one {only} for the same thing")
 
 
-def _within_bounds(axes: list[Axis]) -> list[Axis]:
+def _within_bounds(axes: list[Axis], option: str = _OVER) -> list[Axis]:
     points = math.prod(spanned(axes)[0])
     if points > MOST_POINTS:
         raise InputError(
-            f"--over: the grid has {points} points; at most {MOST_POINTS} are allowed: take "
+            f"{option}: the grid has {points} points; at most {MOST_POINTS} are allowed: take "
             "coarser steps"
         )
     return axes

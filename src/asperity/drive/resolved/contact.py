@@ -14,6 +14,7 @@ change by less than `CLOSE`, or stand at the pressure at which the softer body f
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Iterator
 
 import numpy as np
 from scipy import sparse
@@ -22,12 +23,10 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.contact.halfspace.conjugate_gradients import Bearing, bear
 from asperity.contact.halfspace.influence import HalfSpace, HalfSpaces
 from asperity.drive.resolved.flank import ExactFlank
-from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, ZONES, Frame, Strip, ToothPose
+from asperity.drive.resolved.pressures import CLOSE, Change, Resolved, ToothPressure
+from asperity.drive.resolved.strip import FACE_END, WHEEL_TIP, Frame, Strip, ToothPose
 from asperity.drive.teeth.contact import TeethContact
 from asperity.errors import ConvergenceError
-
-CLOSE = 0.05
-"""Relative change of a peak from one strip to the next finer one."""
 
 # Near: less than this part of the greatest inward motion of the nodes, and this at least.
 _NEAR, _LEAST_NEAR = 0.1, 1e-6
@@ -36,64 +35,6 @@ _LEVELS = ((96, 64), (192, 80), (384, 96), (768, 112))
 # Force of an edge over that of the tooth from which on its peak counts.
 _COUNTS = 1e-3
 _TRIES = 12
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class ToothPressure:
-    """The pressure on one tooth."""
-
-    number: int  #: Of the tooth, as `Action.teeth` has them
-    strip: Strip
-    pressure: FloatArray  #: (N,): Pa, 0 beside what bears
-    force: FloatArray  #: (N,): Normal forces of the patches, N
-    resolved: bool  #: Whether a finer strip changes no peak by more than `CLOSE`
-
-    @property
-    def normal(self) -> float:
-        """Normal force of the tooth, N."""
-        return float(self.force.sum())
-
-    @property
-    def area(self) -> float:
-        """Area that bears, m^2."""
-        return float(self.strip.area[self.force > 0.0].sum())
-
-    def extent(self) -> tuple[float, float]:
-        """Return length and width of the area that bears, as of an ellipse, m.
-
-        It has the area's largest moment and the area: the other moment of a long contact that is
-        bent tells of its bend.
-        """
-        frame = self.strip.frame
-        x, y = (a.ravel() for a in np.meshgrid(frame.x, frame.y, indexing="ij"))
-        on = self.force > 0.0
-        places = np.stack([x[on], y[on]])
-        if on.sum() < 2:
-            return 0.0, 0.0
-        length = 4.0 * float(np.sqrt(np.linalg.eigvalsh(np.cov(places, bias=True))[-1]))
-        return length, 4.0 * self.area / (np.pi * length)
-
-    def peaks(self) -> FloatArray:
-        """Return the largest pressure of each of `ZONES`, Pa; 0 where it bears nothing."""
-        return np.array([self._of(self.pressure, k).max(initial=0.0) for k in range(len(ZONES))])
-
-    def forces(self) -> FloatArray:
-        """Return the normal force of each of `ZONES`, N."""
-        return np.array([self._of(self.force, k).sum() for k in range(len(ZONES))])
-
-    def _of(self, values: FloatArray, zone: int) -> FloatArray:
-        return np.asarray(values[self.strip.zone == zone])
-
-
-@dataclasses.dataclass(frozen=True, eq=False)
-class Resolved:
-    """The pressures at one angle of the worm."""
-
-    teeth: tuple[ToothPressure, ...]  #: Those that bear
-    approach: float  #: Turn of the wheel towards the worm beyond the condensed teeth's, rad
-    depth: float  #: By which patches at the pressure of plastic flow were pressed in, at most, m
-    iterations: int
-    residual: float
 
 
 class ResolvedContact:
@@ -107,12 +48,28 @@ class ResolvedContact:
         E* of both bodies, Pa.
     cap : float, optional
         Pressure at which the softer body flows, Pa; none if left out.
+    rigid_share : float
+        Of what the patches give as half-spaces, what is rigid in the balance: the worm's, or
+        nothing.
     """
 
-    def __init__(self, flank: ExactFlank, modulus: float, cap: float | None = None) -> None:
+    def __init__(
+        self, flank: ExactFlank, modulus: float, cap: float | None = None, rigid_share: float = 0.0
+    ) -> None:
         self.flank = flank
         self.modulus = modulus
         self.cap = cap
+        self.rigid_share = rigid_share
+
+    def mesh_error(self, found: Resolved) -> float:
+        """Return by how much the points of the mesh hold the wheel too far ahead, rad.
+
+        Patches bear wherever worm and wheel touch, the condensed teeth at the points of their mesh.
+        Of a body that is rigid in the balance the give is left out as Hertz has it: it goes by the
+        power 2/3 of 1/E*, and a contact's mean sink by pressure is four fifths of its approach.
+        """
+        rigid = float(1.0 - (1.0 - self.rigid_share) ** (2.0 / 3.0))
+        return found.approach - 1.25 * rigid * found.sink
 
     def resolve(
         self,
@@ -146,33 +103,36 @@ class ResolvedContact:
         strips, found = teeth.solve_within(teeth.first_strips(), [None] * len(teeth.numbers))
         iterations = found.iterations
         done = [False] * len(strips)
+        changes: list[tuple[Change, ...]] = [()] * len(strips)
         for shape in _LEVELS if finer else ():
-            before = teeth.pressures(strips, found, done)
+            before = teeth.pressures(strips, found)
             next_strips = [
                 strip if ready else teeth.finer(strip, tooth, shape)
                 for strip, tooth, ready in zip(strips, before, done, strict=True)
             ]
             start = [
-                None if tooth is None or new is None else new.taken(tooth.strip, tooth.pressure)
+                None if tooth is None or new is None else new.taken(tooth.strip, tooth.force)
                 for new, tooth in zip(next_strips, before, strict=True)
             ]
             strips, found = teeth.solve_within(next_strips, start)
             iterations += found.iterations
-            after = teeth.pressures(strips, found, done)
-            done = [
-                one is None or two is None or ready or self._close(one, two)
+            after = teeth.pressures(strips, found)
+            changes = [
+                () if one is None or two is None or ready else tuple(self._changes(one, two))
                 for one, two, ready in zip(before, after, done, strict=True)
             ]
+            done = [not each for each in changes]
             if all(done):
                 break
-        pressures = teeth.pressures(strips, found, done)
+        pressures = teeth.pressures(strips, found)
         return Resolved(
             tuple(tooth for tooth in pressures if tooth is not None),
             found.approach, max(0.0, -float(found.gap.min())), iterations, found.residual,
+            found.sink, tuple(change for each in changes for change in each),
         )  # fmt: skip
 
-    def _close(self, before: ToothPressure, after: ToothPressure) -> bool:
-        """Whether no peak that counts changes much, or it is at the cap."""
+    def _changes(self, before: ToothPressure, after: ToothPressure) -> Iterator[Change]:
+        """Yield the peaks that count, change much and are not at the cap."""
         old, new = before.peaks(), after.peaks()
         counts = np.maximum(before.forces(), after.forces()) > _COUNTS * after.normal
         # The wheel's edges are sharp: the finer the patches, the higher the peak.
@@ -180,7 +140,16 @@ class ResolvedContact:
         moved = np.abs(new - old) > CLOSE * np.maximum(new, old)
         if self.cap is not None:
             moved &= np.minimum(old, new) < 0.999 * self.cap
-        return not bool((moved & counts).any())
+        for zone in np.flatnonzero(moved & counts):
+            share = float(abs(new[zone] - old[zone]) / max(new[zone], old[zone]))
+            yield Change(after.number, int(zone), share)
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class _Borne(Bearing):
+    """What was found, and what the half-spaces sink."""
+
+    sink: float  #: As `Resolved.sink`
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -267,30 +236,31 @@ class _Teeth:
         k = self.numbers.index(tooth.number)
         return Strip.of(self.contact.flank, frame, self.approaches[k])
 
-    def pressures(
-        self, strips: list[Strip | None], bearing: Bearing, done: list[bool]
-    ) -> list[ToothPressure | None]:
+    def pressures(self, strips: list[Strip | None], bearing: Bearing) -> list[ToothPressure | None]:
         """Return the pressures on each tooth; None where it bears nothing."""
         teeth: list[ToothPressure | None] = []
+        cap = np.inf if self.contact.cap is None else self.contact.cap
         at = 0
-        for number, strip, resolved in zip(self.numbers, strips, done, strict=True):
+        for number, strip in zip(self.numbers, strips, strict=True):
             if strip is None:
                 teeth.append(None)
                 continue
             force = bearing.force[at : at + len(strip.area)]
             at += len(strip.area)
-            some = ToothPressure(number, strip, force / strip.area, force, resolved)
+            # Where it flows the cap itself, which the quotient misses by its rounding.
+            pressure = np.minimum(force / strip.area, cap)
+            some = ToothPressure(number, strip, pressure, force)
             teeth.append(some if force.any() else None)
         return teeth
 
     def solve_within(
         self, strips: list[Strip | None], start: list[FloatArray | None]
-    ) -> tuple[list[Strip | None], Bearing]:
+    ) -> tuple[list[Strip | None], _Borne]:
         """Solve, with strips that grow where what bears comes to their border."""
         for _ in range(_TRIES):
             found = self.solve(strips, start)
             grown = False
-            pressures = self.pressures(strips, found, [False] * len(strips))
+            pressures = self.pressures(strips, found)
             for k, tooth in enumerate(pressures):
                 if tooth is None:
                     continue
@@ -301,12 +271,12 @@ class _Teeth:
                     continue
                 grown = True
                 wider = Strip.of(self.contact.flank, frame, self.approaches[k])
-                strips[k], start[k] = wider, wider.taken(strip, tooth.pressure)
+                strips[k], start[k] = wider, wider.taken(strip, tooth.force)
             if not grown:
                 return strips, found
         raise ConvergenceError("the pressures of the teeth find no bounds on the flank")
 
-    def solve(self, strips: list[Strip | None], start: list[FloatArray | None]) -> Bearing:
+    def solve(self, strips: list[Strip | None], start: list[FloatArray | None]) -> _Borne:
         """Return the forces of all patches, those of one tooth after the other."""
         owner = self.contact
         some = [(k, strip) for k, strip in enumerate(strips) if strip is not None]
@@ -335,10 +305,11 @@ class _Teeth:
             for (_, strip), first in ((pair, start[pair[0]]) for pair in some)
         ]
         most = np.where(inside, (np.inf if owner.cap is None else owner.cap) * area, 0.0)
-        return bear(
-            gap, deflection, arm, self.moment, most=most,
-            start=np.concatenate(begun),
+        found = bear(
+            gap, deflection, arm, self.moment, most=most, start=np.concatenate(begun)
         )  # fmt: skip
+        sunk = np.einsum("i,i->", found.force, spaces.deflection(found.force))
+        return _Borne(**vars(found), sink=float(sunk) / self.moment)
 
     def _smooth(self, teeth: list[int]) -> FloatArray:
         """What teeth give each other and themselves at their nodes, (K n, K n), m/N."""

@@ -88,6 +88,11 @@ class ExactFlank:
         """Faces between the points of `grid`, (m, 4)."""
         return grid_faces()
 
+    @property
+    def rows(self) -> int:
+        """Rows of points of `grid` over the flank's height."""
+        return _ROWS
+
     def nearest(self, share: FloatArray, z: FloatArray) -> IntArray:
         """Return the number of the nearest point of `grid` to places on the flank."""
         columns = self.grid[3][: self.nodes // _ROWS]

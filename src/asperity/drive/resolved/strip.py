@@ -180,14 +180,15 @@ class Strip:
         low, high = low - reach * ends[:, 0], high + reach * ends[:, 1]
         return Frame.over(frame.origin, frame.axes, low, high, frame.shape, 0.01)
 
-    def taken(self, other: Strip, pressure: FloatArray) -> FloatArray:
-        """Return forces from the pressure on another strip of the same tooth and plane, N."""
+    def taken(self, other: Strip, force: FloatArray) -> FloatArray:
+        """Return forces from those on another strip of the same tooth and plane, N, as pressure."""
         from scipy.ndimage import map_coordinates
 
         x = (self.frame.x - other.frame.x[0]) / other.frame.spacing[0]
         y = (self.frame.y - other.frame.y[0]) / other.frame.spacing[1]
         at = np.meshgrid(x, y, indexing="ij")
-        values = map_coordinates(pressure.reshape(other.frame.shape), at, order=1, mode="constant")
+        pressure = (force / other.area).reshape(other.frame.shape)
+        values = map_coordinates(pressure, at, order=1, mode="constant")
         return np.asarray(values.ravel() * self.area * self.inside)
 
 

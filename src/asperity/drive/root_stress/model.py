@@ -129,6 +129,11 @@ class RootModel:
         """The teeth, factorised when they are first loaded."""
         return elastic_body(self.mesh, self.material, tied=RIM)
 
+    @property
+    def unknowns(self) -> int:
+        """Displacements of its nodes."""
+        return 3 * len(self.mesh.points)
+
     def _turn(self, place: int) -> FloatArray:
         """What turns a tooth's own frame to its place in the mesh."""
         return turned(place * self.pitch)

@@ -10,7 +10,7 @@ from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.root_stress.loads import Load
 from asperity.drive.root_stress.model import RootModel, Roots
-from asperity.drive.static.notes import cold, few_phases
+from asperity.drive.static.notes import cold, few_phases, read_with_care
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.results.words import Number
@@ -194,6 +194,7 @@ class RootStress(OfDrive):
         return (
             f"the fillet of the loaded side bears up to {self.tension:.4g} MPa of tension, "
             f"{self.tension_face:.2g} mm from the middle of the face{own}",
+            *read_with_care(self.problem),
         )
 
     @property

@@ -27,8 +27,8 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
-from asperity.drive.resolved.contact import Resolved, ToothPressure
 from asperity.drive.resolved.flank import ExactFlank, exact_grid
+from asperity.drive.resolved.pressures import Resolved, ToothPressure
 from asperity.flanks.meshing.kinematics import kinematics
 from asperity.gearset.masses import DENSITY
 from asperity.sources import Source

@@ -5,8 +5,10 @@ Over a pitch of the worm, from one tooth to the next, the wheel is ahead of the 
 .. math:: e(\theta) = \bar e + \sum_n a_n\cos(2\pi n\,\theta/\theta_p - \psi_n) .
 
 Without load it is that of the exact flanks, which `asperity flank` has. Points of the mesh find the
-first touch a little late: what is between both is the mesh's own, and no harmonic under load that
-is not above it tells of the gearset.
+first touch a little late: what is between both is the mesh's own without load. Under load it is
+what the wheel turns further as patches of the resolved pressures bear, which are wherever worm and
+wheel touch, in place of the points of the mesh. No harmonic that is not above the mesh's own tells
+of the gearset.
 """
 
 from __future__ import annotations
@@ -97,19 +99,31 @@ class ErrorHarmonics:
     amplitude: FloatArray  #: (t, n): rad
     phase: FloatArray  #: (t, n): rad
     unloaded: FloatArray  #: (p,): Error of the exact flanks at the phases, rad
-    noise: FloatArray  #: (n,): Amplitudes of what the mesh's points make of it, rad
-    noise_range: float  #: The same, peak to peak, rad
+    noise: FloatArray  #: (t, n): Amplitudes of what the mesh's points make of it, rad
+    noise_range: FloatArray  #: (t,): The same, peak to peak, rad
 
     @classmethod
-    def of(cls, wheel: Wheel, sweeps: Sequence[PitchSweep]) -> ErrorHarmonics:
-        """Return it of courses over the same phases under rising loads."""
+    def of(
+        cls, wheel: Wheel, sweeps: Sequence[PitchSweep], of_mesh: Sequence[FloatArray]
+    ) -> ErrorHarmonics:
+        """Return it of courses over the same phases under rising loads.
+
+        Parameters
+        ----------
+        wheel : Wheel
+            As it is cut and mounted.
+        sweeps : sequence of PitchSweep
+            Under rising loads.
+        of_mesh : sequence of ndarray
+            For each of them what the points of the mesh hold the wheel ahead by, (p,), rad.
+        """
         first = sweeps[0]
         unloaded = exact_error(wheel, first.worm_angle)
-        off = first.touching - unloaded
+        off = first.touching - unloaded, *of_mesh
         found = [harmonics(error) for error in (unloaded, *(each.error for each in sweeps))]
         amplitude, phase = (np.array(part) for part in zip(*found, strict=True))
         return cls(
             np.array([0.0, *(each.torque for each in sweeps)]),
             np.arange(1, amplitude.shape[1] + 1, dtype=np.int64), amplitude, phase, unloaded,
-            harmonics(off)[0], float(np.ptp(off)),
+            np.array([harmonics(each)[0] for each in off]), np.ptp(off, axis=1),
         )  # fmt: skip

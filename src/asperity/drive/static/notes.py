@@ -52,6 +52,20 @@ def few_phases(problem: DriveProblem) -> Iterator[str]:
         )
 
 
+def read_with_care(problem: DriveProblem) -> tuple[str, ...]:
+    """Return the sentence that a headline of few phases ends with; none where they do."""
+    phases = problem.drive.phases
+    if phases >= _FEW:
+        return ()
+    what = (
+        "a single phase, which has no error of its own" if phases == 1 else f"{phases} phases alone"
+    )
+    return (
+        f"all of it by {what}: what lies between them is not seen, of peaks as of the error "
+        f"(drive.phases, {_FEW} or more)",
+    )
+
+
 def rigid_parts(problem: DriveProblem) -> Iterator[str]:
     """Yield what of the drive is taken as rigid."""
     left_out = [
@@ -117,8 +131,20 @@ def _pressures(problem: DriveProblem, record: PhaseRecord) -> Iterator[str]:
             "the wheel's edges are sharp: their elastic pressures grow with finer patches, their "
             "forces do not"
         )
-    if not record.resolved:
-        yield "a peak still changed by more than 5 % with the finest patches"
+    yield from _unresolved(record, len(forces))
+
+
+def _unresolved(record: PhaseRecord, phases: int) -> Iterator[str]:
+    """Yield which peaks the finest patches still changed, where most and by how much."""
+    for zone, (edge, _) in {FLANK: ("the flank", ""), **_EDGES}.items():
+        own = [(number, change.share) for number, change in record.changes if change.zone == zone]
+        if own:
+            worst, share = max(own, key=lambda each: each[1])
+            yield (
+                f"the peak on {edge} is not resolved at {len({n for n, _ in own})} of {phases} "
+                f"phases: the finest patches still changed it by up to {100.0 * share:.2g} % "
+                f"(phase {worst + 1})"
+            )
 
 
 def _error(problem: DriveProblem, forward: PitchSweep, noise: float) -> Iterator[str]:

@@ -66,10 +66,10 @@ def error(dataset: "xr.Dataset") -> "Figure":
         place = order + (k - 0.5 * (len(loads) - 1)) * width
         words = f"{torque:.4g} N m" if torque else "no load, rigid"
         axes.bar(place, values, 0.9 * width, color=COLOURS[k % len(COLOURS)], label=words)
-    axes.hlines(
-        noise, order - 0.45, order + 0.45, color=BLACK, linewidth=1.0, linestyles=(0, (1, 1.5)),
-        label="the mesh's own",
-    )  # fmt: skip
+        axes.hlines(
+            noise[k], place - 0.5 * width, place + 0.5 * width, color=BLACK, linewidth=1.0,
+            linestyles=(0, (1, 1)), label="the mesh's own" if k + 1 == len(loads) else "_nolegend_",
+        )  # fmt: skip
     axes.set_xticks(order)
     axes.grid(visible=False, axis="x")
     axes.set_xlabel("order, times in a pitch")

@@ -8,10 +8,12 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.contact.candidates.wrench import place_of
-from asperity.drive.resolved.contact import Resolved, ResolvedContact, ToothPressure
+from asperity.drive.resolved.contact import ResolvedContact
+from asperity.drive.resolved.pressures import Change, Resolved, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.flash import Flash
+from asperity.drive.static.pattern import Pattern
 from asperity.drive.static.pressure import nodal_pressure
 from asperity.drive.static.spread import Spread
 from asperity.drive.teeth.contact import TeethContact
@@ -43,29 +45,6 @@ def resolved(owner: ResolvedContact, balance: Balance, *, finer: bool = True) ->
     return owner.resolve(balance.contact, beta, balance.wheel_angle, balance.shift, finer=finer)
 
 
-class Pattern:
-    """The largest resolved pressures of a pitch over the flank, on the grid of the exact flank."""
-
-    def __init__(self, owner: ResolvedContact) -> None:
-        self.owner = owner
-        self.largest = np.zeros(owner.flank.nodes)
-
-    def evaluate(self, _number: int, balance: Balance) -> None:
-        """Keep what a balance presses, resolved by its first strips alone."""
-        self.add(resolved(self.owner, balance, finer=False))
-
-    def add(self, resolved_pressure: Resolved) -> None:
-        """Keep what was resolved."""
-        flank = self.owner.flank
-        for tooth in resolved_pressure.teeth:
-            on, frame = tooth.force > 0.0, tooth.strip.frame
-            # Patches are as long as the grid is wide: their middles alone would leave points out.
-            for part in (-0.4, 0.0, 0.4):
-                points = tooth.strip.points[on] + part * frame.spacing[1] * frame.axes[1]
-                nearest = flank.nearest(flank.share_at(points), points[:, 2])
-                np.maximum.at(self.largest, nearest, tooth.pressure[on])
-
-
 class PhaseRecord:
     """What is taken from each phase under the load."""
 
@@ -81,11 +60,11 @@ class PhaseRecord:
         self.forces: list[FloatArray] = []  #: By phase and zone, N
         self.areas: list[float] = []  #: That bear, m^2
         self.depths: list[float] = []  #: Pressed in plastically, m
-        self.resolved = True
+        self.changes: list[tuple[int, Change]] = []  #: That finer patches would make, by phase
         self.worst: ToothPressure | None = None  #: Of the largest pressure on a flank
         self.nodal_forces = np.zeros((0, 3 * owner.flank.sector.body.nodes))
 
-    def evaluate(self, _number: int, balance: Balance) -> None:
+    def evaluate(self, number: int, balance: Balance) -> None:
         """Take what a balance has."""
         contact = balance.contact
         for k in range(contact.slots):
@@ -106,7 +85,7 @@ class PhaseRecord:
         self.forces.append(np.sum([tooth.forces() for tooth in found.teeth], axis=0))
         self.areas.append(sum(tooth.area for tooth in found.teeth))
         self.depths.append(found.depth)
-        self.resolved &= all(tooth.resolved for tooth in found.teeth)
+        self.changes += [(number, change) for change in found.changes]
         worst = found.teeth[int(np.argmax(peaks[:, FLANK]))]
         if self.worst is None or worst.peaks()[FLANK] > self.worst.peaks()[FLANK]:
             self.worst = worst

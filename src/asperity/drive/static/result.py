@@ -195,7 +195,11 @@ class StaticResult(OfDrive):
         dims=("error_load", "order"),
     )  # fmt: skip
     error_noise: FloatArray = quantity(
-        "", "rad", "amplitude that the points of the mesh make by themselves", dims=("order",)
+        "", "rad", "amplitude that the points of the mesh make by themselves",
+        dims=("error_load", "order"),
+    )  # fmt: skip
+    error_noise_ranges: FloatArray = quantity(
+        "", "rad", "error that the points of the mesh make, peak to peak", dims=("error_load",)
     )
     tooth_force: FloatArray = quantity(
         "N", "N", "normal force on each tooth", dims=(*_PHASE, "tooth")
@@ -263,10 +267,13 @@ class StaticResult(OfDrive):
         return super().to_json() | {
             "stiffness_by_part_Nm_per_rad": dict(parts),
             "error_harmonics": [
-                {"output_torque_Nm": torque, "amplitude_rad": amplitude, "phase_rad": phase}
-                for torque, amplitude, phase in zip(
+                {
+                    "output_torque_Nm": torque, "amplitude_rad": amplitude, "phase_rad": phase,
+                    "noise_rad": noise,
+                }
+                for torque, amplitude, phase, noise in zip(
                     self.error_torque.tolist(), self.error_amplitude.tolist(),
-                    self.error_phase.tolist(), strict=True,
+                    self.error_phase.tolist(), self.error_noise.tolist(), strict=True,
                 )
             ],
         }  # fmt: skip
@@ -276,8 +283,13 @@ class StaticResult(OfDrive):
         whole, *others = super().tables()
         if not len(self.error_order):
             return (whole, *others)
-        heads = ("order", *(f"at {torque:.4g} N m" for torque in self.error_torque), "mesh's own")
-        columns = np.round(_MICRO * np.vstack([self.error_amplitude, self.error_noise]), 4)
+        loads = [f"{torque:.4g} N m" for torque in self.error_torque]
+        ends = self.error_noise[[0, -1]]
+        heads = (
+            "order", *(f"at {load}" for load in loads),
+            *(f"mesh's own at {load}" for load in (loads[0], loads[-1])),
+        )  # fmt: skip
+        columns = np.round(_MICRO * np.vstack([self.error_amplitude, ends]), 4)
         rows = [(int(n), *column) for n, column in zip(self.error_order, columns.T, strict=True)]
         said = "Amplitudes of the transmission error by order in a pitch (urad)"
         return (whole, *others, Table.of(heads, rows[:_ORDERS], title=said))

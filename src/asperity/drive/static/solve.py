@@ -24,8 +24,9 @@ from asperity.drive.static.equilibrium import Balance, Equilibrium, TooDeepError
 from asperity.drive.static.flash import Flash
 from asperity.drive.static.harmonics import ErrorHarmonics
 from asperity.drive.static.notes import notes_of
+from asperity.drive.static.pattern import Pattern
 from asperity.drive.static.pressure import hertz_pressure, modulus_of
-from asperity.drive.static.recorder import Pattern, PhaseRecord, contact_means
+from asperity.drive.static.recorder import PhaseRecord, contact_means
 from asperity.drive.static.result import PATTERNS, StaticResult
 from asperity.drive.static.spread import LOADED, k_h_alpha
 from asperity.drive.static.sweep import (
@@ -153,10 +154,13 @@ class StaticModel:
             give = give - thread_flexibility(
                 self.sector.surface, worm.youngs_modulus, worm.poisson_ratio
             )
+        modulus = modulus_of(wheel, worm)
+        of_worm = modulus * (1.0 - worm.poisson_ratio**2) / worm.youngs_modulus
         return ResolvedContact(
             ExactFlank.of(self.sector, wheel, give),
-            modulus_of(wheel, worm),
+            modulus,
             problem.flow_pressure,
+            of_worm if problem.drive.threads == "rigid" else 0.0,
         )
 
     def _sliding_speed(self) -> float:
@@ -241,7 +245,10 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
             lambda done: run.checkpoint(count + done, total, what="phases"),
         )
         back = _back_patterns(model, 2 * count, total) if run.detailed else None
-    error = ErrorHarmonics.of(sector_.wheel, [*lighter, forward])
+    patterns = [*less_loaded, seen.pattern]
+    error = ErrorHarmonics.of(
+        sector_.wheel, [*lighter, forward], [np.array(part.mesh_errors) for part in patterns]
+    )
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, np.array(seen.turns[::every]), more, less)
@@ -295,17 +302,18 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         error_amplitude=error.amplitude,
         error_phase=error.phase,
         error_noise=error.noise,
-        error_noise_range=error.noise_range,
+        error_noise_range=float(error.noise_range[-1]),
+        error_noise_ranges=error.noise_range,
         tooth_force=forward.tooth_force,
         part=np.array(list(parts)),
         part_stiffness=np.array(list(parts.values())),
         pattern_torque=load * np.array(PATTERNS),
-        pattern=np.array([*(part.largest for part in less_loaded), seen.pattern.largest]),
+        pattern=np.array([part.largest for part in patterns]),
         pattern_back=back,
         node_radius=np.hypot(places[:, 0], places[:, 1]),
         node_face=problem.gearset.hand_sign * places[:, 2],
         faces=model.resolved.flank.faces,
-        notes=notes_of(problem, seen, forward, error.noise_range),
+        notes=notes_of(problem, seen, forward, float(error.noise_range[-1])),
     )
 
 

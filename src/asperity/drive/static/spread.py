@@ -12,8 +12,8 @@ from __future__ import annotations
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.drive.resolved.contact import Resolved
 from asperity.drive.resolved.flank import ExactFlank
+from asperity.drive.resolved.pressures import Resolved
 
 STRIPS = 20
 """Of the face, in which the force is summed up."""

@@ -10,6 +10,7 @@ from asperity.arrays import FloatArray, IntArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded
+from asperity.drive.static.notes import read_with_care
 from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -217,6 +218,7 @@ class Misaligned(OfDrive):
             f"{np.nanmax(self.k_h_beta):.3g}",
             f"the pattern's middle shifts by at most {along:.3g} mm along the face and "
             f"{out:.3g} mm outwards or inwards",
+            *read_with_care(self.problem),
         ]
         return tuple(said)
 

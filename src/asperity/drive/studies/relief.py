@@ -11,7 +11,7 @@ its pattern bears across the face (:math:`K_{H\beta}`). What differs by less tha
 import dataclasses
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +39,7 @@ HALVINGS = 3
 """Times that `between` tries values half-way between the best and those beside it."""
 
 _RELIEF = "modification.tip_relief=0,10,20,30,40 um"
+_FURTHER = "modification.root_relief=0,20,40,60,80 um"
 _LESS = 1.0 / 3.0
 _ROUNDS = 5
 _MOST = 200
@@ -53,6 +54,7 @@ class Search(NamedTuple):
     axes: tuple[Axis, ...]
     stands: tuple[tuple[str, dict[str, float]], ...]  #: Loads and mountings, by name and values
     halvings: int = 0  #: Times that values between the best and those beside it are tried
+    further: tuple[Axis, ...] = ()  #: Looked for as well where the wheel's tip edge bears the most
 
 
 def prepare(
@@ -66,7 +68,7 @@ def prepare(
         Of a gearset's drive; its vibration counts for nothing.
     over : sequence of str
         Values of keys of ``[modification]``, ``[hob]`` or ``[disc]``; left out: tip relief from 0
-        to 40 um.
+        to 40 um, and root relief from 0 to 80 um where with it the wheel's tip edge bears the most.
     at : sequence of str
         Values of keys of ``[mount]``, ``[operation]`` or ``[shaft]`` that a design is to bear
         with, all with all; left out: the load and a third of it at the case's mounting, and the
@@ -77,7 +79,7 @@ def prepare(
     axes = tuple(parse_axes(over or [_RELIEF], case))
     _only("--over", axes, _DESIGNS)
     if at:
-        where = parse_axes(at, case)
+        where = parse_axes(at, case, option="--at")
         _only("--at", where, _STANDS)
         stands = [
             (
@@ -94,7 +96,8 @@ def prepare(
             f"{len(stands)} loads and mountings of {count // len(stands)} designs are more than "
             f"{_MOST} points: take fewer values"
         )
-    found = Search(case, axes, tuple(stands))
+    further = () if over else tuple(parse_axes([_FURTHER], case))
+    found = Search(case, axes, tuple(stands), further=further)
     for axis in axes:
         for n in range(len(axis.values)):
             _problems(found, (*_start(found)[: axes.index(axis)], n))
@@ -127,16 +130,10 @@ def answer(search: Search, run: Run) -> Relieved:
     for halving in range(search.halvings + 1):
         if halving:
             search = _halved(search, best)
-        for _ in range(_ROUNDS):
-            before = best
-            for k, axis in enumerate(search.axes):
-                # Of a round the case's own value is one as well.
-                values = _beside(axis, best[k]) if halving else range(len(axis.values))
-                around = [(*best[:k], n, *best[k + 1 :]) for n in values]
-                look(search, around)
-                best = _best([best, *around], known)
-            if best == before:
-                break
+        best = _by_rounds(search, best, known, look, beside=halving > 0)
+    if search.further and known[best].on_wheel_tip:
+        search, best = _further(search, best, known)
+        best = _by_rounds(search, best, known, look)
     # Of all that were tried, whatever the way to it.
     best = _best([best, *known], known)
     nominal = DriveProblem.from_case(search.case, shaken=False)
@@ -144,6 +141,44 @@ def answer(search: Search, run: Run) -> Relieved:
         nominal, search.axes, tuple(name for name, _ in search.stands), list(known.values()),
         list(known).index(best),
     )  # fmt: skip
+
+
+def _by_rounds(
+    search: Search,
+    best: tuple[int, ...],
+    known: Mapping[tuple[int, ...], Design],
+    look: Callable[[Search, Sequence[tuple[int, ...]]], None],
+    *,
+    beside: bool = False,
+) -> tuple[int, ...]:
+    """Return the best design by going through one axis after the other until none gives more.
+
+    Through all of its values, or through those beside the best one alone.
+    """
+    for _ in range(_ROUNDS):
+        before = best
+        for k, axis in enumerate(search.axes):
+            # Of a round the case's own value is one as well.
+            values = _beside(axis, best[k]) if beside else range(len(axis.values))
+            around = [(*best[:k], n, *best[k + 1 :]) for n in values]
+            look(search, around)
+            best = _best([best, *around], known)
+        if best == before:
+            break
+    return best
+
+
+def _further(
+    search: Search, best: tuple[int, ...], known: dict[tuple[int, ...], Design]
+) -> tuple[Search, tuple[int, ...]]:
+    """Return a search over its further axes as well, and the best; what is known stays known."""
+    own = _start(search._replace(axes=search.further))
+    values = tuple(own_value(search.case, axis) for axis in search.further)
+    before = dict(known)
+    known.clear()
+    for place, design in before.items():
+        known[*place, *own] = dataclasses.replace(design, values=(*design.values, *values))
+    return search._replace(axes=(*search.axes, *search.further)), (*best, *own)
 
 
 def _best(
@@ -255,6 +290,7 @@ def _design(search: Search, place: tuple[int, ...], found: Sequence[Loaded | str
         error=error,
         k_h_beta=uneven,
         worst=search.stands[int(np.argmax(edges))][0],
+        counts=share > LITTLE,
         merit=(max(edges) if share > LITTLE else 0.0, flank, error, uneven),
     )
 

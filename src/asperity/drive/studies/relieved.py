@@ -11,7 +11,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.notes import cold, few_phases
+from asperity.drive.static.notes import cold, few_phases, read_with_care
 from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -19,6 +19,7 @@ from asperity.sweep.axis import Axis
 
 _DESIGN = ("design",)
 _MEGA, _MICRO = 1e-6, 1e6
+_ROOT = "modification.root_relief"
 _SAME = 1e-3  # of a pressure, within which it is the same one
 
 
@@ -43,7 +44,26 @@ class Design:
     k_h_beta: float = np.nan
     worst: str = ""  #: Where the edges bear most
     failed: str = ""  #: Why there is no answer
+    counts: bool = False  #: Whether its edges bear so much that it counts
     merit: tuple[float, ...] = NONE  #: The less, the better, the first before the next
+
+    @property
+    def on_wheel_tip(self) -> bool:
+        """Whether edges bear, and of all the wheel's tip the most."""
+        return self.counts and self.wheel_tip > max(self.worm_tip, self.face_end)
+
+
+def _of_wheel_tip(best: Design, axes: Sequence[Axis]) -> tuple[str, ...]:
+    """Return what takes load off the wheel's tip edge, where that bears most and it was left out.
+
+    Its values are for ``--over``.
+    """
+    if not best.on_wheel_tip or any(axis.path == _ROOT for axis in axes):
+        return ()
+    return (
+        f"the wheel's own tip edge bears the most then, {best.wheel_tip:.4g} N, which the worm's "
+        f"root meets: look with --over {_ROOT} as well",
+    )
 
 
 class Relieved(OfDrive):
@@ -124,7 +144,7 @@ class Relieved(OfDrive):
             notes=(
                 "each design at the worst of: " + "; ".join(stands),
                 *(f"{each.name}: {each.failed}" for each in designs if each.failed),
-                *few_phases(problem), *cold(problem),
+                *_of_wheel_tip(last, axes), *few_phases(problem), *cold(problem),
             ),
             **{
                 key: np.array([getattr(each, key) for each in designs])
@@ -152,7 +172,8 @@ class Relieved(OfDrive):
         """Return what relief does, in one sentence."""
         n = self.best_number
         if not n:
-            return ("no design that was tried is better than the case as it is",)
+            none = "no design that was tried is better than the case as it is"
+            return none, *read_with_care(self.problem)
         gone = [
             edge
             for edge, forces in (
@@ -167,6 +188,7 @@ class Relieved(OfDrive):
             f"{self.edge_force_after:.4g} N, {self._pressure()}, the transmission error from "
             f"{_MICRO * self.error_before:.3g} to {_MICRO * self.error_after:.3g} urad, K_Hbeta "
             f"from {self.k_h_beta[0]:.3g} to {self.k_h_beta[n]:.3g}",
+            *read_with_care(self.problem),
         )
 
     def _pressure(self) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.drive.driven import OfDrive
+from asperity.drive.static.notes import read_with_care
 from asperity.results import labelled, quantity
 from asperity.results.table import Table
 
@@ -104,6 +105,7 @@ class WheelWorn(OfDrive):
             f"{self.pressure_mean_new:.4g} to {self.pressure_mean:.4g} MPa, the transmission "
             f"error from {_MICRO * self.transmission_error_new:.3g} to "
             f"{_MICRO * self.transmission_error:.3g} urad",
+            *read_with_care(self.problem),
         )
 
     def tables(self) -> tuple[Table, ...]:

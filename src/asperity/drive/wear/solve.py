@@ -7,6 +7,7 @@ begins at other phases, so that what lies between two of them wears as well.
 
 import dataclasses
 import math
+from collections.abc import Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -49,6 +50,12 @@ _OVERLAP = (
     "worm and teeth would overlap by more than a tenth of the module, as nothing bears but rims of "
     f"what is worn{_FURTHER}"
 )
+_CURVES = {
+    "error_course": "transmission error", "pressure_course": "mean pressure",
+    "peak_course": "largest pressure", "deflection_course": "turn of the wheel",
+}  # fmt: skip
+# Of the mean of a curve, from which on it is told to go to and fro; and of how many steps.
+_SWINGS, _LEAST_STEPS = 0.01, 4
 _MANY = f"that is {_MOST_STEPS} steps, each {_MICRO * DEEPEST:g} um where it wears fastest by then"
 _COURSES = (
     "turns", "depth_course", "mean_course", "pressure_course", "peak_course", "error_course",
@@ -197,6 +204,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             "all teeth wear alike, the worm does not; pressures of the course are those of the "
             "first strips of patches",
             *few_phases(problem),
+            *_to_and_fro(columns, problem.drive.phases),
             *cold(problem),
             *rigid_parts(problem),
         ),
@@ -209,6 +217,26 @@ def _ended(worn: _Worn, why: str) -> tuple[str, ...]:
     return (
         f"it ends before the depth or the turns asked for, {_MICRO * worn.depth.max():.4g} um deep "
         f"at most: {why}",
+    )
+
+
+def _to_and_fro(columns: Mapping[str, FloatArray], phases: int) -> tuple[str, ...]:
+    """Return by how much curves go to and fro from step to step, as each has other phases."""
+    swings = []
+    for name, what in _CURVES.items():
+        values = columns[name]
+        if len(values) < _LEAST_STEPS or not values.mean() > 0.0:
+            continue
+        # Of a curve that falls or rises evenly nothing is left; of one to and fro its reach.
+        swing = float(np.abs(np.diff(values, 2)).mean() / (2.0 * values.mean()))
+        if swing > _SWINGS:
+            swings.append(f"the {what} by {100.0 * swing:.2g} %")
+    if not swings:
+        return ()
+    return (
+        f"from step to step {' and '.join(swings)} of its mean goes to and fro: each step has "
+        f"other phases of the pitch, of which {phases} do not tell the whole; that is no wear, and "
+        "more phases (drive.phases) make it even",
     )
 
 

@@ -165,6 +165,8 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
                 else "none is possible as the worm is mounted and modified: look at mount and "
                 "modification"
             )
+            if worm.tip_relief:
+                advice += ", or less modification.tip_relief"
             raise InputError(
                 f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed: {advice}"
             )

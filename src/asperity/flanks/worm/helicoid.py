@@ -202,7 +202,7 @@ class Helicoid:
         thread = Thread(form, self.profile.table)
         end, middle, angle = self._tip_arc(thread, self.tip_rounding)
         if middle >= self.half_pitch:
-            raise InputError(_pointed(self))
+            raise InputError(_pointed(self, thread))
         form["flank_end"] = end
         form["arc_radius"] = self.tip_radius - self.tip_rounding
         form["arc_z"] = middle
@@ -238,7 +238,7 @@ class Helicoid:
             return self._tip_arc(self.thread, r)[1] - limit
 
         if over(0.0) >= 0.0:
-            raise InputError(_pointed(self))
+            raise InputError(_pointed(self, self.thread))
         most = self.tip_radius - self.root_radius
         return most if over(most) <= 0.0 else root_between(over, 0.0, most, within=1e-12)
 
@@ -304,8 +304,18 @@ def _rounded(draft: Helicoid, rounding: float, key: str | None) -> Helicoid:
     return dataclasses.replace(draft, tip_rounding=min(rounding, most))
 
 
-def _pointed(helicoid: Helicoid) -> str:
+def _pointed(helicoid: Helicoid, thread: Thread) -> str:
     until = f"before its tip radius of {helicoid.tip_radius:.5g} mm"
+    if helicoid.tip_relief:
+        unrelieved = float(curve.width(helicoid.tip_radius, thread)[0]) - helicoid.tip_relief
+        room = helicoid.half_pitch * (1.0 - LEAST_LAND) - unrelieved
+        if room > 0.0:
+            normal = math.cos(helicoid.lead_angle) * math.cos(helicoid.pressure_angle)
+            most = _floored(room * normal)
+            return (
+                f"modification.tip_relief is {helicoid.tip_relief * normal:.4g} mm; with it the "
+                f"{helicoid.name}'s thread is pointed {until}: take at most {most} mm"
+            )
     if helicoid.half_space > 0.5 * helicoid.half_pitch * (1.0 + 1e-9):
         return (
             f"mount.backlash: with thread spaces of {2.0 * helicoid.half_space:.4g} mm in a pitch "
@@ -316,6 +326,12 @@ def _pointed(helicoid: Helicoid) -> str:
         f"gearset.pressure_angle is {math.degrees(helicoid.pressure_angle):.4g} deg; with it the "
         f"{helicoid.name}'s thread is pointed {until}: take a smaller pressure angle or lower teeth"
     )
+
+
+def _floored(value: float) -> str:
+    """Return a positive number in four digits, none of them rounded up."""
+    grain = 10.0 ** (math.floor(math.log10(value)) - 3)
+    return f"{math.floor(value / grain) * grain:.4g}"
 
 
 def _opened(draft: Helicoid, needed: float) -> Helicoid:
