@@ -25,7 +25,7 @@ sys.path[:0] = [str(TESTS), str(TESTS / "answers")]
 from apparatus.called import copied  # noqa: E402
 from observe import new_cache  # noqa: E402
 
-REPEATS = 7
+REPEATS = 25
 LEAST = 0.97
 KERNELS = {
     "march": ("asperity.slider.kernels.march_stretches", "slide table-4.3"),
