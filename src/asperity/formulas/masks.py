@@ -278,6 +278,8 @@ def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     InputError
         They do not go together.
     """
+    if not arrays:
+        return ()
     several = iter(arrays.values())
     first: tuple[int, ...] = np.shape(next(several))
     if all(type(array) is np.ndarray and array.shape == first for array in several):
