@@ -7,7 +7,7 @@ import sys
 
 from asperity.cli import interrupt
 from asperity.processes import began
-from asperity.processes.interrupts import reraise_pending
+from asperity.processes.interrupts import left_working, reraise_pending
 
 _DIGITS = 4  # of a terminal's width
 TYPE_CHECKING = False  # as typing has it, which takes its time
@@ -36,8 +36,9 @@ def main(arguments: list[str] | None = None) -> "NoReturn":
         code = run(arguments)
     finally:
         interrupt.as_exception()
-    if switches:
-        # Python's own end would take a signal that comes in it for one that nobody hears.
+    if switches or any(thread.is_alive() for thread in left_working):
+        # Python's own end would take a signal that comes in it for one that nobody hears, and from
+        # what is left at work what it works with.
         for stream in (sys.stdout, sys.stderr):
             with contextlib.suppress(OSError, ValueError):
                 stream.flush()

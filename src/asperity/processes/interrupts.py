@@ -19,6 +19,12 @@ MEANING = {
 answered: list[bool] = []
 """Holds something from when on a work that hears signals itself has done so to its end."""
 
+left_working: list[threading.Thread] = []
+"""Threads that an interrupted work has left in a library that nothing breaks off.
+
+Python's own end would take away under them what they need.
+"""
+
 
 def reraise_pending() -> None:
     """Let a Ctrl-C that came where nothing can be raised be heard a moment later.

@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
+from asperity.processes import interrupts
 from asperity.runs import Run
 
 _T = TypeVar("_T")
@@ -50,10 +51,14 @@ class Stages:
         thread = threading.Thread(target=go, daemon=True)
         began = time.monotonic()
         thread.start()
-        while thread.is_alive():
-            thread.join(_TICK)
-            share = (time.monotonic() - began) / self._seconds[self._ended]
-            self._tell(min(share, _MOST))
+        try:
+            while thread.is_alive():
+                thread.join(_TICK)
+                share = (time.monotonic() - began) / self._seconds[self._ended]
+                self._tell(min(share, _MOST))
+        except BaseException:
+            interrupts.left_working.append(thread)
+            raise
         if failed:
             raise failed[0]
         return found[0]
