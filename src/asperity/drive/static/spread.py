@@ -3,8 +3,8 @@ r"""How the load lies on the flanks over a pitch: across the face, along the con
 :math:`K_{H\beta}` is the largest force by width over the mean one, of the normal forces of all
 teeth and phases by their place across the face, in strips of a twentieth of it.
 :math:`K_{H\alpha}` is the largest force on a tooth over what it would be if the mean number of
-teeth that bear shared evenly. All forces are those of the patches. Both are factors as of ISO 6336-1, of the contact as it is and not of
-an estimate.
+teeth that bear shared evenly. All forces are those of the patches. Both are factors as of
+ISO 6336-1, of the contact as it is and not of an estimate.
 """
 
 from __future__ import annotations
