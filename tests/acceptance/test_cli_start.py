@@ -117,11 +117,24 @@ def test_what_a_drive_begins_with_and_nobody_gave_is_said_to_be_assumed(asperity
         assert f"{path} = " in out
         (own,) = (part for part in comments if f"\n{key} = " in part)
         assert "Assumed: give that of your" in own
+    assert "friction.max_deflection = 70 nm: " in out
+    # With --defaults nothing is asked, so that all that would be is an example as well.
+    (examples,) = (
+        line for line in out.splitlines() if "and examples, as nothing was asked" in line
+    )
+    for path in ("drive.load_inertia", "drive.worm_inertia", "friction.mu", "vibration.frequency"):
+        assert path in examples
+    assert "shaft." not in examples
     # The diameter over the span says it as well.
     other = tmp_path / "other.toml"
     given = "--set=shaft.diameter=30 mm", "--set=shaft.span=150 mm", "--set=drive.worm_mass=1 kg"
     code, out, _ = asperity("new", "drive", str(other), "--defaults", *given)
     assert code == 0
     assert not any(path in out for path in assumed)
+    code, out, _ = asperity(
+        "new", "drive", str(tmp_path / "third.toml"), "--defaults", "--set=friction.mu=0.04"
+    )
+    assert "drive.load_inertia" in out
+    assert "friction.mu" not in out
     assert "\n#torsional_stiffness" in other.read_text()
     assert 'worm_mass = "1 kg"\n' in other.read_text()

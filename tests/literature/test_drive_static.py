@@ -28,7 +28,8 @@ from asperity.drive.reduced.reduction import Reduction
 from asperity.drive.static.clearance import cut_root
 from asperity.drive.static.equilibrium import Equilibrium
 from asperity.drive.static.pattern import Pattern
-from asperity.drive.static.recorder import contact_means, resolved
+from asperity.drive.static.pressure import resolved
+from asperity.drive.static.recorder import contact_means
 from asperity.drive.static.reduction import teeth_reduced
 from asperity.drive.static.result import PATTERNS
 from asperity.drive.static.solve import (

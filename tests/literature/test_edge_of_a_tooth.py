@@ -19,7 +19,7 @@ from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.contact import _Teeth
 from asperity.drive.resolved.strip import WORM_TIP
-from asperity.drive.static.recorder import resolved
+from asperity.drive.static.pressure import resolved
 from asperity.drive.static.solve import StaticModel
 from asperity.flanks.worm.distance import ARC
 from asperity.runs import Run

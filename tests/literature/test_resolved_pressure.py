@@ -28,7 +28,7 @@ from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.contact import _Teeth
 from asperity.drive.resolved.strip import BESIDE, FLANK, WHEEL_TIP, WORM_TIP, Frame, Strip
-from asperity.drive.static.recorder import resolved
+from asperity.drive.static.pressure import resolved
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.teeth.sector import lattice
 from asperity.drive.teeth.threads import thread_flexibility

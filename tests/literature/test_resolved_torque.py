@@ -13,7 +13,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.strip import FLANK
-from asperity.drive.static.recorder import resolved
+from asperity.drive.static.pressure import resolved
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.teeth.placing import sliding

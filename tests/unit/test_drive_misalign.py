@@ -108,8 +108,11 @@ def test_a_note_that_is_not_true_of_all_points_names_those_it_is_true_of(cached)
 )
 def test_the_headline_says_what_few_phases_do_to_it(cached, phases, said):
     over = ["mount.axial_offset=-20,20 um"]
-    *_, last = misalign.answer(study(f"drive.phases={phases}", over=over), Run()).headline()
+    found = misalign.answer(study(f"drive.phases={phases}", over=over), Run())
+    *_, last = found.headline()
     assert said in last
+    # And there alone.
+    assert not any("phases" in note for note in found.notes)
     assert ("what lies between them is not seen" in last) == (phases < 8)
 
 

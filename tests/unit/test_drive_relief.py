@@ -158,6 +158,13 @@ def test_left_to_itself_the_search_ends_at_the_tip_where_that_takes_the_edges_aw
     assert [axis.path for axis in found.axes] == ["modification.tip_relief"]
 
 
+def test_what_is_looked_for_as_well_counts_among_the_points_that_are_too_many():
+    stands = ["mount.axial_offset=-12:12:1 um"]
+    assert len(search(over=OVER[:1], at=stands).stands) == 25
+    with pytest.raises(InputError, match="25 loads and mountings of 10 designs are more than 200"):
+        search(over=(), at=stands)
+
+
 LENGTHS = "axial_offset", "centre_distance_error"
 
 

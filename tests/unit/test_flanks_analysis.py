@@ -19,7 +19,7 @@ from asperity.flanks.meshing.kinematics import kinematics
 from asperity.flanks.meshing.lubrication import Load, film_thickness, loaded_lines
 from asperity.flanks.meshing.pattern import areas, crossings, node_areas, part_below, pattern
 from asperity.flanks.meshing.transmission import transmission
-from asperity.flanks.parameters import Hob, Mount
+from asperity.flanks.parameters import Hob, Modification, Mount
 from asperity.flanks.wheel.enveloped import Wheel
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
@@ -215,6 +215,24 @@ def test_backlash_that_would_leave_no_thread_is_refused():
     with pytest.raises(
         InputError, match=r"mount.backlash is 3 mm; .* pointed: .* at most about 0\.\d+ mm"
     ):
+        analyse(pair, Wheel.cut(pair), rows=5, columns=5, samples=8)
+
+
+@pytest.mark.parametrize(
+    ("relief", "error", "said"),
+    [
+        (0.0, 0.0, r"take one of at most about 0\.\d+ mm$"),
+        (20e-6, 0.0, r"take one of at most about 0\.\d+ mm, or less modification\.tip_relief$"),
+        (0.0, -2e-3, r"none is possible .*: look at mount and modification$"),
+        (20e-6, -2e-3, r"none is possible .*: look at mount and modification\.tip_relief$"),
+    ],
+)
+def test_what_leaves_no_thread_is_named_by_what_there_is_of_it(relief, error, said):
+    pair = Pair.of(
+        GEARSET, TILTED, mount=Mount(backlash=3e-3, centre_distance_error=error, units="SI"),
+        modification=Modification(tip_relief=relief, units="SI"),
+    )  # fmt: skip
+    with pytest.raises(InputError, match=said):
         analyse(pair, Wheel.cut(pair), rows=5, columns=5, samples=8)
 
 

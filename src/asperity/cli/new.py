@@ -58,7 +58,10 @@ def new(
     if ratio and "requirements" in kind.values:
         given |= {apply(values, f"requirements.ratio={ratio_of(ratio):g}", case_tables())}
     wanted = ratio or values.get("requirements", {}).get("ratio") or RATIO
-    if not defaults and not read and sys.stdin is not None and sys.stdin.isatty() and not as_json:
+    asks = (
+        not defaults and not read and sys.stdin is not None and sys.stdin.isatty() and not as_json
+    )
+    if asks:
         for question in kind.questions:
             if question.path == "ratio":
                 if "requirements.ratio" not in given:
@@ -102,6 +105,8 @@ def new(
             show.print_text(f"\n{operation.wear_assumed}")
         if assumed:
             lines = [f"  {key} = {_value(values, key)}: {assumed[key]}" for key in assumed]
+            if not asks and (examples := _examples(kind, values, given)):
+                lines.append(f"  and examples, as nothing was asked: {', '.join(examples)}")
             show.print_text("\n".join(["\nassumed, replace it by your own:", *lines]))
 
 
@@ -117,6 +122,16 @@ def _assumed(kind: Kind, values: Values, keys: Collection[str]) -> dict[str, str
         else:
             assumed[path] = mend
     return assumed
+
+
+def _examples(kind: Kind, values: Values, keys: Collection[str]) -> list[str]:
+    """Return the keys that a question would fill and nobody gave."""
+    found = []
+    for question in kind.questions:
+        table, _, key = question.path.partition(".")
+        if question.path not in keys and key in values.get(table, {}):
+            found.append(question.path)
+    return found
 
 
 def _value(values: Values, path: str) -> object:

@@ -259,7 +259,8 @@ COMMANDS = (
             Option(
                 "over",
                 "Values of a key of modification, hob or disc; again for another. Left out: tip "
-                "relief from 0 to 40 um.",
+                "relief from 0 to 40 um, then, where the wheel's tip bears most, root relief from "
+                "0 to 80 um.",
                 "TABLE.KEY=VALUES",
                 many=True,
             ),

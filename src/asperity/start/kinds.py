@@ -264,6 +264,9 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
                         ("shaft.diameter", "shaft.span"),
                     ),
                     "drive.worm_mass": Assumption("give that of your worm with its shaft"),
+                    "friction.max_deflection": Assumption(
+                        "give what your surfaces slide after, if it was measured"
+                    ),
                     "drive.contact_damping": Assumption("give what was measured, if it was"),
                     "mount.backlash": Assumption("give the play of your gearset"),
                 }

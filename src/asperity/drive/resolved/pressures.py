@@ -38,7 +38,10 @@ class ToothPressure:
 
         The length is that of all places along the contact at which it bears anywhere across, the
         width the largest across one of them: so of an ellipse as of a band. Both are taken along
-        the patches and turned by the angle at which the contact lies to these.
+        the patches and turned by the angle at which the contact lies to these. That is meant for
+        contacts which lie along them, as strips are laid: a band that is turned by 0.2 rad is told
+        a twentieth too long, by its width times the angle's tangent, an ellipse less. Spots with a
+        gap between them add up to one length.
         """
         frame = self.strip.frame
         on = (self.force > 0.0).reshape(frame.shape)

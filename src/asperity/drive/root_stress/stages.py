@@ -37,7 +37,11 @@ class Stages:
         self._tell(0.0)
 
     def wait(self, work: Callable[[], _T]) -> _T:
-        """Return what the work of a stage returns, telling meanwhile how far it is."""
+        """Return what the work of a stage returns, telling meanwhile how far it is.
+
+        An interrupt is raised at once, and the stage works on by itself to its end: a command ends
+        before that, in Python it keeps its core and memory until then.
+        """
         found: list[_T] = []
         failed: list[BaseException] = []
 

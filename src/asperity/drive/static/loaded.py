@@ -13,7 +13,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP
 from asperity.drive.static.recorder import PhaseRecord
 from asperity.drive.static.solve import StaticModel
-from asperity.drive.static.spread import LOADED, k_h_alpha
+from asperity.drive.static.spread import LOADED, k_h_alpha, shares
 from asperity.drive.static.sweep import LoadCase
 from asperity.runs import Run
 
@@ -77,7 +77,7 @@ def loaded_of(model: StaticModel) -> Loaded:
     seen = PhaseRecord(model.resolved)
     (pitch_sweep,) = model.sweeps([LoadCase(model.problem.load, evaluate=seen.evaluate)])
     peaks, forces = np.max(seen.peaks, axis=0), np.max(seen.forces, axis=0)
-    share = pitch_sweep.tooth_force / pitch_sweep.tooth_force.sum(axis=1, keepdims=True)
+    share = shares(seen.tooth_force)
     face, radial = seen.spread.centre
     return Loaded(
         pressure_flank=float(peaks[FLANK]),
@@ -87,7 +87,7 @@ def loaded_of(model: StaticModel) -> Loaded:
         force_worm_tip=float(forces[WORM_TIP]),
         force_wheel_tip=float(forces[WHEEL_TIP]),
         force_face_end=float(forces[FACE_END]),
-        normal_force=float(pitch_sweep.tooth_force.sum(axis=1).mean()),
+        normal_force=float(seen.tooth_force.sum(axis=1).mean()),
         flow_depth=max(seen.depths),
         transmission_error=float(np.ptp(pitch_sweep.error)),
         deflection=pitch_sweep.mean_deflection,
@@ -95,7 +95,7 @@ def loaded_of(model: StaticModel) -> Loaded:
         load_share=float(share.max()),
         loaded_teeth=float((share > LOADED).sum(axis=1).mean()),
         k_h_beta=seen.spread.k_h_beta,
-        k_h_alpha=k_h_alpha(pitch_sweep.tooth_force),
+        k_h_alpha=k_h_alpha(seen.tooth_force),
         line_load=seen.spread.line_load,
         centre_face=face,
         centre_radial=radial,

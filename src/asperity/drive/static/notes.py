@@ -91,7 +91,7 @@ def rigid_parts(problem: DriveProblem) -> Iterator[str]:
     )
     yield (
         "the worm's threads are rigid (drive.threads) in torque, deflection and error; in the "
-        "pressures they give as a half-space"
+        "pressures, and in how teeth share the load, they give as a half-space"
         if problem.drive.threads == "rigid"
         else "the worm's threads give as a half-space (drive.threads); what they bend as "
         "cantilevers is left out"

@@ -17,6 +17,7 @@ from asperity.drive.resolved.contact import ResolvedContact
 from asperity.drive.resolved.pressures import Resolved, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
+from asperity.drive.static.pressure import resolved
 
 # Places along a crest, and of its way over the flank how far one place goes at most from phase to
 # phase, in shares of the height: further it is no longer known where it went.
@@ -39,12 +40,7 @@ class Pattern:
 
     def evaluate(self, _number: int, balance: Balance) -> None:
         """Keep what a balance presses, resolved by its first strips alone."""
-        beta = balance.worm_angle + float(balance.yielded[0])
-        self.add(
-            self.owner.resolve(
-                balance.contact, beta, balance.wheel_angle, balance.shift, finer=False
-            )
-        )
+        self.add(resolved(self.owner, balance, finer=False))
 
     def add(self, found: Resolved) -> None:
         """Keep what was resolved at the next phase."""

@@ -1,13 +1,16 @@
-"""Pressures beside the resolved ones: those at the nodes of the mesh, and those of Hertzian lines.
+"""Pressures of a balance: resolved ones, those at the nodes of the mesh, those of Hertzian lines.
 
-Contact lines are narrower than the elements of any mesh of a whole tooth, so that these grow as the
-mesh is refined; `asperity.drive.resolved` has those that do not.
+Contact lines are narrower than the elements of any mesh of a whole tooth, so that pressures at its
+nodes grow as it is refined; resolved ones do not.
 """
 
 import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.drive.problem import DriveProblem
+from asperity.drive.resolved.contact import ResolvedContact
+from asperity.drive.resolved.pressures import Resolved
+from asperity.drive.static.equilibrium import Balance
 from asperity.drive.teeth.contact import TeethContact
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.meshing.analysis import hertz_pressure_max
@@ -24,6 +27,12 @@ def modulus_of(wheel: Material, worm: Material) -> float:
         1e-6 * wheel.youngs_modulus, wheel.poisson_ratio,
     )  # fmt: skip
     return 1e6 * float(found)
+
+
+def resolved(owner: ResolvedContact, balance: Balance, *, finer: bool = True) -> Resolved:
+    """Return the resolved pressures of a balance; its contact must still hold its fields."""
+    beta = balance.worm_angle + float(balance.yielded[0])
+    return owner.resolve(balance.contact, beta, balance.wheel_angle, balance.shift, finer=finer)
 
 
 def nodal_pressure(contact: TeethContact, k: int) -> FloatArray:

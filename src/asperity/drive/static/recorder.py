@@ -9,12 +9,12 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.contact.candidates.wrench import place_of
 from asperity.drive.resolved.contact import ResolvedContact
-from asperity.drive.resolved.pressures import Change, Resolved, ToothPressure
+from asperity.drive.resolved.pressures import Change, ToothPressure
 from asperity.drive.resolved.strip import FLANK, ZONES
 from asperity.drive.static.equilibrium import Balance
 from asperity.drive.static.flash import Flash
 from asperity.drive.static.pattern import Pattern
-from asperity.drive.static.pressure import nodal_pressure
+from asperity.drive.static.pressure import nodal_pressure, resolved
 from asperity.drive.static.spread import Spread
 from asperity.drive.teeth.contact import TeethContact
 
@@ -39,12 +39,6 @@ def contact_means(contact: TeethContact, balance: Balance) -> tuple[float, float
     return whole, float(weights @ radii) / whole, float(weights @ ways) / whole
 
 
-def resolved(owner: ResolvedContact, balance: Balance, *, finer: bool = True) -> Resolved:
-    """Return the resolved pressures of a balance; its contact must still hold its fields."""
-    beta = balance.worm_angle + float(balance.yielded[0])
-    return owner.resolve(balance.contact, beta, balance.wheel_angle, balance.shift, finer=finer)
-
-
 class PhaseRecord:
     """What is taken from each phase under the load."""
 
@@ -61,6 +55,7 @@ class PhaseRecord:
         self.areas: list[float] = []  #: That bear, m^2
         self.depths: list[float] = []  #: Pressed in plastically, m
         self.changes: list[tuple[int, Change]] = []  #: That finer patches would make, by phase
+        self._normals: list[dict[int, float]] = []  # By phase and number of the tooth, N
         self.worst: ToothPressure | None = None  #: Of the largest pressure on a flank
         self.nodal_forces = np.zeros((0, 3 * owner.flank.sector.body.nodes))
 
@@ -80,6 +75,8 @@ class PhaseRecord:
         self.spread.take(found)
         if self.flash is not None:
             self.flash.take(found)
+        own = dict.fromkeys(balance.action.teeth, 0.0)
+        self._normals.append(own | {tooth.number: tooth.normal for tooth in found.teeth})
         peaks = np.array([tooth.peaks() for tooth in found.teeth])
         self.peaks.append(peaks.max(axis=0))
         self.forces.append(np.sum([tooth.forces() for tooth in found.teeth], axis=0))
@@ -99,6 +96,16 @@ class PhaseRecord:
             name: (float(peak), float(force))
             for name, peak, force in zip(ZONES, peaks, forces, strict=True)
         }
+
+    @property
+    def tooth_force(self) -> FloatArray:
+        """Normal forces by phase and tooth, from the one that enters, N, shape (p, K).
+
+        As the patches share them, of which pressures and line loads are.
+        """
+        numbers = sorted({number for own in self._normals for number in own})
+        rows = [[own.get(number, 0.0) for number in numbers] for own in self._normals]
+        return np.array(rows, dtype=np.float64)
 
     @property
     def mean(self) -> float:

@@ -28,7 +28,7 @@ from asperity.drive.static.pattern import Pattern
 from asperity.drive.static.pressure import hertz_pressure, modulus_of
 from asperity.drive.static.recorder import PhaseRecord, contact_means
 from asperity.drive.static.result import PATTERNS, StaticResult
-from asperity.drive.static.spread import LOADED, k_h_alpha
+from asperity.drive.static.spread import LOADED, k_h_alpha, shares
 from asperity.drive.static.sweep import (
     FRICTIONLESS,
     REVERSED,
@@ -252,7 +252,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
     tangent = (more.torque - less.torque) / (more.mean_deflection - less.mean_deflection)
     radius = seen.radius / seen.weight
     parts = _parts(model, np.array(seen.turns[::every]), more, less)
-    share = forward.tooth_force / forward.tooth_force.sum(axis=1, keepdims=True)
+    share = shares(seen.tooth_force)
     loaded = (share > LOADED).sum(axis=1)
     axes = contact.stand.axes
     on_worm = -forward.wrench[:, :3].mean(axis=0)
@@ -272,7 +272,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         deflection=forward.mean_deflection,
         stiffness=tangent,
         stiffness_secant=load / forward.mean_deflection,
-        normal_force=float(forward.tooth_force.sum(axis=1).mean()),
+        normal_force=float(seen.tooth_force.sum(axis=1).mean()),
         axial_force=float(abs(on_worm @ axes[2])),
         radial_force=float(-on_worm @ axes[0]),
         tangential_force=float(abs(on_worm @ axes[1])),
@@ -280,7 +280,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         loaded_teeth_max=int(loaded.max()),
         load_share_max=float(share.max()),
         k_h_beta=seen.spread.k_h_beta,
-        k_h_alpha=k_h_alpha(forward.tooth_force),
+        k_h_alpha=k_h_alpha(seen.tooth_force),
         line_load=seen.spread.line_load / _MILLIMETRES,
         **_pressures(model, seen),
         hertz_pressure_max=hertz_pressure(problem, sector_.wheel),
@@ -304,7 +304,7 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         error_noise=error.noise,
         error_noise_range=float(error.noise_range[-1]),
         error_noise_ranges=error.noise_range,
-        tooth_force=forward.tooth_force,
+        tooth_force=seen.tooth_force,
         part=np.array(list(parts)),
         part_stiffness=np.array(list(parts.values())),
         pattern_torque=load * np.array(PATTERNS),

@@ -3,8 +3,8 @@ r"""How the load lies on the flanks over a pitch: across the face, along the con
 :math:`K_{H\beta}` is the largest force by width over the mean one, of the normal forces of all
 teeth and phases by their place across the face, in strips of a twentieth of it.
 :math:`K_{H\alpha}` is the largest force on a tooth over what it would be if the mean number of
-teeth that bear shared evenly. Both are factors as of ISO 6336-1, of the contact as it is and not of
-an estimate.
+teeth that bear shared evenly. All forces are those of the patches. Both are factors as of
+ISO 6336-1, of the contact as it is and not of an estimate.
 """
 
 from __future__ import annotations
@@ -74,5 +74,10 @@ def k_h_alpha(tooth_force: FloatArray) -> float:
     tooth_force : ndarray, shape (p, K)
         Normal forces by phase and tooth, N.
     """
-    share = tooth_force / tooth_force.sum(axis=1, keepdims=True)
+    share = shares(tooth_force)
     return float(share.max() * (share > LOADED).sum(axis=1).mean())
+
+
+def shares(tooth_force: FloatArray) -> FloatArray:
+    """Return the share of each tooth in the normal force of its phase; forces as above."""
+    return np.asarray(tooth_force / tooth_force.sum(axis=1, keepdims=True))

@@ -27,7 +27,6 @@ class PitchSweep:
     deflection: FloatArray  #: (p,): By which the load turns the wheel back, rad
     worm_torque: FloatArray  #: (p,): N m
     wrench: FloatArray  #: (p, 6): On the wheel about its centre, N and N m
-    tooth_force: FloatArray  #: (p, K): Normal force by tooth, from the one that enters, N
     residual: float  #: Largest
 
     @property
@@ -121,20 +120,7 @@ def sweep(
                 deflection=free_angles - np.array([b.wheel_angle for b in balances]),
                 worm_torque=np.array([b.worm_torque for b in balances]),
                 wrench=np.array([b.action.wrench for b in balances]),
-                tooth_force=_in_one_row(
-                    [b.action.teeth for b in balances], [b.action.normal for b in balances]
-                ),
                 residual=max(b.residual for b in balances),
             )
         )
     return sweeps
-
-
-def _in_one_row(numbers: list[tuple[int, ...]], forces: list[FloatArray]) -> FloatArray:
-    """Forces by tooth with each tooth in a column of its own over the whole pitch."""
-    first = min(n[0] for n in numbers)
-    last = max(n[-1] for n in numbers)
-    rows = np.zeros((len(numbers), last - first + 1))
-    for row, own, values in zip(rows, numbers, forces, strict=True):
-        row[own[0] - first : own[-1] - first + 1] = values
-    return rows

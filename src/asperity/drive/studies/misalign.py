@@ -128,8 +128,11 @@ def _notes(places: Sequence[StudyPoint]) -> Iterator[str]:
     """Yield what should be known of the points; where it is not true of all, with those it is."""
     of: dict[str, list[str]] = {}
     solved = [(p.name, p.problem) for p in places if not isinstance(p.problem, str)]
+    headline = solved[0][1].drive.phases
     for name, problem in solved:
-        for note in (*few_phases(problem), *rigid_parts(problem), *_housing(problem)):
+        # Of the case itself the headline says it.
+        few = () if problem.drive.phases == headline else few_phases(problem)
+        for note in (*few, *rigid_parts(problem), *_housing(problem)):
             of.setdefault(note, []).append(name)
     for note, names in of.items():
         if len(names) == len(solved):

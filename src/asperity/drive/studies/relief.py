@@ -90,13 +90,13 @@ def prepare(
         ]
     else:
         stands = list(_of_case(case, problem))
-    count = len(stands) * sum(len(axis.values) for axis in axes)
+    further = () if over else tuple(parse_axes([_FURTHER], case))
+    count = len(stands) * sum(len(axis.values) for axis in (*axes, *further))
     if count > _MOST:
         raise InputError(
             f"{len(stands)} loads and mountings of {count // len(stands)} designs are more than "
             f"{_MOST} points: take fewer values"
         )
-    further = () if over else tuple(parse_axes([_FURTHER], case))
     found = Search(case, axes, tuple(stands), further=further)
     for axis in axes:
         for n in range(len(axis.values)):

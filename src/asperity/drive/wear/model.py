@@ -23,7 +23,7 @@ from asperity.drive.resolved.contact import ResolvedContact
 from asperity.drive.resolved.flank import ExactFlank, grid_faces
 from asperity.drive.resolved.strip import ZONES
 from asperity.drive.static.equilibrium import Balance, Equilibrium
-from asperity.drive.static.recorder import resolved
+from asperity.drive.static.pressure import resolved
 from asperity.drive.static.solve import StaticModel
 from asperity.drive.static.sweep import touching_angles
 from asperity.drive.teeth.contact import TeethContact
@@ -56,7 +56,10 @@ def worn_model(new: StaticModel, depth: FloatArray, phases: FloatArray) -> Stati
     made.phases = phases
     made.touching = touching_angles(made.contact, phases)
     flank = dataclasses.replace(flank, sector=sector)
-    made.__dict__["resolved"] = ResolvedContact(flank, new.resolved.modulus, new.resolved.cap)
+    owner = new.resolved
+    made.__dict__["resolved"] = ResolvedContact(
+        flank, owner.modulus, owner.cap, rigid_share=owner.rigid_share
+    )
     return made
 
 

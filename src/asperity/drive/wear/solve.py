@@ -20,7 +20,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces
 from asperity.drive.resolved.strip import FLANK
 from asperity.drive.static.loaded import loaded_of
-from asperity.drive.static.notes import cold, few_phases, rigid_parts
+from asperity.drive.static.notes import cold, rigid_parts
 from asperity.drive.static.solve import StaticModel, TooMuchError
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.wear.model import Taken, node_area, worn_model
@@ -203,7 +203,6 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             *ended,
             "all teeth wear alike, the worm does not; pressures of the course are those of the "
             "first strips of patches",
-            *few_phases(problem),
             *_to_and_fro(columns, problem.drive.phases),
             *cold(problem),
             *rigid_parts(problem),
@@ -234,7 +233,7 @@ def _to_and_fro(columns: Mapping[str, FloatArray], phases: int) -> tuple[str, ..
     if not swings:
         return ()
     return (
-        f"from step to step {' and '.join(swings)} of its mean goes to and fro: each step has "
+        f"from step to step {' and '.join(swings)} of the mean go to and fro: each step has "
         f"other phases of the pitch, of which {phases} do not tell the whole; that is no wear, and "
         "more phases (drive.phases) make it even",
     )

@@ -159,14 +159,17 @@ def set_backlash(meshes: dict[int, Transmission], backlash: float) -> dict[int, 
             most = normal * (worm.reduced_lead * turn + 2.0 * (widest - worm.half_space))
             # What there is beyond is less than this where both flanks do not touch alike.
             room = math.floor(90.0 * most) / 100.0
-            advice = (
-                f"take one of at most about {room:g} mm"
-                if 0.0 < room < backlash
-                else "none is possible as the worm is mounted and modified: look at mount and "
-                "modification"
-            )
-            if worm.tip_relief:
-                advice += ", or less modification.tip_relief"
+            if 0.0 < room < backlash:
+                advice = f"take one of at most about {room:g} mm"
+                if worm.tip_relief:
+                    advice += ", or less modification.tip_relief"
+            else:
+                advice = (
+                    "none is possible as the worm is mounted and modified: look at mount and "
+                    "modification"
+                )
+                if worm.tip_relief:
+                    advice += ".tip_relief"
             raise InputError(
                 f"mount.backlash is {backlash:g} mm; the worm's threads would be pointed: {advice}"
             )
