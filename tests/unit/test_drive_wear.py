@@ -57,16 +57,54 @@ def test_a_place_gives_all_it_loses_to_the_points_about_it():
         np.testing.assert_allclose(sum(w * own[nodes] for nodes, w in found), at, atol=1e-12)
 
 
+def radius_at(made, share, z):
+    start, stop = made.sector.wheel.flank(1).limits(1e3 * z)[:2]
+    return 1e-3 * (start + share * (stop - start))
+
+
 def test_a_depth_is_read_where_it_was_worn_and_smooth_between():
     made = flank()
-    _, _, share, z = made.grid
-    depth = 1e-6 * (1.0 + share**2 + 0.1 * (1e3 * z) ** 2)
-    worn = ExactFlank(made.sector, made.smooth, depth)
+    points, _, _, z = made.grid
+
+    def smooth(radius, z):
+        return 1e-6 * (1.0 + (1e3 * radius - 60.0) ** 2 + 0.1 * (1e3 * z) ** 2)
+
+    worn = ExactFlank(made.sector, made.smooth, smooth(np.hypot(*points.T[:2]), z))
     rng = np.random.default_rng(4)
     at, place = rng.uniform(0.1, 0.9, 50), rng.uniform(0.9 * z.min(), 0.9 * z.max(), 50)
-    expected = 1e-6 * (1.0 + at**2 + 0.1 * (1e3 * place) ** 2)
-    np.testing.assert_allclose(worn.depth_at(at, place), expected, rtol=1e-9)
+    expected = smooth(radius_at(made, at, place), place)
+    np.testing.assert_allclose(worn.depth_at(at, place), expected, rtol=2e-3)
     np.testing.assert_allclose(made.depth_at(at, place), 0.0)
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_depth_that_is_smooth_on_the_flank_is_read_without_a_ridge_where_the_throat_ends(side):
+    made = flank()
+    blank = made.sector.wheel.blank
+    points, _, _, _ = made.grid
+
+    def smooth(radius, z):
+        # 20 um/mm outwards, as a tip edge wears, and somewhat along the face.
+        return 20e-3 * (radius - 0.06) + 1e-6 * np.sin(300.0 * z)
+
+    worn = ExactFlank(made.sector, made.smooth, smooth(np.hypot(*points.T[:2]), points[:, 2]))
+    kink = side * 1e-3 * blank.kink
+    share, z = np.meshgrid(np.linspace(0.3, 0.99, 24), kink + np.linspace(-6e-4, 6e-4, 25))
+    share, z = share.ravel(), z.ravel()
+    off = worn.depth_at(share, z) - smooth(radius_at(made, share, z), z)
+    # A ridge of 0.2 um bore 100 MPa and more.
+    assert np.abs(off).max() < 0.02e-6
+
+
+def test_no_depth_however_rough_is_read_with_a_kink_on_the_flank():
+    made = flank()
+    rough = 1e-6 * np.random.default_rng(5).random(made.nodes)
+    worn = ExactFlank(made.sector, made.smooth, rough)
+    kink, step, points = 1e-3 * made.sector.wheel.blank.kink, 1e-7, np.zeros((3, 3))
+    points[:, 0] = 1e-3 * made.sector.wheel.blank.outside_radius - 2e-4
+    points[:, 2] = kink + step * np.arange(-1, 2)
+    before, at, after = worn.depth_at(made.share_at(points), points[:, 2])
+    assert abs(after - 2.0 * at + before) < 0.01 * abs(after - before)
 
 
 @pytest.mark.parametrize(
