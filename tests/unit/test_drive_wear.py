@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.interpolate import CubicSpline
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -254,15 +255,56 @@ def test_it_ends_after_so_many_turns():
     assert found.efficiency == pytest.approx(found.efficiency_new, rel=0.02)
 
 
+FOUR = "drive.phases=4", "modification.tip_relief=30 um"
+OWN_HOB = "hob.oversize=1", "hob.tilt=0 deg"
+
+
+def to_the_shape_of(other, own):
+    """Depth that has to come off one wheel's flank, a tooth turned, until it is another's."""
+    (radius, angle), (radii, angles) = (
+        (np.hypot(x, y).reshape(41, 61), np.arctan2(-x, y).reshape(41, 61))
+        for x, y, _ in (each.grid[0].T for each in (own, other))
+    )
+    further = [
+        angle[:, j] - CubicSpline(radii[:, j], angles[:, j])(radius[:, j]) for j in range(61)
+    ]
+    points, out, _, _ = own.grid
+    depth = np.transpose(further).ravel() * (points[:, 0] * out[:, 1] - points[:, 1] * out[:, 0])
+    return depth - depth.min()
+
+
+def mean_pressure(model):
+    taken = Taken(model.resolved, 1.0)
+    model.sweeps([LoadCase(model.problem.load, evaluate=taken.evaluate)])
+    return taken.force / taken.area
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("torque", "left"), [(366.0, 0.55), (14.0, 0.32)])
+def test_a_wheel_of_an_oversized_hob_ends_at_the_shape_and_pressure_of_the_worm_s_own(torque, left):
+    """The bound, whatever the way there: at a small load it is below a third of the first."""
+
+    def wheel(*settings):
+        given = (*FOUR, f"operation.output_torque={torque} N m", *settings)
+        read = read_case("drive-screw", case_tables(), given)
+        return StaticModel(DriveProblem.from_case(read, shaken=False), Run())
+
+    new, own = wheel(), wheel(*OWN_HOB)
+    depth = to_the_shape_of(own.resolved.flank, new.resolved.flank)
+    ends_at = mean_pressure(worn_model(new, depth, new.phases))
+    assert ends_at == pytest.approx(mean_pressure(own), rel=0.015)
+    assert ends_at / mean_pressure(new) == pytest.approx(left, abs=0.01)
+
+
 @pytest.mark.slow
 @pytest.mark.campaign(tried_by="test_a_wheel_beds_in_and_goes_on_to_the_bit_from_where_it_was_left")
 def test_a_wheel_of_an_oversized_hob_beds_in_to_bear_as_one_of_the_worm_s_own_size():
-    """Where it ends is known beforehand: the worm has worn the wheel to its own shape."""
-    small = "drive.phases=4", "modification.tip_relief=30 um"
-    own = read_case("drive-screw", case_tables(), (*small, "hob.oversize=1", "hob.tilt=0 deg"))
-    ends_at = solve.answer(solve.prepare(own, revolutions="1e-3"), Run()).pressure_mean_new
+    """That of the worm's size beds in too, at its edges and ends."""
+    own = read_case("drive-screw", case_tables(), (*FOUR, *OWN_HOB))
+    bedded = solve.answer(solve.prepare(own, depth="7 um"), Run())
+    assert bedded.pressure_mean < bedded.pressure_mean_new
     worn = solve.answer(
-        solve.prepare(read_case("drive-screw", case_tables(), small), depth="100 um"), Run()
+        solve.prepare(read_case("drive-screw", case_tables(), FOUR), depth="100 um"), Run()
     )
-    assert worn.pressure_mean_new > 1.7 * ends_at
-    assert worn.pressure_mean == pytest.approx(ends_at, rel=0.1)
+    assert worn.pressure_mean_new > 1.7 * bedded.pressure_mean_new
+    assert worn.pressure_mean == pytest.approx(bedded.pressure_mean, rel=0.1)
