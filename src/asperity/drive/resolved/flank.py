@@ -22,7 +22,7 @@ from asperity.flanks.wheel.flank import FlankGrid
 from asperity.gearset.materials import Material
 
 if TYPE_CHECKING:
-    from scipy.interpolate import RectBivariateSpline
+    from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 _MILLIMETRES = 1e3
 _ROWS, _COLUMNS = 41, 61
@@ -166,12 +166,42 @@ class ExactFlank:
         # Smooth: a kink in the gap would bear.
         return RectBivariateSpline(*rows, self.worn.reshape(_ROWS, -1))
 
+    @cached_property
+    def _bends(self) -> list[tuple[float, float, CubicSpline, CubicSpline]]:
+        """Where rows of equal share have a kink: place, slope, depth by share, and its shape.
+
+        The tip's radius has a slope on the throat and none beside it, so that at an equal share
+        the slope of a depth that is smooth on the flank jumps. The spline through |z - place|/2
+        has no jump: what it lacks is the shape.
+        """
+        from scipy.interpolate import CubicSpline
+
+        blank = self.sector.wheel.blank
+        if self.worn is None or blank.kink is None:
+            return []
+        shares = self.grid[2].reshape(_ROWS, -1)[:, 0]
+        z, depth = self.grid[3][:_COLUMNS], self.worn.reshape(_ROWS, -1)
+        found = []
+        for kink in (-blank.kink, blank.kink):
+            place = kink / _MILLIMETRES
+            column = int(np.argmin(np.abs(z - place)))
+            start = float(np.interp(place, *self._limits))
+            height = blank.outside_radius / _MILLIMETRES - start
+            turn = -blank.kink / (blank.centre_distance - blank.outside_radius) / height
+            slope = CubicSpline(shares, depth[:, column]).derivative()
+            found.append((place, turn, slope, CubicSpline(z, 0.5 * np.abs(z - place))))
+        return found
+
     def depth_at(self, share: FloatArray, z: FloatArray) -> FloatArray:
         """Return the depth worn off at places on the flank, m."""
         if self._worn_at is None:
             return np.zeros(len(share))
-        half = self.half_face
-        return np.asarray(self._worn_at.ev(np.clip(share, 0.0, 1.0), np.clip(z, -half, half)))
+        share, z = np.clip(share, 0.0, 1.0), np.clip(z, -self.half_face, self.half_face)
+        depth = np.asarray(self._worn_at.ev(share, z))
+        # So much that the slope at an equal radius does not jump, whatever has worn.
+        for place, turn, slope, even in self._bends:
+            depth += turn * share * slope(share) * (0.5 * np.abs(z - place) - even(z))
+        return depth
 
     def heights(
         self, origin: FloatArray, axes: FloatArray, x: FloatArray, y: FloatArray
