@@ -1,7 +1,7 @@
 """The tests nearest to a line: those that call the function it stands in, and little else.
 
 Of those the first are of files that import the function by its name: they look at what it returns.
-Dear ones come behind cheap ones, so that no line's time is up before what would have noticed it ran.
+Dear ones come behind cheap ones, so that time is not up before what would have noticed it ran.
 
 ``python tests/mutants/near.py`` runs the ordinary tests, notes which functions of the package each
 calls (``reach.py``) and writes ``near.json.gz``; with files or names of tests it runs those, and
