@@ -11,9 +11,10 @@ from apparatus.rig_signals import RATIOS, Imperfections, run_of, stream
 from asperity.casefile import read_case
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
+from asperity.tribometer.reduction import levels
 from asperity.tribometer.reduction.combined_uncertainty import estimate_jointly
 from asperity.tribometer.reduction.following import Following
-from asperity.tribometer.reduction.levels import _Fit, estimate_levels
+from asperity.tribometer.reduction.levels import _Fit, estimate_levels, unexpected
 from asperity.tribometer.tables import TABLES
 from asperity.tribometer.uncertainty import Cause
 
@@ -353,3 +354,12 @@ def test_the_variance_that_is_found_is_that_of_the_greatest_likelihood():
     for apart in (-0.05, 0.05):
         beside = np.array([-8.0, 0.0, 0.0, math.log(found[-1]) + apart])
         assert fit.solve(columns, beside)[0] > least
+
+
+@pytest.mark.parametrize("away", [-2.0, -0.5, 0.0, 1.0, 3.0])
+def test_noise_is_as_unexpected_as_two_independent_normal_deviates_are(away):
+    # Of the logarithms of its memory and of its size, in their standard deviations.
+    memory = levels._USUAL_MEMORY * math.exp(away * levels._MEMORY_SPREAD)
+    for larger in (-1.5, 0.0, 0.7):
+        size = larger * levels._SIZE_SPREAD
+        assert unexpected(memory, size) == pytest.approx(away**2 + larger**2, abs=1e-12)
