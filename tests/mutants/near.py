@@ -1,6 +1,7 @@
 """The tests nearest to a line: those that call the function it stands in, and little else.
 
 Of those the first are of files that import the function by its name: they look at what it returns.
+Dear ones come behind cheap ones, so that time is not up before what would have noticed it ran.
 
 ``python tests/mutants/near.py`` runs the ordinary tests, notes which functions of the package each
 calls (``reach.py``) and writes ``near.json.gz``; with files or names of tests it runs those, and
@@ -18,6 +19,7 @@ import functools
 import gzip
 import hashlib
 import json
+import math
 import os
 import re
 import subprocess
@@ -56,6 +58,9 @@ _RECORDED = 6
 _DEAREST = 20.0  # s, of one test
 _MOST, _LONGEST = 100, 20.0  # tests, and s of all
 _FEW, _FALLBACK_FILES = 5, 4
+# s: up to which tests stand by how near they are alone, and at least of a whole file, whose slow
+# tests nobody timed.
+_CHEAP, _OF_FILES = 0.5, 10.0
 
 
 def nearest(mutant) -> list[str]:
@@ -84,7 +89,22 @@ def nearest(mutant) -> list[str]:
     if not _is_called(mutant):
         # A table or a default; what an answer says of it comes first.
         chosen.append(TABLES)
-    return list(dict.fromkeys(chosen))
+    return sorted(dict.fromkeys(chosen), key=_dearness)
+
+
+def _dearness(test):
+    """How often the time of cheap tests doubles in that of a test, or of all of a file."""
+    seconds = _seconds()[test] if "::" in test else max(_seconds()[test], _OF_FILES)
+    return math.ceil(math.log2(max(seconds / _CHEAP, 1.0)))
+
+
+@functools.cache
+def _seconds():
+    """Seconds of each test, and of those of each file, as they were noted."""
+    found = Counter()
+    for test, seconds in zip(_kept()["tests"], _kept().get("seconds", ()), strict=False):
+        found.update({test: seconds, test.partition("::")[0]: seconds})
+    return found
 
 
 def _is_called(mutant):

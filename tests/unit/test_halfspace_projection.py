@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from asperity.contact.halfspace import conjugate_gradients
 from asperity.contact.halfspace.conjugate_gradients import _by_projection, bear
 from asperity.contact.halfspace.influence import HalfSpace
 
@@ -42,3 +43,18 @@ def test_what_nearly_all_is_at_its_cap_bears_the_load():
     assert np.abs(found.gap[free]).max() < 1e-4 * size
     assert (found.gap[found.force <= 0.0] > -1e-4 * size).all()
     assert (found.gap[found.force >= most] < 1e-4 * size).all()
+
+
+def test_iterations_of_both_ways_are_counted_as_often_as_patches_sink_in_them():
+    gap, deflection, arm, most = contact(np.inf)
+    sunk = []
+
+    def counted(force):
+        sunk.append(force)
+        return deflection(force)
+
+    found = _by_projection(gap, counted, arm, 20.0, most, np.full_like(gap, 20.0 / arm.sum()), 1e-5)
+    # Once and in every power before, once an iteration and at every look.
+    before, looks = 1 + conjugate_gradients._POWERS, conjugate_gradients._LOOKS
+    iterations = (len(sunk) - before) * looks / (looks + 1)
+    assert found.iterations == conjugate_gradients._MOST + iterations

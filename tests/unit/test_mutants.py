@@ -131,3 +131,15 @@ def test_a_copy_that_is_not_broken_passes_and_one_that_is_fails(tmp_path):
     assert (copy.package / mutant.module).read_text("utf-8") == whole
     assert copy.fails(tests) == ""
     copy.close()
+
+
+def test_dear_tests_of_a_line_come_behind_cheap_ones_and_whole_files_behind_both(monkeypatch):
+    seconds = {"f.py::near": 0.3, "f.py::dear": 9.0, "f.py::far": 0.01, "f.py::dearest": 30.0}
+    tests = ["f.py", "f.py::dearest", "f.py::dear", "f.py::near", "f.py::far", "untimed.py"]
+    kept = {"tests": list(seconds), "seconds": list(seconds.values()), "near": {"m.py:f": []}}
+    monkeypatch.setattr(near, "_kept", lambda: kept)
+    near._seconds.cache_clear()
+    ordered = sorted(tests, key=near._dearness)
+    near._seconds.cache_clear()
+    assert ordered[:2] == ["f.py::near", "f.py::far"]
+    assert ordered[2:] == ["f.py::dear", "untimed.py", "f.py::dearest", "f.py"]

@@ -172,3 +172,17 @@ def test_a_share_that_is_none_is_refused(key):
     for value in ("1", "-0.1", "nan", "1 V"):
         with pytest.raises(InputError, match=key):
             CASE.replace([f"twin.{key}={value}"])
+
+
+@pytest.mark.parametrize("shorter", [0, 1])
+def test_what_a_pulse_is_worth_goes_by_the_shorter_of_both_windows(monkeypatch, shorter):
+    # Windows of 5 s and 23 s, 2 s and 20 s of which the speed has settled; nothing else is unsure.
+    rig, sure = Rig(), {"speed_steel": [40.0, 0.0, 40.0, 0.0], "current_steel": [0.5, 0.0] * 2}
+    counts = (250, 1150) if shorter == 0 else (1150, 250)
+    rig.windows = [(0, *(_Window(count, 0, n) for n, count in enumerate(counts)))]
+    monkeypatch.setattr(level, "levels_of", lambda of, name: np.array([sure[name]]))
+    exact = TWIN.model_copy(update={"supply_tolerance": 0.0, "motor_tolerance": 0.0})
+    pulse = 2.0 * np.pi / PAIR.drives.encoder_pulses / 2.0
+    for change, is_told in ((1.9, False), (2.1, True)):
+        sure["speed_steel"][2] = 40.0 + change * pulse
+        assert bool(list(level._runs(rig, exact))) is is_told

@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from asperity.tribometer.reduction.heard import motors
@@ -43,3 +44,22 @@ def test_exchanged_speeds_fit_on_the_other_s_channel_whatever_its_gain(monkeypat
         f"with their currents and [twin] they are {shown[0]:.3g} V of 4 V and {shown[1]:.3g} V "
         "of 1.5 V, on each other's channel 4 V and 1.5 V"
     )
+
+
+def test_an_answer_on_the_bronze_disc_s_channel_is_shown_where_it_is_and_in_its_volts(monkeypatch):
+    # Vibration takes 0.4 and 0.2 N m off; the current that should follow hardly does.
+    levels = {
+        "torque_steel": [[1.0, 1e-3, 0.6, 1e-3], [1.0, 1e-3, 0.8, 1e-3]],
+        "current_steel": [[0.5, 1e-4, 0.5, 1e-4], [0.5, 1e-4, 0.5, 1e-4]],
+        "current_bronze": [[0.25, 1e-4, 0.20, 1e-4], [0.25, 1e-4, 0.22, 1e-4]],
+    }
+    monkeypatch.setattr(motors, "levels_of", lambda of, name: np.array(levels[name]))
+    lines = {"current_steel": SimpleNamespace(gain=-2.0), "current_bronze": SimpleNamespace(gain=4)}
+    of = SimpleNamespace(
+        has=lambda *_: True, curve=lambda name: name, blocks=SimpleNamespace(lines=lines)
+    )
+    (found,) = motors._exchanged(of, "current")
+    # (0.4 * 0.05 + 0.2 * 0.03) / (0.4 + 0.2) A at 4 A/V.
+    assert found.evidence.startswith("current_bronze answers the vibration by 11 mV, current_steel")
+    assert found.signals == ("current_steel", "current_bronze")
+    assert found.curve == "current_bronze"

@@ -11,9 +11,10 @@ from apparatus.rig_signals import RATIOS, Imperfections, run_of, stream
 from asperity.casefile import read_case
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
+from asperity.tribometer.reduction import levels
 from asperity.tribometer.reduction.combined_uncertainty import estimate_jointly
 from asperity.tribometer.reduction.following import Following
-from asperity.tribometer.reduction.levels import estimate_levels
+from asperity.tribometer.reduction.levels import _Fit, estimate_levels, unexpected
 from asperity.tribometer.tables import TABLES
 from asperity.tribometer.uncertainty import Cause
 
@@ -332,3 +333,33 @@ def test_noise_of_the_torque_s_sensor_moves_no_speed():
     assert deviations[1] == pytest.approx(deviations[0], rel=1e-9)
     leaning = 5.0 / np.abs(torque.values).max() * math.sqrt(torque.sensed[1])
     assert leaning > 0.1 * deviations[0]
+
+
+def test_the_variance_that_is_found_is_that_of_the_greatest_likelihood():
+    # Run-out of 3 % is known to a quarter of itself, so that its weight hangs on the noise.
+    rng, size = np.random.default_rng(7), 400
+    times, window = 0.1 * np.arange(size), np.repeat([0, 1], size // 2)
+    shared = np.column_stack((np.cos(times), np.sin(times)))
+    noise = 0.01 * rng.standard_normal(size)
+    signal = (1.0 - 0.3 * window) * (1.0 + shared @ [0.03, -0.02]) + noise
+    fit = _Fit(
+        times, signal, window, shared, np.array([False, True]), np.array([0.0, 0.0, 900.0, 900.0]),
+        linear=False,
+    )  # fmt: skip
+    for _ in range(4):
+        columns = fit.columns()
+        least, found, _ = fit.solve(columns, np.array([-8.0, 0.0, 0.0, math.nan]))
+        fit.levels, fit.shape = found[:2], found[2:-1]
+    assert found[-1] == pytest.approx(np.var(noise), rel=0.1)
+    for apart in (-0.05, 0.05):
+        beside = np.array([-8.0, 0.0, 0.0, math.log(found[-1]) + apart])
+        assert fit.solve(columns, beside)[0] > least
+
+
+@pytest.mark.parametrize("away", [-2.0, -0.5, 0.0, 1.0, 3.0])
+def test_noise_is_as_unexpected_as_two_independent_normal_deviates_are(away):
+    # Of the logarithms of its memory and of its size, in their standard deviations.
+    memory = levels._USUAL_MEMORY * math.exp(away * levels._MEMORY_SPREAD)
+    for larger in (-1.5, 0.0, 0.7):
+        size = larger * levels._SIZE_SPREAD
+        assert unexpected(memory, size) == pytest.approx(away**2 + larger**2, abs=1e-12)
