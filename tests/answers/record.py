@@ -13,11 +13,12 @@ import tempfile
 import time
 from pathlib import Path
 
-from observe import HERE, command_lines, observe
-
-# As the tests' workers have it: an active set may follow the last digits of a sum.
+# As the tests' workers have it: an active set may follow the last digits of a sum. Before numpy,
+# which reads it as it is loaded.
 for _library in ("OMP", "OPENBLAS", "MKL"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
+
+from observe import HERE, command_lines, observe  # noqa: E402
 
 
 def records(command):

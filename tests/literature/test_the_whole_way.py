@@ -59,7 +59,11 @@ def goes_the_whole_way(case):
     assert moved.shift_face[1] * moved.shift_face[2] < 0.0
 
     relief = answered("relief", case, over=["modification.tip_relief=0,20 um"])
-    assert relief.edge_force_after <= 1.01 * relief.edge_force_before
+    assert relief.value[:, 0].tolist() == [0.0, 20.0]
+    # The worm's tip is out of the way by so much, and bears less; the wheel's tip bears for it.
+    assert relief.worm_tip[1] < 0.7 * relief.worm_tip[0]
+    assert relief.wheel_tip[1] > relief.wheel_tip[0]
+    assert relief.best == "modification.tip_relief=20 um"
 
 
 @pytest.mark.slow
