@@ -28,14 +28,19 @@ def notes_of(
     """Return the notes of a loaded gearset; ``noise`` is the mesh's part of the error, rad."""
     return (
         *rigid_parts(problem),
-        *cold(problem),
+        *warmth(problem),
         *_pressures(problem, record),
         *_error(problem, forward, noise),
     )
 
 
-def cold(problem: DriveProblem) -> Iterator[str]:
-    """Yield that the gearset is cold here, where the case says how warm it runs."""
+def warmth(problem: DriveProblem) -> Iterator[str]:
+    """Yield whether the gearset is warm or cold here, where the case says how warm it runs."""
+    if (warmed := problem.warmed) is not None:
+        yield (
+            f"warm (drive.warm): tolerances.temperatures added {warmed.told} to what [mount] and "
+            "[modification] say"
+        )
     if (warmer := problem.warmer) is not None:
         yield (
             f"cold: tolerances.temperatures add {warmer.told} to what [mount] and [modification] "

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.notes import cold, read_with_care
+from asperity.drive.static.notes import read_with_care, warmth
 from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -144,7 +144,7 @@ class Relieved(OfDrive):
             notes=(
                 "each design at the worst of: " + "; ".join(stands),
                 *(f"{each.name}: {each.failed}" for each in designs if each.failed),
-                *_of_wheel_tip(last, axes), *cold(problem),
+                *_of_wheel_tip(last, axes), *warmth(problem),
             ),
             **{
                 key: np.array([getattr(each, key) for each in designs])
