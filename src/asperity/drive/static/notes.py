@@ -17,9 +17,18 @@ _NOISE = 3.0
 _FEW = 8
 _EDGES = {
     WORM_TIP: ("the worm's tip edge", "modification.tip_relief takes it off"),
-    WHEEL_TIP: ("the wheel's tip edge", "it is sharp here; modification.root_relief takes it off"),
+    WHEEL_TIP: (
+        "the wheel's tip edge",
+        "it is sharp here; modification.root_relief takes load off it",
+    ),
     FACE_END: ("an end of the wheel's face", "a hob of some oversize or tilt moves it inwards"),
 }
+
+_LEFT = (
+    "modification.root_relief leaves this, begun as far out as modification.root_relief_start "
+    "says; near its beginning, where teeth end on the wheel's outside cylinder, it takes little "
+    "off, however much it is"
+)
 
 
 def notes_of(
@@ -108,7 +117,10 @@ def _pressures(problem: DriveProblem, record: PhaseRecord) -> Iterator[str]:
     whole = forces.sum(axis=1)
     wheel = problem.gearset.wheel_material
     cap = problem.flow_pressure
+    relieved = problem.modification is not None and problem.modification.root_relief > 0.0
     for zone, (edge, mend) in _EDGES.items():
+        if zone == WHEEL_TIP and relieved:
+            mend = _LEFT
         bearing = forces[:, zone] > _BEARS * whole
         if not bearing.any():
             continue
