@@ -99,7 +99,7 @@ def test_what_root_relief_leaves_of_the_wheel_s_edge_is_no_reason_to_give_it():
         return line
 
     sharp = problem()
-    assert "modification.root_relief takes load off it" in of(sharp)
+    assert "modification.root_relief relieves it" in of(sharp)
     relief = Modification(root_relief="80 um")
     assert "modification.root_relief leaves this" in of(
         dataclasses.replace(sharp, modification=relief)

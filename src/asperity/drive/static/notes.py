@@ -23,7 +23,7 @@ _EDGES = {
     WORM_TIP: ("the worm's tip edge", "modification.tip_relief takes it off"),
     WHEEL_TIP: (
         "the wheel's tip edge",
-        "it is sharp here; modification.root_relief takes load off it",
+        "it is sharp here; modification.root_relief relieves it",
     ),
     FACE_END: ("an end of the wheel's face", "a hob of some oversize or tilt moves it inwards"),
 }
