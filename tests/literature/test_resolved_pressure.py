@@ -274,10 +274,13 @@ def test_root_relief_takes_the_wheel_s_edge_away_and_not_the_worm_s():
 
     wheel, worm = forces()
     some, _ = forces("modification.root_relief=40 um")
+    late, _ = forces("modification.root_relief=40 um", "modification.root_relief_start=0.5")
     none, still = forces("modification.root_relief=80 um", "modification.root_relief_start=0.1")
     bears = wheel > 10.0
     assert bears.any()
     assert (some[bears] < wheel[bears]).all()
+    # Begun where the tips reach to it takes off more than half-way down the dedendum.
+    assert some.sum() < late.sum()
     assert none.sum() < 0.1 * wheel.sum()
     # The worm's tip edge is not relieved by it, and bears what the rest of the flank lacks.
     assert (still > worm).all()

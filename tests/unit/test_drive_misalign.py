@@ -10,7 +10,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.static.loaded import Loaded, loaded
-from asperity.drive.static.notes import cold
+from asperity.drive.static.notes import warmth
 from asperity.drive.static.spread import STRIPS, Spread, k_h_alpha
 from asperity.drive.studies import misalign, points
 from asperity.drive.studies.misalign_plots import over_axes
@@ -280,7 +280,7 @@ def test_a_warm_gearset_is_a_point_of_its_own(cached):
 def test_what_is_said_of_a_cold_gearset_makes_it_warm():
     made = study(*WARM, "mount.centre_distance_error=10 um", over=["mount.axial_offset=0,20 um"])
     cold_one, warm_one = made.places[0].problem, made.places[1].problem
-    (said,) = cold(cold_one)
+    (said,) = warmth(cold_one)
     assert said.startswith("cold: tolerances.temperatures add centre distance -")
     assert "drive.warm = true" in said
     again = misalign.prepare(
@@ -294,9 +294,13 @@ def test_what_is_said_of_a_cold_gearset_makes_it_warm():
     off = again.places[-1].problem.mount
     assert off.axial_offset == pytest.approx(20e-6)
     assert off.centre_distance_error == set_so.mount.centre_distance_error
-    assert not list(cold(set_so))
+    # Warm, it says so, and by what, as it did cold.
+    (done,) = warmth(set_so)
+    added = said.split(" add ")[1].split(" to what")[0]
+    assert done.startswith(f"warm (drive.warm): tolerances.temperatures added {added} to what")
+    assert list(warmth(again.places[-1].problem)) == [done]
     # Without temperatures nothing is said, and nothing can be warm.
-    assert not list(cold(study(over=["mount.axial_offset=0,20 um"]).places[0].problem))
+    assert not list(warmth(study(over=["mount.axial_offset=0,20 um"]).places[0].problem))
     with pytest.raises(InputError, match=r"drive\.warm is true, and no temperatures are known"):
         study("drive.warm=true", over=["mount.axial_offset=0,20 um"])
 

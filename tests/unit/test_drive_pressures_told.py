@@ -1,5 +1,6 @@
 """What is told of resolved pressures: which peaks are not resolved, and none above its limit."""
 
+import dataclasses
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +11,8 @@ from asperity.drive.resolved.contact import ResolvedContact, _Teeth
 from asperity.drive.resolved.pressures import CLOSE, Change
 from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP, ZONES
 from asperity.drive.static import notes
+from asperity.drive.static.spread import STRIPS, told_k_h_beta
+from asperity.flanks.parameters import Modification
 
 
 def told(changes):
@@ -68,3 +71,36 @@ def test_what_flows_bears_its_limit_and_not_a_digit_more():
     (found,) = _Teeth.pressures(teeth, [SimpleNamespace(area=area)], SimpleNamespace(force=force))
     assert found.pressure.max() == cap
     assert found.pressure.min() > (1.0 - 1e-12) * cap
+
+
+def test_a_force_in_one_strip_of_the_face_is_told_as_the_least_k_h_beta():
+    (said,) = notes.narrow(float(STRIPS))
+    assert said.startswith("K_Hbeta is 20 or more: all of the force lies within one of 20 strips")
+    assert not list(notes.narrow(0.9 * STRIPS))
+    assert [told_k_h_beta(20.0), told_k_h_beta(12.345)] == ["20 or more", "12.3"]
+
+
+def test_a_flank_that_flows_in_large_parts_says_so():
+    # An elastic line contact bears pi/4 of its largest pressure in the mean, a point 2/3.
+    assert not notes.flowing(0.78 * 981.0, 981.0)
+    assert not notes.flowing(861.0, None)
+    (said,) = notes.flowing(861.0, 981.0)
+    assert said.startswith("large parts of the flank flow: ")
+    assert "861 MPa, 88 % of the hardness" in said
+
+
+def test_what_root_relief_leaves_of_the_wheel_s_edge_is_no_reason_to_give_it():
+    record = SimpleNamespace(
+        peaks=[np.full(len(ZONES), 1e8)] * 12, forces=[np.full(len(ZONES), 100.0)] * 12, changes=[]
+    )
+
+    def of(drive):
+        (line,) = (e for e in notes._pressures(drive, record) if "the wheel's tip edge" in e)
+        return line
+
+    sharp = problem()
+    assert "modification.root_relief relieves it" in of(sharp)
+    relief = Modification(root_relief="80 um")
+    assert "modification.root_relief leaves this" in of(
+        dataclasses.replace(sharp, modification=relief)
+    )

@@ -216,6 +216,22 @@ def test_a_root_relief_takes_its_amount_off_the_root_and_nothing_above_its_start
     assert np.abs((ahead[1] - behind[1]) / (2.0 * h) - w2).max() < 1e-7
 
 
+def test_a_root_relief_begins_where_the_tips_reach_at_the_ends_of_the_face():
+    own = Geometry.of(starts=1, wheel_teeth=40, axial_module=4.0, diameter_factor=9.0)
+    made = Helicoid.worm(own, "ZI", Modification(root_relief="80 um"))
+    depth = own.centre_distance - own.wheel_outside_diameter / 2.0
+    reach = math.hypot(depth, own.wheel_face_width / 2.0)
+    assert made.root_relief_radius == pytest.approx(reach, rel=1e-12)
+    assert own.wheel_throat_radius < reach < made.pitch_radius
+    # A wheel so wide that its tips reach beyond the pitch radius: from there.
+    wide = Geometry.of(
+        starts=1, wheel_teeth=40, axial_module=4.0, diameter_factor=9.0, wheel_face_width=29.0
+    )
+    wider = Helicoid.worm(wide, "ZI", Modification(root_relief="80 um"))
+    assert wider.root_relief_radius <= wider.pitch_radius
+    assert wider.root_relief_radius >= made.root_relief_radius
+
+
 def test_a_root_relief_that_undercuts_the_thread_is_refused():
     with pytest.raises(InputError, match=r"root_relief undercuts .* take less, or begin it nearer"):
         Helicoid.worm(GEOMETRY, "ZI", Modification(root_relief="0.3 mm", root_relief_start=0.8))

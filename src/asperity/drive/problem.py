@@ -155,6 +155,14 @@ class DriveProblem:
         return Warmed.of(self.case, self.gearset, self.mount, self.modification)
 
     @property
+    def warmed(self) -> Warmed | None:
+        """How it stands warm, over how its case is cold; None where it is cold."""
+        if self.case is None or not self.drive.warm:
+            return None
+        case = self.case
+        return Warmed.of(case, self.gearset, case.get(Mount), case.get(Modification))
+
+    @property
     def folder(self) -> Path | None:
         """Where relative file names start."""
         return None if self.case is None else self.case.folder

@@ -140,10 +140,11 @@ class Modification(Table):
         third power of the distance from there, so that no edge arises.
     root_relief : float or str
         What is taken off at the root, normal to the flank, m ("10 um" in a file).
-    root_relief_start : float
-        Where that begins, as a fraction of the dedendum: 0 at the pitch radius, 0.5 if left out.
-        It begins and ends smoothly, with no step of slope or curvature; where the wheel's tip
-        reaches, most of it is there.
+    root_relief_start : float, optional
+        Where that begins, as a fraction of the dedendum: 0 at the pitch radius. Left out: as far
+        out as the wheel's tips reach at the ends of its face, 0.5 at most. It begins and ends
+        smoothly, with no step of slope or curvature: most of it is there where the wheel's throat
+        reaches in mid-face, little where teeth end on its outside cylinder.
     tip_rounding : str
         Rounding of the thread's tip: a number of axial modules or a length; 0.05 modules if left
         out.
@@ -157,9 +158,12 @@ class Modification(Table):
         float, Quantity("", what="a fraction of the addendum", example="0.5", ge=0.0, le=0.95)
     ] = 0.5
     root_relief: Annotated[float, _length("10 um", ge=0.0, le=1e-2)] = 0.0
-    root_relief_start: Annotated[
-        float, Quantity("", what="a fraction of the dedendum", example="0.5", ge=0.0, le=0.95)
-    ] = 0.5
+    root_relief_start: (
+        Annotated[
+            float, Quantity("", what="a fraction of the dedendum", example="0.1", ge=0.0, le=0.95)
+        ]
+        | None
+    ) = None
     tip_rounding: Size = "0.05"
 
 

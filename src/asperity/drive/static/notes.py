@@ -1,5 +1,6 @@
 """What a user of a loaded gearset's numbers should know of them, in lines."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy as np
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP
 from asperity.drive.static.recorder import PhaseRecord
+from asperity.drive.static.spread import STRIPS, told_k_h_beta
 from asperity.drive.static.sweep import PitchSweep
 
 _MEGA, _MICRO = 1e6, 1e6
@@ -15,11 +17,22 @@ _BEARS = 1e-3
 # Of the error under load, over what the mesh makes of it by itself.
 _NOISE = 3.0
 _FEW = 8
+# Mean over largest pressure of an elastic line contact (Hertz); of a point it is 2/3.
+_LINE = math.pi / 4.0
 _EDGES = {
     WORM_TIP: ("the worm's tip edge", "modification.tip_relief takes it off"),
-    WHEEL_TIP: ("the wheel's tip edge", "it is sharp here; modification.root_relief takes it off"),
+    WHEEL_TIP: (
+        "the wheel's tip edge",
+        "it is sharp here; modification.root_relief relieves it",
+    ),
     FACE_END: ("an end of the wheel's face", "a hob of some oversize or tilt moves it inwards"),
 }
+
+_LEFT = (
+    "modification.root_relief leaves this, begun as far out as modification.root_relief_start "
+    "says; near its beginning, where teeth end on the wheel's outside cylinder, it takes little "
+    "off, however much it is"
+)
 
 
 def notes_of(
@@ -28,14 +41,20 @@ def notes_of(
     """Return the notes of a loaded gearset; ``noise`` is the mesh's part of the error, rad."""
     return (
         *rigid_parts(problem),
-        *cold(problem),
+        *warmth(problem),
+        *narrow(record.spread.k_h_beta),
         *_pressures(problem, record),
         *_error(problem, forward, noise),
     )
 
 
-def cold(problem: DriveProblem) -> Iterator[str]:
-    """Yield that the gearset is cold here, where the case says how warm it runs."""
+def warmth(problem: DriveProblem) -> Iterator[str]:
+    """Yield whether the gearset is warm or cold here, where the case says how warm it runs."""
+    if (warmed := problem.warmed) is not None:
+        yield (
+            f"warm (drive.warm): tolerances.temperatures added {warmed.told} to what [mount] and "
+            "[modification] say"
+        )
     if (warmer := problem.warmer) is not None:
         yield (
             f"cold: tolerances.temperatures add {warmer.told} to what [mount] and [modification] "
@@ -63,6 +82,33 @@ def read_with_care(problem: DriveProblem) -> tuple[str, ...]:
     return (
         f"all of it by {what}: what lies between them is not seen, of peaks as of the error "
         f"(drive.phases, {_FEW} or more)",
+    )
+
+
+def narrow(k_h_beta: float) -> Iterator[str]:
+    """Yield that all of the force lies in one strip of the face, where it does."""
+    told = told_k_h_beta(k_h_beta)
+    if "more" in told:
+        yield (
+            f"K_Hbeta is {told}: all of the force lies within one of {STRIPS} strips of the face, "
+            "which tell no larger one"
+        )
+
+
+def flowing(mean: float, cap: float | None) -> tuple[str, ...]:
+    """Return the sentence on a flank that flows in large parts, where it does.
+
+    Parameters
+    ----------
+    mean, cap : float
+        Normal force over the area that bears, and the pressure at which the wheel flows, MPa.
+    """
+    if cap is None or mean <= _LINE * cap:
+        return ()
+    return (
+        f"large parts of the flank flow: the normal force over the area that bears is {mean:.4g} "
+        f"MPa, {100.0 * mean / cap:.2g} % of the hardness of the wheel, more than that of any "
+        "elastic line contact; take a smaller operation.output_torque, or a larger or harder wheel",
     )
 
 
@@ -103,7 +149,10 @@ def _pressures(problem: DriveProblem, record: PhaseRecord) -> Iterator[str]:
     whole = forces.sum(axis=1)
     wheel = problem.gearset.wheel_material
     cap = problem.flow_pressure
+    relieved = problem.modification is not None and problem.modification.root_relief > 0.0
     for zone, (edge, mend) in _EDGES.items():
+        if zone == WHEEL_TIP and relieved:
+            mend = _LEFT
         bearing = forces[:, zone] > _BEARS * whole
         if not bearing.any():
             continue

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray, IntArray
 from asperity.drive.driven import OfDrive
+from asperity.drive.static.notes import flowing
 from asperity.drive.teeth.sector import Sector
 from asperity.results import labelled, quantity
 from asperity.results.table import Table
@@ -301,6 +302,10 @@ class StaticResult(OfDrive):
             f"{self.teeth_nodes} nodes a flank ({drive.density}), {drive.teeth} teeth on the rim, "
             f"{drive.phases} phases"
         )
+
+    def headline(self) -> tuple[str, ...]:
+        """Return that the flank flows in large parts, where it does."""
+        return flowing(self.pressure_mean, self.flow_pressure)
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and pictures, and the loaded teeth for ParaView."""

@@ -21,6 +21,9 @@ STRIPS = 20
 LOADED = 1e-3
 """Share of the normal force from which on a tooth counts as loaded."""
 
+# Of the force in one strip, from which on it counts as all of it.
+_ALL = 0.999
+
 
 class Spread:
     """What is summed up of the resolved pressures of a pitch.
@@ -54,7 +57,7 @@ class Spread:
 
     @property
     def k_h_beta(self) -> float:
-        """Largest force by width over the mean one."""
+        """Largest force by width over the mean one; `STRIPS` at most."""
         return float(self.face.max() / self.face.mean())
 
     @property
@@ -64,6 +67,12 @@ class Spread:
         z, radius = self._moments / self.face.sum()
         mean = 0.5e-3 * pair.geometry.wheel_mean_diameter
         return pair.mirror * float(z), float(radius) - mean
+
+
+def told_k_h_beta(factor: float) -> str:
+    """Return K_Hbeta in words: no strip tells more than that all of the force lies in it."""
+    most = factor > _ALL * STRIPS
+    return f"{factor:.3g} or more" if most else f"{factor:.3g}"
 
 
 def k_h_alpha(tooth_force: FloatArray) -> float:

@@ -17,7 +17,7 @@ from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces, grid_of
 from asperity.drive.static.loaded import Loaded
-from asperity.drive.static.notes import few_phases, rigid_parts
+from asperity.drive.static.notes import few_phases, rigid_parts, warmth
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.studies.misaligned import Misaligned
 from asperity.drive.studies.points import solve_points
@@ -132,7 +132,9 @@ def _notes(places: Sequence[StudyPoint]) -> Iterator[str]:
     for name, problem in solved:
         # Of the case itself the headline says it.
         few = () if problem.drive.phases == headline else few_phases(problem)
-        for note in (*few, *rigid_parts(problem), *_housing(problem)):
+        # A cold one has the warm point beside it.
+        warm = warmth(problem) if problem.drive.warm else ()
+        for note in (*warm, *few, *rigid_parts(problem), *_housing(problem)):
             of.setdefault(note, []).append(name)
     for note, names in of.items():
         if len(names) == len(solved):

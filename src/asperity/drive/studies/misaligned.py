@@ -11,6 +11,7 @@ from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.static.loaded import Loaded
 from asperity.drive.static.notes import read_with_care
+from asperity.drive.static.spread import told_k_h_beta
 from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -215,7 +216,7 @@ class Misaligned(OfDrive):
             + (f"; as the case is {edge[0]:.4g} N" if edge[0] > _BEARS else ""),
             f"the transmission error is {np.nanmin(error):.3g} to {error[uneven]:.3g} urad, "
             f"{error[0]:.3g} as the case is; K_Hbeta {np.nanmin(self.k_h_beta):.3g} to "
-            f"{np.nanmax(self.k_h_beta):.3g}",
+            f"{told_k_h_beta(float(np.nanmax(self.k_h_beta)))}",
             f"the pattern's middle shifts by at most {along:.3g} mm along the face and "
             f"{out:.3g} mm outwards or inwards",
             *read_with_care(self.problem),

@@ -11,7 +11,8 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.notes import cold, read_with_care
+from asperity.drive.static.notes import read_with_care, warmth
+from asperity.drive.static.spread import told_k_h_beta
 from asperity.drive.studies.points import points_for_json, table_of_points
 from asperity.results import quantity
 from asperity.results.table import Table
@@ -144,7 +145,7 @@ class Relieved(OfDrive):
             notes=(
                 "each design at the worst of: " + "; ".join(stands),
                 *(f"{each.name}: {each.failed}" for each in designs if each.failed),
-                *_of_wheel_tip(last, axes), *cold(problem),
+                *_of_wheel_tip(last, axes), *warmth(problem),
             ),
             **{
                 key: np.array([getattr(each, key) for each in designs])
@@ -187,7 +188,7 @@ class Relieved(OfDrive):
             f"{self.best} {does}: the force on edges goes from {self.edge_force_before:.4g} to "
             f"{self.edge_force_after:.4g} N, {self._pressure()}, the transmission error from "
             f"{_MICRO * self.error_before:.3g} to {_MICRO * self.error_after:.3g} urad, K_Hbeta "
-            f"from {self.k_h_beta[0]:.3g} to {self.k_h_beta[n]:.3g}",
+            f"from {told_k_h_beta(self.k_h_beta[0])} to {told_k_h_beta(self.k_h_beta[n])}",
             *read_with_care(self.problem),
         )
 

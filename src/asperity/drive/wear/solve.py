@@ -20,7 +20,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces
 from asperity.drive.resolved.strip import FLANK
 from asperity.drive.static.loaded import loaded_of
-from asperity.drive.static.notes import cold, rigid_parts
+from asperity.drive.static.notes import rigid_parts, warmth
 from asperity.drive.static.solve import StaticModel, TooMuchError
 from asperity.drive.static.sweep import LoadCase
 from asperity.drive.wear.model import Taken, node_area, worn_model
@@ -204,7 +204,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
             "all teeth wear alike, the worm does not; pressures of the course are those of the "
             "first strips of patches",
             *_to_and_fro(columns, problem.drive.phases),
-            *cold(problem),
+            *warmth(problem),
             *rigid_parts(problem),
         ),
         **columns,

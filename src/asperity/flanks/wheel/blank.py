@@ -47,6 +47,15 @@ class Blank(NamedTuple):
         return np.minimum(throat, self.outside_radius)
 
     @property
+    def reach(self) -> float:
+        """Largest distance of the teeth's tips from the worm's axis, at the ends of the face, mm.
+
+        All that the wheel touches of a worm's flank further in is touched near a tip.
+        """
+        half = self.face_width / 2.0
+        return math.hypot(self.centre_distance - float(self.tip_radius(half)), half)
+
+    @property
     def kink(self) -> float | None:
         """Distance from mid-face where throat and outside cylinder meet, mm; None off the face."""
         depth = self.centre_distance - self.outside_radius

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.flanks.parameters import HOB_TIP_RADIUS, Disc, Hob, Modification, size_in_mm
+from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.worm import curve
 from asperity.flanks.worm.curve import FORM, Thread
 from asperity.flanks.worm.profiles import AxialProfile, record, sampled
@@ -27,6 +28,8 @@ from asperity.roots import root_between
 _MILLIMETRES = 1e3
 # Of the root's radius: far enough below it to be no neighbour of the wheel.
 _DEEP = 0.5
+# Of the dedendum, at which root relief begins at the latest where a case does not say it.
+_RELIEVED_FROM = 0.5
 
 
 @dataclasses.dataclass(frozen=True, eq=False, kw_only=True)
@@ -119,7 +122,7 @@ class Helicoid:
             tip_relief=given.tip_relief * axial,
             relief_radius=start if given.tip_relief else math.inf,
             root_relief=given.root_relief * axial,
-            root_relief_radius=r - given.root_relief_start * (r - root) if given.root_relief else 0,
+            root_relief_radius=_relieved_from(geometry, given) if given.root_relief else 0.0,
             root_relief_end=root,
         )
         asked = "tip_rounding" in given.model_fields_set
@@ -267,6 +270,16 @@ class Helicoid:
         if not core:
             form["root"] *= _DEEP
         return Thread(form, self.profile.table)
+
+
+def _relieved_from(geometry: Geometry, given: Modification) -> float:
+    """Return the radius from which a root relief goes inwards, mm."""
+    r, root = geometry.worm_pitch_diameter / 2.0, geometry.worm_root_diameter / 2.0
+    start = given.root_relief_start
+    if start is None:
+        # It has to be there where the wheel's tips bear, off mid-face as well.
+        start = min(max((r - Blank.of(geometry).reach) / (r - root), 0.0), _RELIEVED_FROM)
+    return r - start * (r - root)
 
 
 def _draft(geometry: Geometry, flank: Flank, disc: Disc | None, **numbers: Any) -> Helicoid:
