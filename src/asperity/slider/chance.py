@@ -75,7 +75,7 @@ def scatter(
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
     cycles = max(table.cycles // _BLOCKS, _LEAST)
-    means += _marched(there, _BLOCKS * cycles - len(means))
+    means = [*means, *_marched(there, _BLOCKS * cycles - len(means))]
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
