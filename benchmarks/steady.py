@@ -21,7 +21,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, solve
-from asperity.tribometer.fit.estimate import RISE
+from asperity.tribometer.fit.estimate import RISE, WIDEST
 from asperity.tribometer.fit.study import answer, prepare
 
 SLOW = """[slider]
@@ -53,7 +53,6 @@ DEVIATION = 0.02
 SPEEDS = np.array([0.01, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 100.0])  # mm/s
 FORCES = np.array([1.49, 1.45, 1.31, 1.19, 1.06, 1.00, 1.01, 1.04])  # N
 STEP, STEPS = 1e-6, 30_000_000  # s; twenty times as long as the asperity takes to bend
-MOST_WAY = math.log(1e3)  # to an end of an interval that is not open
 
 HELD = {"apart": 1e-4, "ends_apart": 0.02}
 MOST = {"command_s_of_one": 1.5, "command_s_of_a_fit": 3.0}
@@ -110,10 +109,10 @@ def exact_ends(profiled):
                 return profiled.profile(place, math.exp(start + side * way)) - RISE
 
             way = 1e-3
-            while over(way) < 0.0 and way < MOST_WAY:
+            while over(way) < 0.0 and way < WIDEST:
                 way *= 2.0
             ends.append(
-                None if way >= MOST_WAY else math.exp(start + side * brentq(over, 0.5 * way, way))
+                None if way >= WIDEST else math.exp(start + side * brentq(over, 0.5 * way, way))
             )
     return ends
 

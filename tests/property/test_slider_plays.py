@@ -22,8 +22,10 @@ from asperity.sweep import branches
 from asperity.tribometer.fit.study import answer, prepare
 
 BAR = 2e-3
+STEADY = 1e-3  # that halves of a window may differ by; cycles that repeat may make them differ more
 LONG = 800  # cycles, of the plain way
-RATIOS = (0.4, 0.8, 1.3, 2.0, 3.5, 6.0)
+FEW = 200  # cycles, of the plain way of what is fitted
+RATIOS = (0.6, 1.5, 3.0)
 
 
 def case_of(lot, folder, name, **solved_by):
@@ -41,8 +43,11 @@ def plain_ratio(model, cycles):
     return found.ratio, found.error
 
 
-def compared(seed, folder):
-    """Compare two or three bodies; yield what is wrong with what the JSON and the tables say."""
+def compared(seed, folder, beside):
+    """Compare two or three bodies; yield what is wrong with what the JSON and the tables say.
+
+    Those that were held beside the plain way are added to ``beside``, here and below.
+    """
     rng = np.random.default_rng(seed)
     drawn = lots(int(rng.integers(1 << 30)), int(rng.integers(2, 4)), folder)
     cases = [case_of(lot, folder, f"body-{n}") for n, lot in enumerate(drawn)]
@@ -69,38 +74,45 @@ def compared(seed, folder):
         if ratios is not None and ratios[n] != one.ratio:
             yield n, "ratio", ratios, one.ratio, lot.toml()
         if one.settled:
+            beside.append(n)
             plain, error = plain_ratio(one.model, lot.cycles + LONG)
-            more = error + 2.0 * (one.step_error or 0.0) + one.residual
+            more = error + 2.0 * (one.step_error or 0.0) + min(one.residual, STEADY)
             if abs(plain - one.ratio) > BAR + more:
                 yield n, "plain way", one.ratio, plain, error, one.notes, lot.toml()
 
 
 def test_a_comparison_marks_what_has_not_settled(tmp_path):
-    assert not list(compared((1, 0), tmp_path))
+    beside = []
+    assert not list(compared((1, 0), tmp_path, beside))
+    assert len(beside) == 2
 
 
 @pytest.mark.slow
 @pytest.mark.campaign(tried_by="test_a_comparison_marks_what_has_not_settled")
 @pytest.mark.parametrize("part", range(10))
 def test_comparisons_mark_what_has_not_settled(tmp_path, part):
-    assert not [wrong for n in range(12) for wrong in compared((2, part, n), tmp_path)]
+    beside = []
+    assert not [wrong for n in range(12) for wrong in compared((2, part, n), tmp_path, beside)]
+    assert beside
 
 
 def measured(rng, folder):
-    """Return a body by lot, and its ratios by the plain way at some velocity ratios; or None."""
+    """Return a body by lot, and its ratios by the plain way at some velocity ratios."""
     (lot,) = lots(int(rng.integers(1 << 30)), 1, folder, models=("dahl",), pressed=False)
     lot.tables["vibration"].pop("start", None)
     rows = []
+    # With asperities that come to their limit soon the plain way need not take long.
+    lot.tables["friction"]["exponent"] = 1.0
     for ratio in RATIOS:
         tables = lot.tables | {"vibration": lot.tables["vibration"] | {"velocity_ratio": ratio}}
         model = lot._replace(tables=tables).model(folder)
-        plain, error = plain_ratio(model, LONG)
-        later, _ = plain_ratio(model, 2 * LONG)
+        plain, error = plain_ratio(model, FEW)
+        later, _ = plain_ratio(model, 2 * FEW)
         rows.append((ratio, plain, max(error, abs(later - plain))))
     return lot, rows
 
 
-def fitted(seed, folder):
+def fitted(seed, folder, beside):
     """Fit two parameters to what the plain way measures; yield what is wrong with the answer."""
     rng = np.random.default_rng(seed)
     lot, rows = measured(rng, folder)
@@ -131,12 +143,11 @@ def fitted(seed, folder):
         vibration = lot.tables["vibration"] | {"velocity_ratio": k}
         tables = lot.tables | {"friction": friction, "vibration": vibration}
         model = lot._replace(tables=tables).model(folder)
-        plain, error = plain_ratio(model, LONG)
+        plain, error = plain_ratio(model, FEW)
         predicted = ratio + noise[n] - left * sd
-        # Ductile asperities come to their limit as a power of time, the plain way too.
-        unsteady *= max(lot.tables["friction"]["exponent"], 1.0)
         if unsteady > BAR:
             continue
+        beside.append(k)
         if abs(plain - predicted) > BAR + 2.0 * error + unsteady:
             yield k, predicted, plain, error, unsteady, lot.toml()
     # And what is left out is told with its reason.
@@ -145,14 +156,22 @@ def fitted(seed, folder):
             yield "no reason", row, lot.toml()
 
 
+def test_a_fit_predicts_as_the_plain_way_does(tmp_path):
+    beside = []
+    assert not list(fitted((1, 1), tmp_path, beside))
+    assert beside == list(RATIOS)
+
+
 @pytest.mark.slow
-@pytest.mark.campaign
-@pytest.mark.parametrize("part", range(24))
+@pytest.mark.campaign(tried_by="test_a_fit_predicts_as_the_plain_way_does")
+@pytest.mark.parametrize("part", range(6))
 def test_fits_predict_as_the_plain_way_does(tmp_path, part):
-    assert not list(fitted((2, part, 0), tmp_path))
+    beside = []
+    assert not [wrong for n in range(4) for wrong in fitted((2, part, n), tmp_path, beside)]
+    assert beside
 
 
-def branched(seed, folder):
+def branched(seed, folder, beside):
     """Follow a body along its velocity ratio and back; yield states that are not as they are told.
 
     A body by the plain way comes from rest: it is in one of the two states that stay, if both were
@@ -188,6 +207,7 @@ def branched(seed, folder):
         unsteady = abs(later - plain) * max(lot.tables["friction"].get("exponent", 1.0), 1.0)
         if unsteady > BAR:
             continue
+        beside.append(value)
         more = error + 2.0 * unsteady
         more += 2.0 * max(told["step_error"][way][place] or 0.0 for way in (0, 1))
         if min(abs(later - ratio) for ratio in both) > BAR + more:
@@ -198,7 +218,10 @@ def branched(seed, folder):
 @pytest.mark.campaign
 @pytest.mark.parametrize("part", range(24))
 def test_bodies_are_in_states_that_their_branches_have(tmp_path, part):
-    assert not list(branched((2, part, 0), tmp_path))
+    beside = []
+    assert not list(branched((2, part, 0), tmp_path, beside))
+    if not beside:
+        pytest.skip("of this body nothing has settled that could be compared")
 
 
 def test_the_plain_way_knows_a_ratio_on_paper(tmp_path):

@@ -2,7 +2,7 @@
 
 A body rings on its drive, with little damping, near stick or far from it, for few rings and few
 cycles. What its march calls settled is where a march of twenty times the duration ends; of the
-durations that are said to do most do. Steps are given: none is chosen by its error.
+durations that are said to do all do. Steps are given: none is chosen by its error.
 """
 
 import math

@@ -1,15 +1,19 @@
 """Durations that are foreseen for a march that has not settled."""
 
+import cmath
 import dataclasses
 import math
 import random
 
+import numpy as np
 import pytest
 
 from asperity.casefile import read_case
+from asperity.slider import solve
 from asperity.slider.fading import apart, mean_left, quarters_in_time
-from asperity.slider.longer import advice, needed
+from asperity.slider.longer import advice, lasting, needed
 from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.ringing import rung_out
 from asperity.slider.tables import TABLES
 from asperity.slider.timetable import Timetable, WindowMeans
 
@@ -121,3 +125,56 @@ def test_a_body_whose_friction_falls_with_the_speed_is_promised_no_end():
                                       "the speed may never settle")  # fmt: skip
     level = Model.from_case(read_case("table-4.3", TABLES, [falls[0], *elastic]))
     assert advice(0.5, level).endswith("would do, by the means")
+
+
+DAMPED = "slider.mass=5 kg", "vibration.velocity_ratio=0.1"
+
+
+@pytest.mark.parametrize("damping", [0.5, 5])
+def test_a_ring_that_only_the_damper_damps_is_waited_for_no_longer_than_a_window_shows_it(damping):
+    body = Model.from_case(
+        read_case("table-4.3", TABLES, [*DAMPED, f"slider.drive_damping={damping} N s/m"])
+    )
+    first = solve(lasting(body, 0.8), history=False)
+    (said,) = [note for note in first.notes if "would do, by the means" in note]
+    foreseen = float(said.split()[3])
+    assert not first.settled
+    assert 0.8 < foreseen < 3.0 * 0.8
+    late = solve(lasting(body, foreseen), history=False)
+    assert late.settled
+    assert late.ratio == pytest.approx(1.0, abs=1e-4)
+
+
+def halves_apart(model, duration, phases=720):
+    """How far the halves of the window of a ring on the drive are apart at its worst phase."""
+    slider, table = model.slider, Timetable(lasting(model, duration))
+    rate = 0.5 * slider.drive_damping / slider.mass
+    turn = math.sqrt(slider.drive_stiffness / slider.mass - rate**2)
+    speed = slider.drive_velocity - model.peak_velocity
+    begins = max(model.start, model.full_friction / slider.drive_stiffness / slider.drive_velocity)
+    steps = np.arange(table.window_start, table.steps, 20)
+    times = table.step * steps - begins
+    early = steps < table.middle
+    ring = np.exp(-rate * times) * np.exp(1j * turn * times)
+    ring *= speed * slider.mass * turn / model.full_friction
+    differ = ring[~early].mean() - ring[early].mean()
+    return max((differ * cmath.exp(2j * math.pi * n / phases)).real for n in range(phases))
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "damping", "whole"),
+    [
+        ("9.6 MN/m", 0.5, True),
+        ("20.05 MN/m", 20, True),
+        ("7 MN/m", 100, False),
+        ("2.3 MN/m", 500, False),
+    ],
+)
+def test_a_ring_has_faded_when_it_keeps_halves_less_apart_than_is_steady(stiffness, damping, whole):
+    drive = f"slider.drive_stiffness={stiffness}", f"slider.drive_damping={damping} N s/m"
+    body = Model.from_case(read_case("table-4.3", TABLES, [*DAMPED, *drive]))
+    foreseen = rung_out(lasting(body, 0.2))
+    apart = halves_apart(body, foreseen)
+    # In a shorter window than the usual one it is not known how many rings it has.
+    assert apart == pytest.approx(8e-4, rel=1e-2) if whole else apart < 8e-4
+    assert halves_apart(body, 0.8 * foreseen) > apart

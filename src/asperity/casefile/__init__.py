@@ -9,6 +9,15 @@
 """
 
 from asperity.casefile.case import Case, bare_unit, naming_source, read_case
-from asperity.casefile.table import Table, names_file, same_thing
+from asperity.casefile.table import MOST_DIGITS, Table, names_file, same_thing
 
-__all__ = ["Case", "Table", "bare_unit", "names_file", "naming_source", "read_case", "same_thing"]
+__all__ = [
+    "MOST_DIGITS",
+    "Case",
+    "Table",
+    "bare_unit",
+    "names_file",
+    "naming_source",
+    "read_case",
+    "same_thing",
+]

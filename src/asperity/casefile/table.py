@@ -14,7 +14,9 @@ from pydantic_core import ErrorDetails
 from asperity.errors import InputError, choices, is_plain, nearest, shown, suggestion
 from asperity.units import LARGEST, Held, Named, quantity_of
 
-_MOST_BITS = 128  # of a whole number: no seed has more, and no number that is calculated with
+MOST_DIGITS = 2**128 - 1
+"""The largest seed; no other whole number that a key takes is as large."""
+_TOO_LARGE = f"it is too large: no number of a machine is above {LARGEST:g} either way"
 _BUILDING = threading.Lock()
 
 
@@ -152,9 +154,18 @@ class Table(pydantic.BaseModel):
     def _harmless(cls, data: Any) -> Any:
         if isinstance(data, Mapping):
             for key, value in data.items():
-                if trouble := trouble_with(value):
+                if trouble := trouble_with(value, cls._most(key)):
                     raise ValueError(f"{cls.table}.{key} is {shown(value)}; {trouble}")
         return data
+
+    @classmethod
+    def _most(cls, key: str) -> float:
+        """Return how large a whole number of a key may be that does not say so itself."""
+        field = cls.model_fields.get(key)
+        said = field is not None and any(
+            getattr(each, "le", None) is not None for each in field.metadata
+        )
+        return MOST_DIGITS if said else LARGEST
 
     @pydantic.model_validator(mode="after")
     def _one_form(self) -> Self:
@@ -238,19 +249,34 @@ class Table(pydantic.BaseModel):
         return f"{key} is {shown(given)}{where}; {reason}"
 
 
-def trouble_with(value: object) -> str:
-    """Return what no value of any key may be; nothing for one that may."""
+def trouble_with(value: object, most: float = MOST_DIGITS) -> str:
+    """Return what no value of any key may be; nothing for one that may.
+
+    Parameters
+    ----------
+    value : object
+        As a file has it.
+    most : float
+        Size of a whole number, either way.
+
+    Returns
+    -------
+    str
+        A line, or nothing.
+    """
     if isinstance(value, str):
         return "" if is_plain(value) else "it must be one line without control characters"
     if isinstance(value, int):
-        return "" if value.bit_length() <= _MOST_BITS else "it is too large"
+        return "" if abs(value) <= most else _TOO_LARGE
     if isinstance(value, float):
         # What is not finite is told what it must be.
-        return "it is too large" if LARGEST < abs(value) < math.inf else ""
+        return _TOO_LARGE if LARGEST < abs(value) < math.inf else ""
     if isinstance(value, Mapping):
-        return next(filter(None, map(trouble_with, (*value, *value.values()))), "")
+        return next(
+            filter(None, (trouble_with(each, most) for each in (*value, *value.values()))), ""
+        )
     if isinstance(value, list | tuple):
-        return next(filter(None, map(trouble_with, value)), "")
+        return next(filter(None, (trouble_with(each, most) for each in value)), "")
     return ""
 
 

@@ -224,7 +224,7 @@ class _Made:
     def known(self, given: dict[str, Any], system: str) -> Any:
         """Return `evaluate` of numbers and words, remembered: beside arrays they come again."""
         values = tuple(given.values())
-        # A zero of either sign is the same by value, and not to a body; NaN is not itself.
+        # A zero of either sign is the same by value, and not to a body.
         if not all(type(one) in _BY_VALUE and (one or one is None) for one in values):
             return self.evaluate(given, (), system)
         key = system, *given, *values
@@ -253,8 +253,6 @@ class _Made:
                     checked = check(name, value, symbol)
                     if checked is not value:
                         holes.append(np.isnan(checked))
-                    elif known is not None and known.holes is not None:
-                        holes.append(known.holes)
                     value = checked
                 elif known.holes is not None:
                     holes.append(known.holes)

@@ -283,10 +283,10 @@ def _answer(
         (float(sums["drive_force"]) - to_the_middle, table.steps - middle),
     )
     means = quarter_means(halves, ((early, first - begin), (late - to_the_middle, third - middle)))
-    residual = abs(halves[1][0] / halves[1][1] - halves[0][0] / halves[0][1])
+    change = halves[1][0] / halves[1][1] - halves[0][0] / halves[0][1]
     broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
     across = pull_across(model, sums["friction_y"] / sums["steps"])
-    window = WindowMeans(model, table, residual, means, broke, across)
+    window = WindowMeans(model, table, change, means, broke, across)
 
     def at_end() -> Integrator:
         there = integrator(model, table.step)

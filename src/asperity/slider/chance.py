@@ -9,7 +9,7 @@ for ever: what they would differ by then is not held against them.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -51,7 +51,9 @@ def may_wander(body: Integrator, table: Timetable, sums: np.void) -> bool:
     return falls or table.window * table.step < SHORT * model.window - 1.0 / model.frequency
 
 
-def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, str]:
+def scatter(
+    body: Integrator, table: Timetable, ratio: float, means: Sequence[float] = ()
+) -> tuple[float, str]:
     """Return how far the mean of a window may be from that of all cycles, over mu F_N, and why.
 
     Parameters
@@ -62,14 +64,18 @@ def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, st
         Its steps.
     ratio : float
         The mean of its window.
+    means : sequence of float
+        Ratios of its next cycles where they repeat themselves and are known.
     """
-    there = at_the_end(body, table)
-    means = _marched(there, _LOOKED_AT)
-    if period := _period(means):
+    if not (period := _period(means)):
+        there = at_the_end(body, table)
+        means = _marched(there, _LOOKED_AT)
+        period = _period(means)
+    if period:
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
     cycles = max(table.cycles // _BLOCKS, _LEAST)
-    means += _marched(there, _BLOCKS * cycles - len(means))
+    means = [*means, *_marched(there, _BLOCKS * cycles - len(means))]
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
@@ -78,8 +84,10 @@ def scatter(body: Integrator, table: Timetable, ratio: float) -> tuple[float, st
     return max(uncertain, on), "its cycles do not repeat themselves"
 
 
-def _period(means: list[float]) -> int:
+def _period(means: Sequence[float]) -> int:
     """Return after how many cycles their means come again; 0 where they do not."""
+    if not means:
+        return 0
     periods = range(1, _LOOKED_AT // 3 + 1)
     return next((each for each in periods if alike_after(np.array(means), each)), 0)
 
@@ -89,10 +97,10 @@ def _after(period: int) -> str:
     return f"the motion repeats itself after {after}"
 
 
-def standing_of(
+def standing_by_cycles(
     window: WindowMeans, body: Callable[[], Integrator], sums: np.void
-) -> tuple[Standing, WindowMeans]:
-    """Return whether a march has settled, and its window without what parts of a motion make.
+) -> tuple[Standing, WindowMeans, list[float]]:
+    """Return whether a march has settled, its window without what parts of cycles make.
 
     Parameters
     ----------
@@ -102,17 +110,26 @@ def standing_of(
         Gives the body at the end; called where the halves of the window differ.
     sums : np.void
         Over the whole window.
+
+    Returns
+    -------
+    standing : Standing
+        Whether it has.
+    window : WindowMeans
+        Without what the halves differ by for ever.
+    means : list of float
+        Ratios of the next cycles where they repeat themselves, none where it was not asked.
     """
     if window.residual > UNSTEADY:
         ratio = float(sums["drive_force"] / sums["steps"])
         if (again := comes_again(body, window, ratio)) is not None:
-            return again, window._replace(residual=0.0)
-    return march_standing(window), window
+            return again[0], window._replace(change=0.0), again[1]
+    return march_standing(window), window, []
 
 
 def comes_again(
     body: Callable[[], Integrator], window: WindowMeans, ratio: float
-) -> Standing | None:
+) -> tuple[Standing, list[float]] | None:
     """Return that a march has settled whose halves have no whole number of its motion's cycles.
 
     Parameters
@@ -126,15 +143,16 @@ def comes_again(
 
     Returns
     -------
-    Standing or None
-        None where its halves differ by more than that makes, or anything else is missing.
+    tuple or None
+        Its standing, and the ratios of the next cycles; None where its halves differ by more than
+        those make, or anything else is missing.
     """
     model, table = window.model, window.table
     if not model.vibrates or model.solve.scheme == "two-phase" or bends_ever_more(model):
         return None
     if still_loads(model, table, window.residual):
         return None
-    if not march_standing(window._replace(residual=0.0)).settled:
+    if not march_standing(window._replace(change=0.0)).settled:
         return None
     means = _marched(at_the_end(body(), table), _LOOKED_AT)
     period = _period(means)
@@ -146,14 +164,11 @@ def comes_again(
     # Of the cycles before the end, which are as those after it.
     before = [means[cycle % period] for cycle in range(-table.cycles, 0)]
     half = table.cycles // 2
-    differ = abs(float(np.mean(before[half:]) - np.mean(before[:half])))
-    if not abs(window.residual - differ) <= UNSTEADY:
+    differ = float(np.mean(before[half:]) - np.mean(before[:half]))
+    if not abs(window.change - differ) <= UNSTEADY:
         return None
-    return Standing(
-        True,
-        f"{_after(period)}, whose mean ratio is {mean:.5g}; the halves of the window have no whole "
-        "number of them",
-    )
+    shown = f"{_after(period)}, whose mean ratio is {mean:.5g}; the halves of the window have no "
+    return Standing(True, f"{shown}whole number of them"), means
 
 
 def _by_the_power(model: Model, table: Timetable, cycles: int) -> float:
@@ -175,12 +190,19 @@ def _marched(cycle: Cycle, cycles: int) -> list[float]:
 
 
 def judged(
-    standing: Standing, body: Integrator, table: Timetable, sums: np.void
+    standing: Standing,
+    body: Integrator,
+    table: Timetable,
+    sums: np.void,
+    means: Sequence[float] = (),
 ) -> tuple[Standing, tuple[str, ...]]:
-    """Return whether what has settled by the halves of its window has not by chance, with notes."""
+    """Return whether what has settled by the halves of its window has not by chance, with notes.
+
+    As `scatter` takes what is known of it.
+    """
     if not standing.settled or not may_wander(body, table, sums):
         return standing, ()
-    off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]))
+    off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]), means)
     if off <= _NOTHING:
         return standing, ()
     said = f"{why}: the mean of the window is about {off:.2g} of mu F_N from that of all cycles"

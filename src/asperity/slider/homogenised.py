@@ -195,8 +195,7 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     first, second = (
         np.mean(_pull(model, half)) / law.full_friction for half in np.array_split(window, 2)
     )
-    unsteady = abs(float(second - first))
-    come_to = WindowMeans(model, table, unsteady, means, breakaway is not None)
+    come_to = WindowMeans(model, table, float(second - first), means, breakaway is not None)
     marched = march_standing(come_to)
     standing = Standing(
         answer.settled and marched.settled,

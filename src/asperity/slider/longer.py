@@ -104,7 +104,8 @@ def lasting(model: M, duration: float) -> M:
 
 def needed(window: WindowMeans) -> float | None:
     """Return the duration in s that a march needs to settle; None where none is foreseen."""
-    model, table, residual, means, broke, across = window
+    model, table, _, means, broke, across = window
+    residual = window.residual
     if math.isinf(ringing_time(model)) or rings_on_drive(model):
         return None
     slider = model.slider

@@ -17,7 +17,7 @@ from asperity.results.settled import Standing
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
-from asperity.slider.chance import judged, standing_of
+from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
 from asperity.slider.integrators import Integrator, integrator
@@ -222,7 +222,7 @@ class March:
             sums[name] = together(*(half[name] for half in halves))
         first, second = (half["drive_force"] / half["steps"] for half in halves)
         window = WindowMeans(
-            self._timed, table, abs(float(second - first)),
+            self._timed, table, float(second - first),
             quarter_means([_pulled(half) for half in halves], self._quarters),
             self.breakaway is not None, pull_across(model, sums["friction_y"] / sums["steps"]),
         )  # fmt: skip
@@ -302,13 +302,13 @@ def judged_answer(
     table = window.table
     wanders: tuple[str, ...] = ()
     step_error = None
-    standing, steady = standing_of(window, body, sums)
+    standing, steady, means = standing_by_cycles(window, body, sums)
     if standing.settled and leaves:
         standing = Standing(False, leaves)
     standing = heard(standing, model, window.model.duration)
     if standing.settled:
         at_end = body()
-        standing, wanders = judged(standing, at_end, table, sums)
+        standing, wanders = judged(standing, at_end, table, sums, means)
         if standing.settled:
             step_error = error_of_march(at_end, table, sums)
     return summarise(

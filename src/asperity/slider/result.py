@@ -52,7 +52,9 @@ class SlideResult(Result):
         Estimated error of the ratio that the time step makes; None where it is not estimated.
     residual : float
         How far from an answer it may be. ``march``: change of the mean drive force from the first
-        to the second half of the window over :math:`\mu F_N` (steadiness); ``periodic``: change of
+        to the second half of the window over :math:`\mu F_N` (steadiness), above 1e-3 also where a
+        motion repeats itself after cycles that the halves have no whole number of, see
+        ``settled_by``; ``periodic``: change of
         the state over a cycle, scaled; ``homogenised``: the largest of the latter in its table.
     steps, cycles : int
         Time steps taken; whole vibration cycles the means are over (``march``) or integrated

@@ -4,6 +4,7 @@ What is damped a little rings for a time that is known beforehand: a window of t
 nothing of a ringing that has neither faded when it begins nor fades noticeably while it lasts.
 """
 
+import cmath
 import dataclasses
 import math
 
@@ -13,7 +14,8 @@ from asperity.slider.result import SlideResult
 from asperity.slider.timetable import FAR, UNSTEADY, turns_back
 
 _LEVEL = 1e-9  # part of the vibration normal to the plane, below which it lifts nothing
-_NEXT, _MOST_TRIED = 1.05, 400  # durations that are looked at, one after the other
+_SURELY = 0.8  # of what is steady enough, that a ring shall have come down to
+_NEAR = 1.01  # times the least duration that does, that may be told in its place
 _GONE = -math.log(FAR)  # time constants, in which a ringing has come down to that
 # Of a time constant, a window that tells a ringing that fades: its halves are then apart by a fifth
 # of what the ringing does to the mean, and their quarters tell the rest.
@@ -73,22 +75,52 @@ def _ring_on_drive(model: Model) -> float:
 def rung_out(model: Model) -> float:
     r"""Return the duration in which a ring on the drive has faded by its damper alone, s.
 
-    It begins where the body is taken up, and fades by :math:`e^{-ht/2m}`; zero where there is none.
+    It begins where the body is taken up, and fades by :math:`e^{-ht/2m}`; what phase it has in the
+    window is not known. Zero where there is none.
     """
     slider, makes = model.slider, _ring_on_drive(model)
     if makes == 0.0 or slider.drive_damping == 0.0 or slider.mass is None:
         return 0.0
     stiffness = slider.drive_stiffness or math.inf
     begins = max(model.start, model.full_friction / (stiffness * slider.drive_velocity))
-    rate, duration = 0.5 * slider.drive_damping / slider.mass, model.duration
-    for _ in range(_MOST_TRIED):
-        window = min(model.window, WINDOW_SHARE * (duration - model.start))
-        if window > 0.0:
-            faded = rate * max(duration - window - begins, 0.0)
-            if makes / window * math.exp(-faded) <= 0.5 * UNSTEADY:
-                return duration
-        duration *= _NEXT
-    return 0.0
+    rate, whole, least = 0.5 * slider.drive_damping / slider.mass, model.window, _SURELY * UNSTEADY
+    if rate * model.ring_period >= 2.0 * math.pi:
+        return 0.0
+
+    def fades(duration: float, differ: float, window: float) -> bool:
+        return differ * math.exp(-rate * max(duration - window - begins, 0.0)) <= least
+
+    def in_part(duration: float) -> bool:
+        window = min(whole, WINDOW_SHARE * (duration - model.start))
+        return window > 0.0 and fades(duration, makes / window, window)
+
+    roomy = max(model.start + whole / WINDOW_SHARE, model.duration)
+    differ = min(makes * _seen_of_ring(model, rate), makes / whole)
+    if not fades(roomy, differ, whole):
+        return whole + begins + math.log(differ / least) / rate
+    if in_part(model.duration):
+        return model.duration
+    # Less may do, in a shorter window; the longer it is, the less it shows of a ring.
+    early, late = model.duration, roomy
+    while late > _NEAR * early:
+        middle = math.sqrt(early * late)
+        early, late = (early, middle) if in_part(middle) else (middle, late)
+    return late
+
+
+def _seen_of_ring(model: Model, rate: float) -> float:
+    r"""Return how far a ring makes the halves of a whole window differ, times their span, 1/s.
+
+    Of a ring that makes them differ by one at most, at the worst phase. Means of :math:`e^{st}`
+    with :math:`s = -h/2m + i\omega_d`: whole rings make next to nothing.
+    """
+    turn = 2.0 * math.pi / model.ring_period
+    s = complex(-rate, 0.0) + cmath.sqrt(rate**2 - turn**2)
+    cycles = max(math.floor(model.window * model.frequency + 1e-9), 2)
+    half, window = cycles // 2 / model.frequency, cycles / model.frequency
+    before = (cmath.exp(s * half) - 1.0) / (s * half)
+    after = (cmath.exp(s * window) - cmath.exp(s * half)) / (s * (window - half))
+    return 0.125 * turn * abs(after - before)
 
 
 def faded_after(model: Model) -> float:

@@ -112,15 +112,21 @@ class WindowMeans(NamedTuple):
 
     model: Model  #: The body, with the duration it was marched for
     table: Timetable  #: Its steps
-    residual: float  #: How far the mean drive forces of the window's halves are apart
+    change: float  #: Of the mean drive force from the window's first half to its second
     quarters: Sequence[float]  #: Those of its quarters
     broke: bool  #: Whether the body has broken away
     across: float = 0.0  #: What `pull_across` gives
 
+    @property
+    def residual(self) -> float:
+        """How far the mean drive forces of the halves are apart."""
+        return abs(self.change)
+
 
 def march_standing(window: WindowMeans) -> Standing:
     """Return whether a march has settled: by the halves of its window, if nothing is missing."""
-    model, table, residual, means, broke, across = window
+    model, table, _, means, broke, across = window
+    residual = window.residual
     missing = []
     if not (broke or model.vibrates or model.slider.rigid):
         missing.append("the body has not broken away")
@@ -245,8 +251,8 @@ def still_grows(model: Model, table: Timetable) -> bool:
 
 def march_notes(window: WindowMeans) -> tuple[str, ...]:
     """What a reader of a march's numbers should know."""
-    model, table, residual, _, broke, _ = window
-    notes = []
+    model, table, _, _, broke, _ = window
+    residual, notes = window.residual, []
     span = table.window * table.step
     if model.vibrates and span < SHORT * model.window - 1.0 / model.frequency:
         notes.append(

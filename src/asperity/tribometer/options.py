@@ -4,7 +4,7 @@ from typing import Annotated, ClassVar, Literal
 
 from pydantic import Field, model_validator
 
-from asperity.casefile import Table
+from asperity.casefile import MOST_DIGITS, Table
 from asperity.errors import InputError
 from asperity.tribometer.parameters import Mode
 from asperity.tribometer.quantities import (
@@ -83,7 +83,7 @@ class Plan(Table):
         20e3
     )
     order: Literal["thesis", "randomised"] = "thesis"
-    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    seed: Annotated[int, Field(strict=True, ge=0, le=MOST_DIGITS)] = 0
 
 
 class Twin(Table):
@@ -177,7 +177,7 @@ class Twin(Table):
     wear_steel: WearRate = 0.0
     wear_bronze: WearRate = 0.0
     weighing_noise: Mass = 0.0
-    seed: Annotated[int, Field(strict=True, ge=0)] = 0
+    seed: Annotated[int, Field(strict=True, ge=0, le=MOST_DIGITS)] = 0
     motor_tolerance: Tolerance = 0.1
     drag_tolerance: Tolerance = 0.25
     gear_tolerance: Tolerance = 0.25

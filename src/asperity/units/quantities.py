@@ -33,7 +33,7 @@ _DEGREE = re.compile(r"\bdeg([CF])\b")
 _DIFFERENCE = {"C": "K", "F": "degR"}
 _PLAIN_POWER = re.compile(r"(?<=[A-Za-z])([23])(?![0-9])")
 LARGEST = 1e30
-"""In SI, either way: nothing of a machine is larger, and what is calculated with more overflows."""
+"""In SI, either way: nothing of a machine is larger, and more is meant by nobody."""
 
 
 @functools.cache

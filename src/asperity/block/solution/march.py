@@ -269,18 +269,18 @@ class BlockMarch:
         span = sums.time
         force = model.full_friction
         halves = [s.drive_force / s.time for s in (first, second)]
-        residual = abs(halves[1] - halves[0]) / force
+        change = (halves[1] - halves[0]) / force
         mean = sums.drive_force / span
         powers = power_ledger(sums, start, end)
         quarters = [(each.drive_force, each.time) for each in progress.quarters]
         means = quarter_means([(s.drive_force, s.time) for s in (first, second)], quarters)
         window = WindowMeans(
-            model, table, residual, [mean / force for mean in means],
+            model, table, change, [mean / force for mean in means],
             stepper.breakaway is not None, pull_across(model, sums.friction_y / span / force),
         )  # fmt: skip
         standing = march_standing(window)
         # Its residual has every power in it.
-        if not all(map(math.isfinite, (mean, residual, powers.residual))):
+        if not all(map(math.isfinite, (mean, change, powers.residual))):
             raise ConvergenceError(_NOT_FINITE)
         answer = BlockResult(
             problem=problem,
@@ -293,7 +293,7 @@ class BlockMarch:
             breakaway_time=stepper.breakaway,
             ledger=powers,
             **standing._asdict(),
-            residual=residual,
+            residual=window.residual,
             steps=table.steps,
             cycles=table.cycles,
             seconds=progress.seconds,

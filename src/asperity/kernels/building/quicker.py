@@ -1,6 +1,6 @@
 """What Numba does over and over while it compiles, done once, in fewer steps or not.
 
-What comes out is the same; a kernel takes a quarter less. Like the rest of
+What comes out calculates the same; a kernel takes a quarter less. Like the rest of
 `asperity.kernels.building` it is for processes that only compile.
 """
 
