@@ -7,6 +7,7 @@ on a finer step is sought from the one on the first.
 """
 
 import dataclasses
+import itertools
 import time
 from collections.abc import Iterable, Iterator
 
@@ -17,12 +18,12 @@ from asperity.errors import ConvergenceError
 from asperity.runs.tree import Tree
 from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.model import Model
-from asperity.slider.periodic import AperiodicError, answer_of, cycle_steps, settle
+from asperity.slider.periodic import DOUBLED, AperiodicError, answer_of, cycle_steps, settle
 from asperity.slider.result import SlideResult
 from asperity.slider.shooting import SETTLING
 from asperity.slider.step_error import refined
 
-_PERIODS = (1, 2, 4)
+_PERIODS = (1, 2, 4, 8)
 _SAME = 1e-7
 # Numbers of a state that are lengths (0), and lengths in a step (1).
 _IN_PLANE = {
@@ -120,13 +121,18 @@ def _take_over(cycle: Cycle, model: Model, other: Cycle) -> None:
 def _from_there(cycle: Cycle, model: Model, steps: int, step: float) -> tuple[Cycle, bool, float]:
     """Look for a stable state from where the body is, after ever more cycles."""
     state, springs = cycle.body.kept["state"].copy(), cycle.springs.copy()
-    for cycles in SETTLING[:3]:
-        for period in _PERIODS:
+    doubled = False
+    for periods in (_PERIODS[:-1], _PERIODS[-1:]):
+        if periods[-1] > DOUBLED and not doubled:
+            break
+        for cycles, period in itertools.product(SETTLING[:3], periods):
             trial = Cycle(model, steps, step)
             trial.repeat(period)
             _put(trial, state, springs)
-            if trial.find(cycles) and (growth := trial.multiplier()) <= UNSTABLE:
-                return _shortest(trial, growth, model, steps, step)
+            if trial.find(cycles):
+                if (growth := trial.multiplier()) <= UNSTABLE:
+                    return _shortest(trial, growth, model, steps, step)
+                doubled = doubled or period == DOUBLED
     return trial, False, np.inf
 
 

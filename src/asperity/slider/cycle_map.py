@@ -26,6 +26,8 @@ _Kind = TypeVar("_Kind")
 
 UNSTABLE = 1.0 + 1e-3
 _PUSH = 1e-3
+_LITTLE = 1e-2  # of it, from where what grows towards another motion nearby is told from the two
+_NEAR_ONE = 1e-2
 _WATCHED = 64  # cycles of a march that is pushed
 _FEW = 2  # of them, after which a friction that keeps this share of what is allowed has told it
 _CLEARLY = 0.1
@@ -216,21 +218,34 @@ class Cycle:
         return float(sums[name]) / float(sums["steps"])
 
     def _marched(self, growth: float) -> float:
-        """Return how much a push grows a cycle in a march, to the worse side, for what it may."""
-        worst, mode = 0.0, _mode(self.jacobian).real
+        """Return how much a push grows a cycle in a march, to the worse side, for what it may.
+
+        What grows may end on another motion nearby, and stays as far off from then on, as if it
+        neither grew nor faded: from much nearer to the state its growth is told.
+        """
+        worst, left = self._of_pushes(_PUSH, growth)
+        if abs(worst - 1.0) > _NEAR_ONE or left < _PUSH:
+            return worst
+        nearer, _ = self._of_pushes(_LITTLE * _PUSH, growth)
+        return nearer if nearer > UNSTABLE else worst
+
+    def _of_pushes(self, size: float, growth: float) -> tuple[float, float]:
+        """How much a push of a size grows a cycle, to the worse side, and the most left of it."""
+        worst, left, mode = 0.0, 0.0, _mode(self.jacobian).real
         half = round(0.5 * min(max(math.log(_GONE) / math.log(growth), _WATCHED), _MOST_WATCHED))
-        for push in (_PUSH, -_PUSH):
+        for push in (size, -size):
             # The mode may turn round slowly: the most of a time tells more than its end.
-            most = [_PUSH, 0.0]
-            for n, (size, _) in enumerate(self.pushed(push * mode, 2 * half)):
-                if not size <= _GONE * _PUSH:
-                    grown = size / _PUSH if math.isfinite(size) else _GONE
+            most = [size, 0.0]
+            for n, (off, _) in enumerate(self.pushed(push * mode, 2 * half)):
+                if not off <= _GONE * size:
+                    grown = off / size if math.isfinite(off) else _GONE
                     worst = max(worst, grown ** (1.0 / (n + 1)))
                     break
-                most[n >= half] = max(most[n >= half], size)
+                most[n >= half] = max(most[n >= half], off)
             else:
                 worst = max(worst, (most[1] / most[0]) ** (1.0 / half))
-        return worst
+                left = max(left, most[1])
+        return worst, left
 
     def pushed(self, push: FloatArray, cycles: int) -> Iterator[tuple[float, float]]:
         """March from the state, pushed in scaled unknowns.

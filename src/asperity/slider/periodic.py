@@ -19,6 +19,7 @@ from asperity.slider.history import History
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.result import SlideResult
+from asperity.slider.ringing import ringing_time
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import ACCEPTED, SETTLING
 from asperity.slider.steady import growth_rate, sticks_and_slips, two_states
@@ -28,11 +29,14 @@ from asperity.slider.summary import history_of, summarise
 _LEAST_STEPS = 256
 _REST_STEPS = 64
 _MOST_STEPS = 1e6
+DOUBLED = 4  # cycles that are tried always; 8 where a state over those has a doubled one beside it
 _LEAST_WAY = 1e-10  # of the deflection limit, that a drive goes in a cycle
 _OF_MANY = (
     "one of many: nothing damps a disturbance, and the ratio follows it; shown is the one without "
     "a ringing of its own"
 )
+_LASTS = "a disturbance lasts, and the ratio follows it"
+_FADES = 1e-4  # of a ringing of the contact in a period, above which it is not what lasts
 _LOST = "the drive goes so little in a cycle that a state that changes could not be told from it"
 _MARCH = "march it from rest with solve.method 'march'"
 _NOT_FOLLOWED = (
@@ -63,21 +67,30 @@ def cycle_steps(model: Model) -> int:
     return 4 * math.ceil(max(asked * (1.0 - 1e-9), _LEAST_STEPS) / 4)
 
 
+def none_stable(period: int) -> str:
+    """Return that nothing stable was found, over as many cycles as were tried at most."""
+    tried = "1, 2, 4 or 8" if period > DOUBLED else "1, 2 or 4"
+    return f"no stable state was found that repeats itself after {tried} cycles"
+
+
 class AperiodicError(ConvergenceError):
-    """No stable state was found that repeats itself after 1, 2 or 4 cycles.
+    """No stable state was found that repeats itself after 1, 2, 4 or 8 cycles.
 
     Attributes
     ----------
     notes : tuple of str
         What is known of states that are not stable.
+    period : int
+        Cycles after which a state was looked for last.
     """
 
     notes: tuple[str, ...] = ()
+    period: int = 1
 
     @classmethod
     def of(cls, cycle: Cycle, notes: tuple[str, ...]) -> "AperiodicError":
         """Return the error of a cycle in which nothing stable was found."""
-        found = "no stable state was found that repeats itself after 1, 2 or 4 cycles"
+        found = none_stable(cycle.period)
         if not notes:
             found = (
                 f"no periodic state found: after {cycle.run} cycles the state still changes by "
@@ -88,13 +101,14 @@ class AperiodicError(ConvergenceError):
             reached={"residual": float(cycle.residual), "cycles": float(cycle.run)},
         )
         error.notes = notes
+        error.period = cycle.period
         return error
 
 
 def solve_periodic(
     model: Model, *, history: bool = True, judged: bool = True, rested: bool = False
 ) -> SlideResult:
-    """Find the state that repeats itself every vibration cycle; of a pressed body, 1, 2 or 4.
+    """Find the state that repeats itself every vibration cycle; of a pressed body, 1, 2, 4 or 8.
 
     Parameters
     ----------
@@ -176,6 +190,8 @@ def answer_of(
     if _OF_MANY in standing.settled_by:
         rest = _MARCH if cycle.q is None else _REST
         notes += (f"this periodic state is {_OF_MANY}; {rest}",)
+    if _LASTS in standing.settled_by:
+        notes += (f"of this periodic state {_LASTS}: {_MARCH}",)
     error = error_of_state(cycle, model) if judged and standing.settled else OfState(None)
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
@@ -202,6 +218,10 @@ def standing_of(cycle: Cycle, growth: float) -> Standing:
     if cycle.grows_slowly(growth):
         return Standing(False, f"{repeats}, but a disturbance grows {growth:.7g} times")
     if cycle.one_of_many(growth):
+        if cycle.q is not None:
+            rings = ringing_time(cycle.body.model) * cycle.body.model.frequency
+            if 0.0 < _FADES * rings < cycle.period:
+                return Standing(False, f"{repeats}, but {_LASTS}")
         return Standing(False, f"{repeats}, but is {_OF_MANY}")
     p = cycle.body.p
     if p.model != COULOMB and (cycle.increments.any() or cycle.rises.any()):
@@ -242,15 +262,22 @@ def settle(cycle: Cycle) -> tuple[bool, float, tuple[str, ...]]:
 
 
 def _longer(cycle: Cycle) -> tuple[bool, float]:
-    """Look for stable states that repeat themselves after two and after four cycles."""
+    """Look for stable states that repeat themselves after two and after four cycles.
+
+    After eight too, where one after four is unstable: its period is doubled.
+    """
     growth = math.inf
-    for _ in range(2):
+    found = True
+    while cycle.period < DOUBLED or (found and cycle.period == DOUBLED):
         cycle.repeat(2)
+        found = False
         for settle in SETTLING[1:]:
             # Newton may have ended on the unstable state, where the body would stay.
             cycle.disturb()
-            if cycle.find(settle) and (growth := cycle.multiplier()) <= UNSTABLE:
-                return True, growth
+            if cycle.find(settle):
+                if (growth := cycle.multiplier()) <= UNSTABLE:
+                    return True, growth
+                found = True
     return False, growth
 
 

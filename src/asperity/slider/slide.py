@@ -13,7 +13,7 @@ from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
 from asperity.slider.march import march
 from asperity.slider.model import Model
-from asperity.slider.periodic import AperiodicError, solve_periodic
+from asperity.slider.periodic import AperiodicError, none_stable, solve_periodic
 from asperity.slider.result import SlideResult
 from asperity.slider.timetable import Timetable
 
@@ -63,8 +63,8 @@ def solve(
         note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
         if none.notes and model.vibrates:
             note = (
-                "no stable state was found that repeats itself after 1, 2 or 4 cycles, the motion "
-                "is aperiodic as far as that tells: this is a march"
+                f"{none_stable(none.period)}, the motion is aperiodic as far as that tells: this "
+                "is a march"
             )
         if not model.vibrates and none.notes:
             note = "this is a march"

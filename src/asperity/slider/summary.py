@@ -26,7 +26,7 @@ from asperity.slider.scaled import (
 from asperity.slider.space import IN_FLIGHT, normal_motion, remarks
 from asperity.slider.wear import wear_and_heat
 
-_ADVICE = "give a smaller solve.step"
+_SMALLER = "give a smaller solve.step"
 _FLIGHT = 1e-9  # of the energy
 _SI = dict.fromkeys(("drive_force", "friction", "deflection", "position", "velocity"), 1.0)
 
@@ -76,6 +76,14 @@ def pressed_energies(
     return mechanical + unit * pressed, elastic
 
 
+def _advice(model: Model, step: float) -> str:
+    """Return what step would do better than one in s, which a reader who gave none is told of."""
+    used = f"{step:.3g} s"
+    if model.solve.step is None:
+        return f"{_SMALLER} than {used}, which was taken as none is given"
+    return f"{_SMALLER} than {used}"
+
+
 def summarise(
     model: Model,
     p: Parameters,
@@ -115,7 +123,7 @@ def summarise(
     if model.normal is not None:
         normal = normal_motion(model, step, sums, ledger.friction, period, multiplier)
     if model.solve.scheme != "two-phase":
-        notes += guard(ledger, _ADVICE, reached={"ratio": ratio})
+        notes += guard(ledger, _advice(model, step), reached={"ratio": ratio})
     wear = None
     if normal is not None:
         notes += remarks(model, step, sums, normal)

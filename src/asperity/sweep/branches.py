@@ -53,7 +53,7 @@ class Branches(Result):
     ratio, ratio_mean_load, penetration_swing, open_share, normal_min, normal_max, period,
     multiplier, settled, step_error
         ndarray, shape (2, n), there and back; NaN where no state was found that repeats itself
-        after 1, 2 or 4 cycles. What is normal to the plane is NaN without ``[normal]``.
+        after 1, 2, 4 or 8 cycles. What is normal to the plane is NaN without ``[normal]``.
     missing : int
         States that were not found.
     """
@@ -111,7 +111,7 @@ class Branches(Result):
             return None
         return ConvergenceError(
             f"{self.missing} of {self.ratio.size} states were not found: nothing stable repeats "
-            "itself there after 1, 2 or 4 cycles; solve.method 'march' shows what the body does"
+            "itself there after 1, 2, 4 or 8 cycles; solve.method 'march' shows what the body does"
         )
 
     def to_json(self) -> dict[str, Any]:
