@@ -1,6 +1,5 @@
 """What a user of a loaded gearset's numbers should know of them, in lines."""
 
-import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -17,8 +16,8 @@ _BEARS = 1e-3
 # Of the error under load, over what the mesh makes of it by itself.
 _NOISE = 3.0
 _FEW = 8
-# Mean over largest pressure of an elastic line contact (Hertz); of a point it is 2/3.
-_LINE = math.pi / 4.0
+# Mean over largest pressure of an elastic ellipse of contact (Hertz).
+_ELLIPSE = 2.0 / 3.0
 _EDGES = {
     WORM_TIP: ("the worm's tip edge", "modification.tip_relief takes it off"),
     WHEEL_TIP: (
@@ -103,12 +102,12 @@ def flowing(mean: float, cap: float | None) -> tuple[str, ...]:
     mean, cap : float
         Normal force over the area that bears, and the pressure at which the wheel flows, MPa.
     """
-    if cap is None or mean <= _LINE * cap:
+    if cap is None or mean <= _ELLIPSE * cap:
         return ()
     return (
         f"large parts of the flank flow: the normal force over the area that bears is {mean:.4g} "
-        f"MPa, {100.0 * mean / cap:.2g} % of the hardness of the wheel, more than that of any "
-        "elastic line contact; take a smaller operation.output_torque, or a larger or harder wheel",
+        f"MPa, {100.0 * mean / cap:.2g} % of the hardness of the wheel, more than in an "
+        "elastic ellipse; take a smaller operation.output_torque, or a larger or harder wheel",
     )
 
 
