@@ -19,6 +19,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
+from asperity.flanks.blank import Blank
 from asperity.flanks.meshing.transmission import (
     ToothSearch,
     Touch,
@@ -26,7 +27,6 @@ from asperity.flanks.meshing.transmission import (
     least_between,
 )
 from asperity.flanks.sides import both
-from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.flanks.wheel.frame import on_cylinder
 from asperity.flanks.worm.setting import Pair

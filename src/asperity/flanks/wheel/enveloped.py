@@ -12,8 +12,8 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
+from asperity.flanks.blank import Blank
 from asperity.flanks.sides import both
-from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.wheel.cutting.trim import UNDERCUT
 from asperity.flanks.wheel.flank import FlankGrid, UndercutMap, WheelFlank
 from asperity.flanks.wheel.gaps import gaps

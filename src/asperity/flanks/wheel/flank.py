@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from asperity.arrays import BoolArray, FloatArray, IntArray
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.wheel.blank import Blank
+from asperity.flanks.blank import Blank
 from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
 from asperity.flanks.wheel.cutting.conjugate import conjugate_each
 from asperity.flanks.wheel.refusal import refusal, widest_face

@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
+from asperity.flanks.blank import Blank
 from asperity.flanks.parameters import HOB_TIP_RADIUS, Disc, Hob, Modification, size_in_mm
-from asperity.flanks.wheel.blank import Blank
 from asperity.flanks.worm import curve
 from asperity.flanks.worm.curve import FORM, Thread
 from asperity.flanks.worm.profiles import AxialProfile, record, sampled
