@@ -71,8 +71,7 @@ def test_what_the_mesh_makes_by_itself_is_told_beside_the_orders():
     exact = exact_error(wheel, angle)
     own = 1e-6 * np.cos(2.0 * math.pi * np.arange(8) / 8)
     pitch_sweep = PitchSweep(
-        100.0, angle, exact + own, np.full(8, 4e-4), np.ones(8), np.ones((8, 6)), np.ones((8, 1)),
-        0.0,
+        100.0, angle, exact + own, np.full(8, 4e-4), np.ones(8), np.ones((8, 6)), 0.0,
     )  # fmt: skip
     loaded = 3e-6 * np.cos(2.0 * math.pi * (2 * np.arange(8) - 1) / 8)
     found = ErrorHarmonics.of(wheel, [pitch_sweep], [5e-6 + loaded])

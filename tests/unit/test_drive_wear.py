@@ -145,7 +145,7 @@ def test_curves_that_go_to_and_fro_with_the_phases_of_the_steps_are_told_by_how_
     # Of a few steps nobody can tell.
     assert solve._to_and_fro({name: v[:3] for name, v in curves().items()}, 2) == ()
     (said,) = solve._to_and_fro(curves(error_course=to_and_fro, pressure_course=to_and_fro), 3)
-    assert "error by 10 % and the mean pressure by 10 % of its mean" in said
+    assert "error by 10 % and the mean pressure by 10 % of their means" in said
 
 
 @functools.cache

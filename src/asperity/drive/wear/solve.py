@@ -232,8 +232,9 @@ def _to_and_fro(columns: Mapping[str, FloatArray], phases: int) -> tuple[str, ..
             swings.append(f"the {what} by {100.0 * swing:.2g} %")
     if not swings:
         return ()
+    go, mean = ("goes", "its mean") if len(swings) == 1 else ("go", "their means")
     return (
-        f"from step to step {' and '.join(swings)} of the mean go to and fro: each step has "
+        f"from step to step {' and '.join(swings)} of {mean} {go} to and fro: each step has "
         f"other phases of the pitch, of which {phases} do not tell the whole; that is no wear, and "
         "more phases (drive.phases) make it even",
     )

@@ -19,7 +19,6 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.blank import Blank
 from asperity.flanks.meshing.transmission import (
     ToothSearch,
     Touch,
@@ -30,6 +29,7 @@ from asperity.flanks.sides import both
 from asperity.flanks.wheel.flank import RESOLVED
 from asperity.flanks.wheel.frame import on_cylinder
 from asperity.flanks.worm.setting import Pair
+from asperity.gearset.wheel_blank import Blank
 from asperity.results import Quantities, labelled, quantity
 
 # Further than this from the least no place is looked at below the grid, mm.

@@ -12,13 +12,13 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
-from asperity.flanks.blank import Blank
 from asperity.flanks.sides import both
 from asperity.flanks.wheel.cutting.trim import UNDERCUT
 from asperity.flanks.wheel.flank import FlankGrid, UndercutMap, WheelFlank
 from asperity.flanks.wheel.gaps import gaps
 from asperity.flanks.wheel.refusal import CUT_AGAIN, POINTED, refusal, widest_face
 from asperity.flanks.worm.setting import Pair
+from asperity.gearset.wheel_blank import Blank
 
 __all__ = ["FlankGrid", "UndercutMap", "Wheel", "WheelFlank"]
 

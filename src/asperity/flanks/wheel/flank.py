@@ -11,13 +11,13 @@ import numpy.typing as npt
 
 from asperity.arrays import BoolArray, FloatArray, IntArray
 from asperity.errors import ConvergenceError, InputError
-from asperity.flanks.blank import Blank
 from asperity.flanks.wheel.cutting import trim, trim_grid, undercut
 from asperity.flanks.wheel.cutting.conjugate import conjugate_each
 from asperity.flanks.wheel.refusal import refusal, widest_face
 from asperity.flanks.worm.curve import Thread
 from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair, Stand
+from asperity.gearset.wheel_blank import Blank
 from asperity.kernels.compiled import Kernel
 from asperity.results import Quantities, quantity
 

@@ -15,7 +15,6 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import InputError
-from asperity.flanks.blank import Blank
 from asperity.flanks.parameters import HOB_TIP_RADIUS, Disc, Hob, Modification, size_in_mm
 from asperity.flanks.worm import curve
 from asperity.flanks.worm.curve import FORM, Thread
@@ -23,6 +22,7 @@ from asperity.flanks.worm.profiles import AxialProfile, record, sampled
 from asperity.flanks.worm.types import profile
 from asperity.gearset.geometry import Flank, Geometry
 from asperity.gearset.threads import LEAST_LAND, LEAST_SPACE
+from asperity.gearset.wheel_blank import Blank
 from asperity.roots import root_between
 
 _MILLIMETRES = 1e3

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.gearset import Geometry
+from asperity.gearset.geometry import Geometry
 
 
 class Blank(NamedTuple):
