@@ -24,34 +24,19 @@ from asperity.slider import TABLES, Model, solve
 from asperity.tribometer.fit.estimate import RISE, WIDEST
 from asperity.tribometer.fit.study import answer, prepare
 
-SLOW = """[slider]
-drive_velocity = "0.01 mm/s"
-normal_force = "1 N"
-[friction]
-model = "lugre"
-mu = 1.0022
-static_mu = 1.51
-tangential_stiffness = "1e5 N/m"
-stribeck_velocity = "1.0249 mm/s"
-viscous_damping = "0.38046 N s/m"
-[solve]
-method = "periodic"
-"""
-STRIBECK = """[slider]
-drive_velocity = "1 mm/s"
-normal_force = "1 N"
-[friction]
-model = "lugre"
-mu = 0.9
-static_mu = 1.3
-tangential_stiffness = "1e5 N/m"
-stribeck_velocity = "2 mm/s"
-viscous_damping = "0.2 N s/m"
-"""
-START = 0.9, 1.3, 2e-3, 0.2
-DEVIATION = 0.02
-SPEEDS = np.array([0.01, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 100.0])  # mm/s
-FORCES = np.array([1.49, 1.45, 1.31, 1.19, 1.06, 1.00, 1.01, 1.04])  # N
+sys.path.append(str(Path(__file__).parents[1] / "tests"))
+
+from apparatus.stribeck import (
+    DEVIATION,
+    FORCES,
+    KEYS,
+    SLOW,
+    SPEEDS,
+    START,
+    STRIBECK,
+    Exact,
+)  # fmt: skip
+
 STEP, STEPS = 1e-6, 30_000_000  # s; twenty times as long as the asperity takes to bend
 
 HELD = {"apart": 1e-4, "ends_apart": 0.02}
@@ -126,9 +111,6 @@ def off(end, known):
 
 def one_fit(folder):
     """Figures of a fit of four parameters, by the model and by the closed form."""
-    sys.path.append(str(Path(__file__).parents[1] / "tests"))
-    from apparatus.stribeck import KEYS, Exact
-
     case, data = folder / "stribeck.toml", folder / "stribeck.csv"
     case.write_text(STRIBECK)
     rows = [f"{v},{force},{DEVIATION}" for v, force in zip(SPEEDS, FORCES, strict=True)]

@@ -15,6 +15,36 @@ KEYS = MU, STATIC, SPEED, DAMPING
 _SHARES = 0.1, 1.0, 10.0
 NARROW = 2.0 * math.log(1000.0)
 
+# A body that slides slowly, and one whose four parameters are fitted to forces at some speeds.
+SLOW = """[slider]
+drive_velocity = "0.01 mm/s"
+normal_force = "1 N"
+[friction]
+model = "lugre"
+mu = 1.0022
+static_mu = 1.51
+tangential_stiffness = "1e5 N/m"
+stribeck_velocity = "1.0249 mm/s"
+viscous_damping = "0.38046 N s/m"
+[solve]
+method = "periodic"
+"""
+STRIBECK = """[slider]
+drive_velocity = "1 mm/s"
+normal_force = "1 N"
+[friction]
+model = "lugre"
+mu = 0.9
+static_mu = 1.3
+tangential_stiffness = "1e5 N/m"
+stribeck_velocity = "2 mm/s"
+viscous_damping = "0.2 N s/m"
+"""
+START = 0.9, 1.3, 2e-3, 0.2
+DEVIATION = 0.02
+SPEEDS = np.array([0.01, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 100.0])  # mm/s
+FORCES = np.array([1.49, 1.45, 1.31, 1.19, 1.06, 1.00, 1.01, 1.04])  # N
+
 
 def forces(speeds, mu, static_mu, speed, damping, load=1.0):
     """Forces at the sliding velocities, N."""

@@ -8,24 +8,11 @@ import itertools
 import math
 
 import pytest
+from apparatus.stribeck import SLOW
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
 
-SLOW = """
-[slider]
-drive_velocity = "0.01 mm/s"
-normal_force = "1 N"
-[friction]
-model = "lugre"
-mu = 1.0022
-static_mu = 1.51
-tangential_stiffness = "1e5 N/m"
-stribeck_velocity = "1.0249 mm/s"
-viscous_damping = "0.38046 N s/m"
-[solve]
-method = "periodic"
-"""
 DRIVES = {
     "rigid": (),
     "elastic": (

@@ -4,7 +4,21 @@ import math
 
 import numpy as np
 import pytest
-from apparatus.stribeck import DAMPING, KEYS, MU, SPEED, STATIC, Exact, Paper, forces
+from apparatus.stribeck import (
+    DAMPING,
+    DEVIATION,
+    FORCES,
+    KEYS,
+    MU,
+    SPEED,
+    SPEEDS,
+    START,
+    STATIC,
+    STRIBECK,
+    Exact,
+    Paper,
+    forces,
+)  # fmt: skip
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -14,20 +28,6 @@ from asperity.tribometer.fit import study
 from asperity.tribometer.fit.estimate import RISE, WIDEST, Fit
 from asperity.tribometer.fit.study import answer, prepare
 
-CASE = """[slider]
-drive_velocity = "1 mm/s"
-normal_force = "1 N"
-[friction]
-model = "lugre"
-mu = 0.9
-static_mu = 1.3
-tangential_stiffness = "1e5 N/m"
-stribeck_velocity = "2 mm/s"
-viscous_damping = "0.2 N s/m"
-"""
-SPEEDS = np.array([0.01, 0.3, 0.7, 1.0, 1.5, 3.0, 10.0, 100.0])
-FORCES = np.array([1.49, 1.45, 1.31, 1.19, 1.06, 1.00, 1.01, 1.04])
-START = (0.9, 1.3, 2e-3, 0.2)
 # Where chi-square, all others refitted, is 3.84 above its least: SciPy, by Brent's method.
 ENDS = {
     MU: (0.973668, 1.030293), STATIC: (1.460865, 1.520060), SPEED: (0.921597e-3, 1.138106e-3),
@@ -36,8 +36,8 @@ ENDS = {
 
 
 def problem(folder, **options):
-    (folder / "stribeck.toml").write_text(CASE, "utf-8")
-    rows = [f"{v},{force},0.02" for v, force in zip(SPEEDS, FORCES, strict=True)]
+    (folder / "stribeck.toml").write_text(STRIBECK, "utf-8")
+    rows = [f"{v},{force},{DEVIATION}" for v, force in zip(SPEEDS, FORCES, strict=True)]
     head = "slider.drive_velocity [mm/s],force [N],sd"
     (folder / "stribeck.csv").write_text("\n".join([head, *rows]), "utf-8")
     case = read_case(str(folder / "stribeck.toml"), case_tables())
@@ -53,7 +53,7 @@ def rises_by_3_84(exact, place, value):
 
 
 def test_the_ends_that_are_expected_are_those_of_the_exact_profile():
-    exact = Exact(1e-3 * SPEEDS, FORCES, np.full(8, 0.02), START)
+    exact = Exact(1e-3 * SPEEDS, FORCES, np.full(8, DEVIATION), START)
     for place, key in enumerate(KEYS):
         for value in ENDS[key]:
             if value is None:

@@ -232,6 +232,13 @@ def test_lanes_in_wide_registers_are_the_same_to_the_bit(tmp_path):
         assert called.words(first) == called.words(second) != called.words(given)
 
 
+def told_by(program):
+    """What a process prints in which nothing is made yet."""
+    without = os.environ | {"ASPERITY_NATIVE": "0"}
+    line = [sys.executable, "-c", program]
+    return subprocess.run(line, env=without, check=True, capture_output=True, text=True).stdout
+
+
 LOOPS = """
 from asperity.kernels.building import lean, link, making
 from asperity.kernels.native.entries import listed
@@ -248,16 +255,10 @@ lean.make(making.kernel(entry), entry.arguments, link.symbol(entry), entry.targe
 
 @pytest.mark.slow
 def test_all_loops_over_pressed_lanes_are_of_vector_instructions():
-    done = subprocess.run(
-        [sys.executable, "-c", LOOPS],
-        env=os.environ | {"ASPERITY_NATIVE": "0"},
-        check=True,
-        capture_output=True,
-        text=True,
-    )
+    told = told_by(LOOPS)
     # Three before the window, five in it while some wait and five when none does; three that make
     # the increments in the plane, and three those up.
-    assert int(done.stdout) >= 3 + 5 + 5 + 3 + 3
+    assert int(told) >= 3 + 5 + 5 + 3 + 3
 
 
 BORROWED = """
@@ -278,11 +279,5 @@ print(found["march_block"], found["fill_increments"], found["march_stretches"])
 
 @pytest.mark.slow
 def test_what_makes_no_arrays_is_compiled_without_counts_of_them_and_what_makes_some_with():
-    told = subprocess.run(
-        [sys.executable, "-c", BORROWED],
-        env=os.environ | {"ASPERITY_NATIVE": "0"},
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout.split()
+    told = told_by(BORROWED).split()
     assert told == ["True", "True", "False"]
