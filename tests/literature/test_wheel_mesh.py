@@ -243,6 +243,19 @@ def test_inner_nodes_of_a_section_stand_where_those_of_a_known_map_do():
     assert np.abs(smoothed - exact).max() < 3e-3 * np.abs(straight - exact).max()
 
 
+@pytest.mark.parametrize("both", [False, True])
+@pytest.mark.parametrize("grading", [0.5, 1.5, 2.5])
+def test_quadrilaterals_of_a_grading_are_thinnest_at_the_outline(grading, both):
+    """Next to it they have 2 g/sinh 2g of the mean; from there on each is thicker than the last."""
+    even = np.broadcast_to(np.linspace(2.0, 3.0, 401)[None, :, None, None], (2, 401, 1, 2))
+    thick = np.diff(section._graded(even, grading, both=both)[0, :, 0, 0])
+    assert thick[-1] * 400.0 == pytest.approx(2.0 * grading / np.sinh(2.0 * grading), rel=0.02)
+    inwards = thick[200:][::-1] if both else thick[::-1]
+    assert np.all(np.diff(inwards) > 0.0)
+    if both:
+        assert thick[::-1] == pytest.approx(thick, rel=1e-9)
+
+
 def test_an_element_larger_than_the_module_is_refused(wheel):
     with pytest.raises(InputError, match="at most the axial module"):
         mesh.tooth(wheel, 3.0)
