@@ -15,15 +15,15 @@ def grid(*axes, ordinary=None):
     ----------
     *axes : sequence
         Values of a parameter each.
-    ordinary : sequence of tuple, optional
-        The combinations that are ordinary, where a few stand for each value; the others are slow.
+    ordinary : sequence of tuple or int, optional
+        The combinations that are ordinary, or one of so many is; the others are slow, and parts of
+        no campaign.
     """
     if ordinary is not None:
-        assert set(ordinary) <= set(itertools.product(*axes)), "an ordinary one is none of them"
-        return [
-            pytest.param(*values) if values in ordinary else slow(*values)
-            for values in itertools.product(*axes)
-        ]
+        every = [*itertools.product(*axes)]
+        kept = every[::ordinary] if isinstance(ordinary, int) else ordinary
+        assert all(values in every for values in kept), "what is to be ordinary is none of them"
+        return [pytest.param(*one) if one in kept else slow(*one) for one in every]
     most = max(map(len, axes))
     some = {tuple(n % len(axis) for axis in axes) for n in range(most)}
     return [

@@ -47,9 +47,10 @@ def along(k, theta):
     return f"vibration.velocity_ratio={k}", f"vibration.direction={theta} deg"
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("theta", [0, 30, 45, 90, 135, 200])
-@pytest.mark.parametrize("k", [0.5, 1.5, 2.0, 6.0, 20.0])
+@pytest.mark.parametrize(
+    ("k", "theta", "method"),
+    grid([0.5, 1.5, 2.0, 6.0, 20.0], [0, 30, 45, 90, 135, 200], METHODS, ordinary=7),
+)
 def test_rigid_friction_under_a_sine_is_the_closed_form(k, theta, method):
     answer = guided(
         "friction.model=coulomb", *along(k, theta), f"solve.method={method}",
