@@ -7,6 +7,7 @@ import tomllib
 import numpy as np
 import pytest
 from apparatus.grid import slow
+from matplotlib.figure import Figure
 
 from asperity.casefile.project import Project
 from asperity.commands.listed import COMMANDS
@@ -258,7 +259,9 @@ def test_an_equation_that_has_words_is_shown_in_the_language(words):
 
 
 @pytest.mark.parametrize("given", FEW_CASES, ids=" ".join)
-def test_a_german_report_has_the_numbers_of_the_english_one(given):
+def test_a_german_report_has_the_numbers_of_the_english_one(given, monkeypatch):
+    # Pictures, whose drawing takes longest, have none of them.
+    monkeypatch.setattr(Figure, "savefig", lambda *_, **options: None)
     _, result = answer_of(*given)
     english = result.to_html()
     with spoken(catalogue_of("de")):
