@@ -165,6 +165,23 @@ def pytest_report_header() -> list[str]:
     return [f"{program} is not installed: left out {_NEEDS[program]}" for program in _absent]
 
 
+# Ordinary tests of the page that is served: one server and its worker do for all of them.
+_SERVED = re.compile(r"tests/acceptance/test_(hardening|web_(answers|guard|jobs))\.py::")
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> object | None:
+    if config.getvalue("dist") != "loadfile" or config.option.markexpr != "not slow":
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    class ByFileAndServer(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return "page" if _SERVED.match(nodeid) else super()._split_scope(nodeid)
+
+    return ByFileAndServer(config, log)
+
+
 def pytest_sessionstart(session: pytest.Session) -> None:
     # Before the workers start, each of which would compile the same kernels at the same time.
     workers = getattr(session.config.option, "numprocesses", None)

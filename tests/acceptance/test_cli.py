@@ -174,19 +174,19 @@ def test_the_cases_that_ship_are_listed(asperity):
 def test_a_sweep_prints_one_object_and_writes_what_it_found(asperity, tmp_path):
     code, output, errors = asperity(
         "sweep", "table-4.4", "--set", "solve.method=periodic", "--json", "--out", tmp_path,
-        "--over", "vibration.velocity_ratio=1,2,6", "--over", "vibration.direction=0:90:45",
+        "--over", "vibration.velocity_ratio=2,6", "--over", "vibration.direction=0:90:90",
     )  # fmt: skip
     assert code == 0
     assert errors == f"written to {tmp_path}: sweep.json, sweep.nc, sweep.png, report.html\n"
     answer = one_object(output)
     assert answer["dims"] == ["vibration.velocity_ratio", "vibration.direction"]
     assert answer["coords"] == {
-        "vibration.velocity_ratio": [1.0, 2.0, 6.0],
-        "vibration.direction": [0.0, 45.0, 90.0],
+        "vibration.velocity_ratio": [2.0, 6.0],
+        "vibration.direction": [0.0, 90.0],
     }
     assert answer["units"]["vibration.direction"] == "deg"
-    assert (answer["points"], answer["cached"]) == (9, 0)
-    assert answer["ratio"][2][2] == pytest.approx(0.4046, rel=1e-3)
+    assert (answer["points"], answer["cached"]) == (4, 0)
+    assert answer["ratio"][1][1] == pytest.approx(0.4046, rel=1e-3)
     assert answer["file"] == str(tmp_path / "sweep.nc")
     dataset = read_dataset(answer["file"])
     assert dataset["ratio"].values.tolist() == answer["ratio"]

@@ -83,20 +83,38 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
+def _top(asperity):
+    code, shown, _ = asperity("rate", "own.toml")
+    assert code == 0
+    return " ".join(" ".join(shown.splitlines()[2:8]).split())
+
+
 @pytest.mark.parametrize(("text", "said", "holds"), SAID.values(), ids=SAID)
 def test_first_lines_name_every_standard_that_cannot_tell_or_rates_outside(
     asperity, here, text, said, holds
 ):
     (here / "own.toml").write_text(text)
-    code, shown, _ = asperity("rate", "own.toml")
-    assert code == 0
-    top = " ".join(" ".join(shown.splitlines()[2:8]).split())
-    assert said in top
+    assert said in _top(asperity)
     verdict = json.loads(asperity("rate", "own.toml", "--json")[1])["verdict"]
     assert verdict["holds"] == holds
     for name, one in verdict["standing"].items():
         assert (one["word"] in ("no answer", "undecided")) == (holds[name] is None)
-    # The same words in a comparison and in the report.
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        CATALOGUE_100,
+        *(
+            pytest.param(each, marks=pytest.mark.slow)
+            for each in (CATALOGUE_30, SMALL_FAN, SLOW_WHEEL)
+        ),
+    ],
+    ids=SAID,
+)
+def test_a_comparison_and_the_report_have_the_words_of_the_first_lines(asperity, here, text):
+    (here / "own.toml").write_text(text)
+    top = _top(asperity)
     compared = " ".join(asperity("compare", "own.toml", "own.toml")[1].split())
     assert top.partition(";")[0] in compared
     assert asperity("rate", "own.toml", "--out", "out")[0] == 0

@@ -600,7 +600,11 @@ def test_what_was_measured_is_not_written_over(asperity, recording, tmp_path):
     below = asperity("rig", "import", raw, case, "--out", raw / "new.nc")
     refused(below, "run.csv cannot be used as output folder")
     assert raw.read_text() == old.read_text() == "measured once"
-    # Under the very name of the answer's file, in a folder of its own and among others.
+
+
+@pytest.mark.slow
+def test_a_recording_of_the_name_of_its_answer_is_not_written_over(asperity, recording, tmp_path):
+    # In a folder of its own and among others.
     mine = tmp_path / "series" / "reduce.nc"
     mine.parent.mkdir()
     mine.write_bytes(recording.read_bytes())

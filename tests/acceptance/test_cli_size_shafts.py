@@ -94,7 +94,12 @@ def worth(found):
 
 
 @pytest.mark.parametrize(
-    "rating", ["4 kN", "1.5 kN", pytest.param("0.9 kN", marks=pytest.mark.slow)]
+    "rating",
+    [
+        pytest.param("4 kN", marks=pytest.mark.slow),
+        "1.5 kN",
+        pytest.param("0.9 kN", marks=pytest.mark.slow),
+    ],
 )
 def test_those_that_are_judged_last_are_those_that_nothing_beats(monkeypatch, rating):
     """Judging only what nothing else beats finds what judging every one would find."""

@@ -116,7 +116,7 @@ ELSEWHERE = {
         "rexs",
     ),
 }
-QUICK = ("slide", "sweep", "rig plan")
+QUICK = ("sweep", "rig plan")
 # Of those that print what stands in arrays.
 ARRAYS = {"sweep": 2, "branches": 9, "fit": 1}
 

@@ -255,6 +255,7 @@ def test_what_no_repository_takes_is_refused_in_a_line(asperity, run, tmp_path, 
     assert all(word in " ".join(errors.split()) for word in words), errors
 
 
+@pytest.mark.slow
 def test_a_case_that_is_begun_makes_a_package_when_its_examples_are_replaced(
     asperity, run, tmp_path
 ):

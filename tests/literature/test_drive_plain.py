@@ -116,6 +116,7 @@ def test_torsional_vibration_of_a_light_load_saves_no_energy_at_20_khz(duration,
     assert powers < 2e-4
 
 
+@pytest.mark.slow
 def test_axial_vibration_of_brittle_flanks_can_save_energy_without_a_loss_of_contact():
     # It was held for a law that axial and torsional vibration buy torque, not energy.
     speed = DRIVE["speed"] * CIRCLE / np.cos(np.arctan2(4.0, 8.4))

@@ -147,6 +147,7 @@ def test_far_beyond_it_creeps_by_the_balance_of_friction():
     assert answer.creep == pytest.approx(answer.creep_closed_form, rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_gearset_that_hardly_holds_has_a_threshold_all_the_same():
     answer = locked("vibration.displacement_amplitude=15 um", "friction.mu=0.08604")
     assert answer.holding_share == pytest.approx(0.974, abs=1e-3)

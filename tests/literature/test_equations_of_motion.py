@@ -112,7 +112,14 @@ FRICTIONS |= {f"{law}, exponent 2": {"law": law, "exponent": 2.0} for law in LAW
 FRICTIONS |= {f"lugre, {law}": {"law": law} | LUGRE for law in LAWS}
 
 
-@pytest.mark.parametrize(("name", "applied_to"), grid([*FRICTIONS], ["base", "body"]))
+@pytest.mark.parametrize(
+    ("name", "applied_to"),
+    grid(
+        [*FRICTIONS],
+        ["base", "body"],
+        ordinary=[("split", "body"), ("unsplit, exponent 2", "base"), ("lugre, vector", "base")],
+    ),
+)
 def test_the_march_goes_to_the_equations_of_motion(name, applied_to):
     ways, deflections = errors([20_000], FRICTIONS[name], applied_to)
     assert ways[0] < 1e-5

@@ -68,8 +68,8 @@ def test_the_steady_loop_has_dahls_peak_and_area(law, amplitude):
     # What the start leaves falls by exp(-4 amplitude) a cycle.
     for _ in range(math.ceil(8.0 / amplitude)):
         for way in (2 * amplitude, -2 * amplitude):
-            forces = pulled(way, steps, 1.0, law, start)
-            start = forces[-1]
+            # Of exponent 1 every law follows the exponential at any step.
+            start = pulled(way, 10, 1.0, law, start)[-1]
     there = pulled(2 * amplitude, steps, 1.0, law, start)
     back = pulled(-2 * amplitude, steps, 1.0, law, there[-1])
     area = np.trapezoid(there - back[::-1], dx=2 * amplitude / steps)

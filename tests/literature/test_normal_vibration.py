@@ -11,6 +11,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from scipy.integrate import solve_ivp
 
 from asperity.casefile import read_case
@@ -111,8 +112,8 @@ def test_in_the_plane_the_normal_freedom_changes_nothing(k, plain):
     ("k", "elevation", "law", "control", "duration"),
     [
         (2, 90, "linear", "force", 0.5), (6, 30, "linear", "force", 1.0),
-        (6, 60, "linear", "force", 1.0), (6, 90, "linear", "force", 1.0),
-        (6, 90, "hertz", "force", 0.5), (20, 30, "linear", "force", 0.5),
+        slow(6, 60, "linear", "force", 1.0), slow(6, 90, "linear", "force", 1.0),
+        slow(6, 90, "hertz", "force", 0.5), slow(20, 30, "linear", "force", 0.5),
         (20, 60, "hertz", "force", 0.5), (20, 90, "linear", "displacement", 1.0),
     ],
 )  # fmt: skip

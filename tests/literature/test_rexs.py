@@ -5,6 +5,7 @@ of a worm stage that ships with the C++ library REXSapi: z 2/41, m 4, d_m1 36, l
 rpm of the worm, a polyglycol 220/37 at 73.2 degC by injection.
 """
 
+import functools
 import json
 import random
 import xml.etree.ElementTree as ElementTree
@@ -112,12 +113,19 @@ def test_a_duty_cycle_becomes_load_cases_and_comes_back(tmp_path):
     assert steps[1].worm_speed == pytest.approx(case.require(Operation).duty_cycle[1].worm_speed)
 
 
+@functools.cache
+def schema():
+    import xmlschema
+
+    return xmlschema.XMLSchema(FILES / "rexs-file.xsd")
+
+
 @pytest.mark.parametrize("settings", [(), *MORE])
 @pytest.mark.parametrize("name", DESCRIBED)
 def test_what_is_written_validates_against_the_schema_of_the_format(name, settings, tmp_path):
-    xmlschema = pytest.importorskip("xmlschema")
+    pytest.importorskip("xmlschema")
     _, path = written(name, tmp_path, settings)
-    xmlschema.XMLSchema(FILES / "rexs-file.xsd").validate(path)
+    schema().validate(path)
 
 
 @pytest.mark.parametrize("settings", [(), *MORE])

@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
@@ -46,9 +47,10 @@ def along(k, theta):
     return f"vibration.velocity_ratio={k}", f"vibration.direction={theta} deg"
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("theta", [0, 30, 45, 90, 135, 200])
-@pytest.mark.parametrize("k", [0.5, 1.5, 2.0, 6.0, 20.0])
+@pytest.mark.parametrize(
+    ("k", "theta", "method"),
+    grid([0.5, 1.5, 2.0, 6.0, 20.0], [0, 30, 45, 90, 135, 200], METHODS, ordinary=7),
+)
 def test_rigid_friction_under_a_sine_is_the_closed_form(k, theta, method):
     answer = guided(
         "friction.model=coulomb", *along(k, theta), f"solve.method={method}",
@@ -121,9 +123,19 @@ def test_every_law_goes_to_the_closed_form_of_the_sine(k, theta, law):
         assert abs(extrapolated) < 2e-5
 
 
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize(("k", "theta"), [(2, 0), (6, 0), (20, 0), (2, 90), (6, 90), (20, 90)])
-def test_every_law_goes_to_the_closed_form_of_the_triangle_wave(k, theta, law):
+@pytest.mark.parametrize(
+    ("place", "law"),
+    grid(
+        [(2, 0), (6, 0), (20, 0), (2, 90), (6, 90), (20, 90)],
+        LAWS,
+        ordinary=[
+            ((2, 0), "split"), ((20, 0), "vector"), ((6, 0), "unsplit"),
+            ((2, 90), "vector"), ((6, 90), "split"), ((20, 90), "unsplit"),
+        ],
+    ),
+)  # fmt: skip
+def test_every_law_goes_to_the_closed_form_of_the_triangle_wave(place, law):
+    k, theta = place
     exact = triangle_directed_ratio(float(k), math.radians(theta))
     settings = (
         *along(k, theta),

@@ -7,8 +7,11 @@ integrated with ever shorter steps. Ratios are means of the drive force over the
 least 20 periods of the drive's ringing), cut to whole cycles, over mu F_N.
 """
 
+import itertools
+
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
@@ -29,6 +32,12 @@ def speed(k):
     return f"vibration.velocity_ratio={k}"
 
 
+def spread_over(speeds):
+    """Every law with every method once, at one of the speeds."""
+    ways = itertools.product(LAWS, METHODS)
+    return [(k, *way) for k, way in zip(itertools.cycle(speeds), ways, strict=False)]
+
+
 LONGITUDINAL = {1: (1.0, 1.0), 2: (0.55609, 0.55587), 6: (0.13649, 0.13700), 20: (0.03335, 0.03333)}
 TRANSVERSE = {
     1: {"two-phase": 0.95585, "split": 0.95599, "unsplit": 0.98390, "vector": 0.88061},
@@ -43,9 +52,9 @@ def test_longitudinal_ratios_of_the_two_phase_scheme(k):
     assert answer.ratio == pytest.approx(LONGITUDINAL[k][0], rel=1e-3)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("k", LONGITUDINAL)
+@pytest.mark.parametrize(
+    ("k", "law", "method"), grid(LONGITUDINAL, LAWS, METHODS, ordinary=spread_over(LONGITUDINAL))
+)
 def test_longitudinal_ratios_of_every_law(k, law, method):
     answer = solved("table-4.3", speed(k), f"friction.law={law}", f"solve.method={method}")
     assert answer.ratio == pytest.approx(LONGITUDINAL[k][1], rel=1e-3)
@@ -57,9 +66,9 @@ def test_transverse_ratios_of_the_two_phase_scheme(k):
     assert answer.ratio == pytest.approx(TRANSVERSE[k]["two-phase"], rel=1e-3)
 
 
-@pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("k", TRANSVERSE)
+@pytest.mark.parametrize(
+    ("k", "law", "method"), grid(TRANSVERSE, LAWS, METHODS, ordinary=spread_over(TRANSVERSE))
+)
 def test_transverse_ratios_law_by_law(k, law, method):
     answer = solved("table-4.4", speed(k), f"friction.law={law}", f"solve.method={method}")
     assert answer.ratio == pytest.approx(TRANSVERSE[k][law], rel=1e-3)

@@ -6,6 +6,7 @@ state.
 
 import numpy as np
 import pytest
+from apparatus.grid import grid, slow
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve, solve_many
@@ -112,7 +113,7 @@ def test_a_state_of_a_contact_without_damping_is_one_of_many(ratio, law):
     assert any("one of many" in note for note in answer.notes)
 
 
-@pytest.mark.parametrize("ratio", [6, 12])
+@pytest.mark.parametrize("ratio", [6, slow(12)])
 def test_a_march_of_a_contact_without_damping_shows_one_of_many_and_says_so(ratio):
     settings = f"vibration.velocity_ratio={ratio}", "normal.damping_ratio=0"
     state = pin("solve.method=periodic", *settings)
@@ -174,7 +175,7 @@ def near_resonance(folder, *settings):
     return solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
 
 
-@pytest.mark.parametrize("law", ["split", "vector", "unsplit"])
+@pytest.mark.parametrize("law", ["split", slow("vector"), slow("unsplit")])
 def test_of_two_states_the_one_is_shown_that_a_march_from_rest_comes_to(tmp_path, law):
     settings = f"friction.law={law}", "friction.transfer=1"
     state = near_resonance(tmp_path, *settings)
@@ -340,7 +341,7 @@ applied_to = "body"
 """
 
 
-@pytest.mark.parametrize("step", ["2.3795 us", "0.5 us"])
+@pytest.mark.parametrize("step", ["2.3795 us", slow("0.5 us")])
 def test_below_a_resonance_the_state_is_shown_that_a_march_from_rest_comes_to(tmp_path, step):
     path = tmp_path / "leaning.toml"
     path.write_text(LEANING)
@@ -366,8 +367,14 @@ def test_of_two_states_below_a_resonance_a_note_tells_of_the_other(tmp_path):
     assert f"with the ratio {alone.ratio:.5g}, repeats itself as well" in note
 
 
-@pytest.mark.parametrize("case", ["table-4.1-L3", "table-4.3"])
-@pytest.mark.parametrize("exponent", [0.5, 1.0, 2.0])
+@pytest.mark.parametrize(
+    ("exponent", "case"),
+    grid(
+        [0.5, 1.0, 2.0],
+        ["table-4.1-L3", "table-4.3"],
+        ordinary=[(0.5, "table-4.1-L3"), (1.0, "table-4.3"), (2.0, "table-4.1-L3")],
+    ),
+)
 def test_where_the_way_of_a_cycle_is_lost_beside_the_deflection_limit_nothing_is_settled(
     case, exponent
 ):
@@ -385,8 +392,8 @@ def test_where_the_way_of_a_cycle_is_lost_beside_the_deflection_limit_nothing_is
 def test_slow_slips_end_where_the_mean_velocity_is_over_the_mean_speed():
     turn = 2.0 * np.pi * (np.arange(100_000) + 0.5) / 100_000
     wanted = 1.0 / np.mean(np.abs(1.0 + 6.0 * np.cos(turn)))
-    for slow in (1e-7, 1e-9, 1e-10):
-        asked = ["solve.method=periodic", f"slider.drive_velocity={slow!r} m/s"]
+    for slowly in (1e-7, 1e-9, 1e-10):
+        asked = ["solve.method=periodic", f"slider.drive_velocity={slowly!r} m/s"]
         case = read_case("table-4.1-L3", TABLES, [*asked, "vibration.velocity_ratio=6"])
         found = solve(Model.from_case(case), history=False)
         assert found.settled

@@ -7,6 +7,7 @@ rest, both states last.
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from scipy.integrate import solve_ivp
 
 from asperity.friction import Friction
@@ -79,8 +80,10 @@ def test_of_two_states_that_last_the_one_from_rest_is_shown_and_the_other_told(m
     assert "which is shown" in note
 
 
-@pytest.mark.parametrize("method", ["periodic", "march"])
-@pytest.mark.parametrize("viscous", [VISCOUS, 300.0])
+@pytest.mark.parametrize(
+    ("viscous", "method"), [(VISCOUS, "periodic"), (300.0, "march"),
+                            slow(VISCOUS, "march"), slow(300.0, "periodic")],
+)  # fmt: skip
 def test_a_body_that_comes_to_sliding_from_rest_is_told_of_no_other_state(method, viscous):
     found = solve(body(0.02, method, viscous, duration=1.0), history=False)
     assert found.settled

@@ -11,6 +11,7 @@ import functools
 import numpy as np
 import pytest
 from apparatus.duties import A100
+from apparatus.grid import slow
 
 import asperity
 from asperity.casefile import read_case
@@ -227,7 +228,7 @@ def test_an_identical_hob_makes_the_centre_distance_count_more_where_it_closes()
 
 
 @pytest.mark.parametrize(("hob", "mount"), [
-    (None, Mount(shaft_angle_error="0.03 deg")), (Hob(tilt="0.03 deg"), None)])  # fmt: skip
+    slow(None, Mount(shaft_angle_error="0.03 deg")), (Hob(tilt="0.03 deg"), None)])  # fmt: skip
 def test_where_the_worm_stands_as_its_hob_stood_an_angle_that_may_be_off_leaves_most(hob, mount):
     given = Tolerances(shaft_angle="0.08 deg", thread=["-100 um", "-102 um"],
                        tooth=["-20 um", "-22 um"])  # fmt: skip

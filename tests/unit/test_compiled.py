@@ -12,6 +12,7 @@ from pathlib import Path
 import numba
 import numpy as np
 import pytest
+from apparatus.grid import slow
 
 from asperity.files.folders import cache_folder
 from asperity.friction.tangent import update
@@ -119,9 +120,9 @@ def one_byte_changed(content):
     ("suffix", "damage"),
     [
         ("nbi", lambda content: b"garbage"),
-        ("nbi", half),
-        ("nbc", lambda content: b""),
-        ("nbc", half),
+        slow("nbi", half),
+        slow("nbc", lambda content: b""),
+        slow("nbc", half),
         ("nbc", one_byte_changed),
     ],
 )

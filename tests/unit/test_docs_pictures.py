@@ -37,6 +37,7 @@ def test_more_swings_than_there_are_dashes_are_drawn():
     assert len(figure.axes[0].lines) == 9
 
 
+@pytest.mark.slow
 def test_a_thrust_has_a_colour_of_its_own():
     elevation, azimuth = np.radians([0.0, 45.0, 90.0]), np.radians([0.0, 90.0, 180.0])
     braking = 0.5 * np.ones((3, 3)) + 0.1 * azimuth
@@ -47,6 +48,7 @@ def test_a_thrust_has_a_colour_of_its_own():
         figure.draw_without_rendering()
 
 
+@pytest.mark.slow
 def test_flight_is_shaded_where_the_normal_force_is_zero():
     time = np.linspace(0.0, 0.5e-3, 501)
     load = np.maximum(55.0 * (1.0 + 1.5 * np.cos(4e3 * 2.0 * np.pi * time)), 0.0)

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
@@ -56,7 +57,7 @@ def test_begun_elsewhere_amplitudes_stay_and_phases_turn_by_their_order():
     np.testing.assert_allclose(turned, 1.0, atol=1e-12)
 
 
-@pytest.mark.parametrize("settings", [(), UNEVEN, ("gearset.hand=left", *UNEVEN)])
+@pytest.mark.parametrize("settings", [(), slow(UNEVEN), ("gearset.hand=left", *UNEVEN)])
 def test_the_error_without_load_is_that_of_the_flanks_alone(settings):
     wheel = wheel_of(*settings)
     flank = transmission(wheel.pair, wheel.flank(1), 8)

@@ -6,6 +6,7 @@ import struct
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from scipy.spatial import KDTree
 
 from asperity.casefile import read_case
@@ -106,7 +107,7 @@ def test_no_contact_line_turns_back_where_the_flank_of_the_worm_ends(side):
             assert np.abs(np.diff(pieces)).sum() <= np.ptp(pieces) + 1e-3
 
 
-@pytest.mark.parametrize("hand", ["right", "left"])
+@pytest.mark.parametrize("hand", ["right", slow("left")])
 def test_turned_the_other_way_neither_meets_the_lines(hand):
     worm = [distances(hand, "+1", n, worm_sign=-1.0)[0] for n in (14, 20)]
     wheel = [distances(hand, "+1", n, wheel_sign=-1.0)[1] for n in (14, 20)]

@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.contact.interface.friction import PointFriction
 from asperity.errors import InputError
@@ -220,9 +221,15 @@ def pushed_in_parts(before, free, give, parts):
     return total / parts
 
 
-@pytest.mark.parametrize("before", [-1.0, 0.4, 1.0])
-@pytest.mark.parametrize("free", [-3.0, -0.6, -0.2, 0.3, 0.9, 2.5])
-@pytest.mark.parametrize("give", [1e-9, 0.3, 1.0, 2.0])
+@pytest.mark.parametrize(
+    ("before", "free", "give"),
+    grid(
+        [-1.0, 0.4, 1.0],
+        [-3.0, -0.6, -0.2, 0.3, 0.9, 2.5],
+        [1e-9, 0.3, 1.0, 2.0],
+        ordinary=5,
+    ),
+)
 def test_along_a_line_the_mean_share_is_that_of_a_steady_push(before, free, give):
     share, across = mean_share(before, 0.0, free, 0.0, give, give, 0.0, 0.0, 0.0, 0.0)
     assert share == pytest.approx(pushed_in_parts(before, free, give, 250_000), abs=1e-5)
@@ -253,10 +260,10 @@ def way_in_parts(slip, push, give, across, parts):
     return way
 
 
-@pytest.mark.parametrize("across", [0.0, 0.7])
-@pytest.mark.parametrize("jump", [-6.0, -0.4, 0.3, 1.5])
-@pytest.mark.parametrize("push", [-0.3, 0.0, 0.6])
-@pytest.mark.parametrize("give", [0.3, 1.0, 5.0])
+@pytest.mark.parametrize(
+    ("give", "push", "jump", "across"),
+    grid([0.3, 1.0, 5.0], [-0.3, 0.0, 0.6], [-6.0, -0.4, 0.3, 1.5], [0.0, 0.7], ordinary=5),
+)
 def test_after_a_corner_the_way_of_the_step_is_right(give, push, jump, across):
     before = 0.8
     share, _ = mean_share(

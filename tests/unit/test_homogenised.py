@@ -35,6 +35,11 @@ def law():
     return homogenise(body("table-4.3"))
 
 
+@pytest.fixture(scope="module")
+def with_lugre():
+    return homogenise(body("table-4.3", *LUGRE))
+
+
 def cycle_mean_force(model, begin, end):
     """Middle of every cycle-long window and the mean drive force over it, from a march."""
     march = March(model, record=True)
@@ -475,17 +480,17 @@ def test_without_vibration_lugre_friction_is_its_steady_curve():
     assert answer.ratio == pytest.approx(periodic.ratio, rel=1e-9)
 
 
-def test_far_beyond_the_vibration_viscous_friction_adds_to_full_friction():
-    law = homogenise(body("table-4.3", *LUGRE))
+def test_far_beyond_the_vibration_viscous_friction_adds_to_full_friction(with_lugre):
+    law = with_lugre
     end = law.velocity[-1]
     assert law(end * (1.0 + 1e-9)) == pytest.approx(law(end * (1.0 - 1e-9)), rel=1e-8)
     assert law(5.0) == pytest.approx(5.5 + 500.0, rel=1e-6)
     assert law(-5.0) == pytest.approx(-5.5 - 500.0, rel=1e-6)
 
 
-@pytest.mark.parametrize("settings", [(), LUGRE])
-def test_the_slope_of_the_law_is_its_derivative(settings):
-    arguments = homogenise(body("table-4.3", *settings)).arguments
+@pytest.mark.parametrize("name", ["law", "with_lugre"])
+def test_the_slope_of_the_law_is_its_derivative(request, name):
+    arguments = request.getfixturevalue(name).arguments
     speeds = np.array([0.21, 0.33, 2.0])
     for v in (*(1e-2 * speeds), *(-1e-2 * speeds), *speeds, *-speeds):
         step = 1e-6 * abs(v)

@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.friction import LAWS
 from asperity.friction.dahl import advance
@@ -152,9 +153,9 @@ def tangents(s, varied, limit_0, exponent, law, keeps):
     return np.column_stack([np.reshape(first, (2, 2)), np.reshape(second, (2, 2)), slope])
 
 
-@pytest.mark.parametrize("keeps", KEEPS.values(), ids=KEEPS)
-@pytest.mark.parametrize("exponent", EXPONENTS)
-@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+@pytest.mark.parametrize(
+    ("law", "exponent", "keeps"), grid(LAWS.values(), EXPONENTS, KEEPS.values(), ordinary=5)
+)
 def test_the_tangents_by_slip_and_load_are_the_differences(law, exponent, keeps):
     random = np.random.default_rng(3)
     smooth = 0

@@ -6,6 +6,7 @@ import signal
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.casefile import read_case
 from asperity.errors import ConvergenceError, InputError
@@ -112,8 +113,9 @@ def test_vibration_from_the_first_moment_ends_in_the_same_state(law):
     assert early.ratio == pytest.approx(late.ratio, rel=1e-3)
 
 
-@pytest.mark.parametrize("model", ["dahl", "coulomb", "lugre"])
-@pytest.mark.parametrize("case", ["table-4.3", "table-4.4"])
+@pytest.mark.parametrize(
+    ("model", "case"), grid(["dahl", "coulomb", "lugre"], ["table-4.3", "table-4.4"])
+)
 def test_without_vibration_the_drive_force_is_full_friction(case, model):
     answer = solved(case, STILL, f"friction.model={model}")
     assert answer.cycles == 0
@@ -152,9 +154,7 @@ def test_to_a_guided_body_on_a_rigid_drive_it_is_the_same_whoever_is_shaken(thet
     assert moved.ledger.vibration == pytest.approx(base.ledger.vibration, rel=1e-10)
 
 
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("exponent", EXPONENTS)
-@pytest.mark.parametrize("theta", [0, 60])
+@pytest.mark.parametrize(("theta", "exponent", "law"), grid([0, 60], EXPONENTS, LAWS, ordinary=4))
 def test_every_exponent_marches_inside_the_limit(exponent, law, theta):
     answer = solved(
         "table-4.4", f"friction.law={law}", f"friction.exponent={exponent}",
@@ -167,10 +167,10 @@ def test_every_exponent_marches_inside_the_limit(exponent, law, theta):
     assert answer.ledger.residual < 1e-9
 
 
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("lateral", ["free", "guided"])
-@pytest.mark.parametrize("applied_to", ["base", "body"])
-@pytest.mark.parametrize("waveform", ["sine", "triangle", "square"])
+@pytest.mark.parametrize(
+    ("waveform", "applied_to", "lateral", "law"),
+    grid(["sine", "triangle", "square"], ["base", "body"], ["free", "guided"], LAWS, ordinary=5),
+)
 def test_the_power_ledger_closes(waveform, applied_to, lateral, law):
     settings = [
         f"friction.law={law}", f"slider.lateral={lateral}", f"vibration.applied_to={applied_to}",

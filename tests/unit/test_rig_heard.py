@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 from apparatus.heard_rig import (
     FAULTS,
     SMALL,
@@ -69,6 +70,17 @@ TOLD = {
 }
 
 
+# Of faults that are told in the words of another, or nearly.
+ALIKE = {
+    "zero off by 30 mN m", "torque and load cell exchanged", "torques exchanged",
+    "torque saturates within its noise", "samples missing in the drive",
+    "zeros of torque and speed off", "current told 1.7 times as large",
+    "speed of the bronze disc told twice as large", "both torques told half as large again",
+    "supply of 3 V told as 5.5 V", "drive picked up by both torques",
+    "drive picked up by both torques, a little",
+}  # fmt: skip
+
+
 def reducible(path, *settings):
     recording = Recording.open(path)
     return Reducible(recording, recording.case(TABLES).replace(settings))
@@ -91,7 +103,7 @@ def seed_of(name):
     return zlib.crc32(name.encode()) % 100_000
 
 
-@pytest.mark.parametrize("name", TOLD)
+@pytest.mark.parametrize("name", [slow(name) if name in ALIKE else name for name in TOLD])
 def test_a_fault_is_told_and_spoils(tmp_path, name):
     flags = spoiled(name, seed_of(name), tmp_path / "run.nc", **SMALL)
     assert any(TOLD[name] in flag for flag in flags), flags

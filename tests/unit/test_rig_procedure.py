@@ -15,7 +15,7 @@ import h5py
 import numpy as np
 import pytest
 from apparatus import rigs
-from apparatus.grid import slow
+from apparatus.grid import grid, slow
 
 from asperity.errors import InputError, StorageError
 from asperity.processes.alone import alone
@@ -396,9 +396,10 @@ def test_what_is_not_read_back_to_be_off_keeps_a_person_from_the_rig(disc, tmp_p
     assert rigs.journal(tmp_path)[-1]["still_on"]
 
 
-@pytest.mark.parametrize("ear", [True, False])
-@pytest.mark.parametrize("state", [None, False])
-@pytest.mark.parametrize("begins_again", [False, True])
+@pytest.mark.parametrize(
+    ("begins_again", "state", "ear"),
+    grid([False, True], [None, False], [True, False], ordinary=3),
+)
 def test_a_person_is_sent_where_the_drive_is_heard_to_be_still_whatever_it_says(
     begins_again, state, ear, tmp_path
 ):

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 
 from asperity.casefile import read_case
 from asperity.runs import Run
@@ -208,7 +209,7 @@ def ringing(velocity, *settings):
     ("velocity", "settings"),
     [
         (0.05, ()),
-        (0.08, ("slider.drive_stiffness=20 kN/m",)),
+        slow(0.08, ("slider.drive_stiffness=20 kN/m",)),
         (0.08, ("vibration.direction=60 deg",)),
         (0.2, ("friction.exponent=2",)),
     ],

@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 import pytest
 import xarray as xr
+from apparatus.grid import slow
 
 from asperity.errors import StorageError
 from asperity.files.store import read_dataset
@@ -203,7 +204,7 @@ def _virtual_numbers(file, other):
 
 
 @pytest.mark.parametrize(
-    "lead_out", [_external_link, _soft_link, _external_numbers, _virtual_numbers]
+    "lead_out", [_external_link, slow(_soft_link), slow(_external_numbers), _virtual_numbers]
 )
 def test_a_recording_that_leads_into_another_file_is_refused(tmp_path, lead_out):
     path, other = tmp_path / "run.nc", tmp_path / "other.nc"

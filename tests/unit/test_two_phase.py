@@ -2,6 +2,7 @@ import math
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.casefile import read_case
 from asperity.errors import InputError
@@ -102,8 +103,7 @@ def marched(model):
     return np.column_stack([history.drive_force, history.friction])
 
 
-@pytest.mark.parametrize("theta", [0, 30, 90, 200, 270])
-@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+@pytest.mark.parametrize(("theta", "exponent"), grid([0, 30, 90, 200, 270], [1.0, 1.5, 2.0]))
 def test_with_the_base_vibrated_it_is_table_4_2_as_printed(theta, exponent):
     model = body(
         f"vibration.direction={theta} deg", "vibration.start=1 ms", "solve.duration=2.5 ms",
@@ -114,8 +114,7 @@ def test_with_the_base_vibrated_it_is_table_4_2_as_printed(theta, exponent):
     assert marched(model) == pytest.approx(expected, abs=1e-9 * model.full_friction)
 
 
-@pytest.mark.parametrize("theta", [0, 30, 90, 200])
-@pytest.mark.parametrize("exponent", [1.0, 2.0])
+@pytest.mark.parametrize(("theta", "exponent"), grid([0, 30, 90, 200], [1.0, 2.0]))
 def test_with_the_body_vibrated_it_is_table_7_3_with_the_stored_y(theta, exponent):
     model = body(
         f"vibration.direction={theta} deg", "vibration.start=0 s", "solve.duration=2.5 ms",

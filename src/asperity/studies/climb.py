@@ -1,15 +1,14 @@
 """The highest point of a function under constraints, from several starts."""
 
 import dataclasses
-import threading
 from collections import deque
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Generator, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.studies.stepwise import lowest
 
 Rows = Callable[[FloatArray], FloatArray]
 """From rows to as many rows.
@@ -20,6 +19,9 @@ constraints, not below zero. NaN where there is no answer.
 
 Hill = tuple[Rows, Sequence[FloatArray]]
 """A merit, and where climbs begin."""
+
+_Climber = Generator[FloatArray, FloatArray, tuple[float, FloatArray] | None]
+"""Asks for the worth of points, in rows, until it is where it ends."""
 
 _STEP = 1e-6
 _MARGIN = 1e-9
@@ -98,21 +100,30 @@ def climb(merit: Rows, starts: Sequence[FloatArray]) -> Top | None:
 
 
 def climb_together(worth: Rows, hills: Sequence[Hill]) -> list[Top | None]:
-    """Climb several hills over the same points, as `climb` does each."""
-    if not hills:
-        return []
-    climbers = [(merit, start) for merit, starts in hills for start in starts]
-    together = _JointClimb(worth, len(climbers))
-    with ThreadPoolExecutor(len(climbers)) as pool:
-        try:
-            ends = iter(
-                [*pool.map(together.climb, range(len(climbers)), *zip(*climbers, strict=True))]
-            )
-        except BaseException as failure:
-            # Interrupted here, some may not have set out, for whom the others would wait for ever.
-            together.cut(failure)
-            raise
-    return [_highest([next(ends) for _ in starts], starts[0]) for _, starts in hills]
+    """Climb several hills over the same points, as `climb` does each.
+
+    They go step by step together, so that one call answers what all of them ask: it costs about
+    the same for ten points as for a hundred.
+    """
+    climbers = [_climber(merit, start) for merit, starts in hills for start in starts]
+    ends: dict[_Climber, tuple[float, FloatArray] | None] = {}
+    try:
+        asked = {climber: next(climber) for climber in climbers}
+        while asked:
+            rows = worth(np.concatenate(list(asked.values())))
+            behind = np.cumsum([len(points) for points in asked.values()])
+            for climber, answer in zip([*asked], np.split(rows, behind[:-1]), strict=True):
+                try:
+                    asked[climber] = climber.send(answer)
+                except StopIteration as ended:
+                    ends[climber] = ended.value
+                    del asked[climber]
+    finally:
+        # Interrupted, some may have a thread that waits.
+        for climber in climbers:
+            climber.close()
+    found = iter(climbers)
+    return [_highest([ends[next(found)] for _ in starts], starts[0]) for _, starts in hills]
 
 
 def _highest(ends: Sequence[tuple[float, FloatArray] | None], start: FloatArray) -> Top | None:
@@ -126,69 +137,13 @@ def _highest(ends: Sequence[tuple[float, FloatArray] | None], start: FloatArray)
     return Top(point, height, sum(height - other <= _SAME for other, _ in tops))
 
 
-class _JointClimb:
-    """Climbers that go step by step together, so that one call answers what all of them ask.
-
-    A call costs about the same for ten points as for a hundred. Each climber waits in a thread of
-    its own, because SciPy's method asks for one point after the other.
-    """
-
-    def __init__(self, worth: Rows, climbers: int) -> None:
-        self._worth, self._climbing = worth, climbers
-        self._all_waiting = threading.Condition()
-        self._waiting: dict[int, FloatArray] = {}
-        self._answers: dict[int, FloatArray] = {}
-        self._failure: BaseException | None = None
-
-    def climb(
-        self, climber: int, merit: Rows, start: FloatArray
-    ) -> tuple[float, FloatArray] | None:
-        """Climb from a start, together with the others."""
-        try:
-            return _allowed(lambda points: merit(self._evaluated(climber, points)), start)
-        finally:
-            with self._all_waiting:
-                self._climbing -= 1
-                self._answer_together()
-
-    def cut(self, failure: BaseException) -> None:
-        """Let every climber end with a failure."""
-        with self._all_waiting:
-            self._failure = failure
-            self._all_waiting.notify_all()
-
-    def _evaluated(self, climber: int, points: FloatArray) -> FloatArray:
-        with self._all_waiting:
-            self._waiting[climber] = points
-            self._answer_together()
-            self._all_waiting.wait_for(lambda: climber in self._answers or self._failure)
-            if self._failure is not None:
-                raise self._failure
-            return self._answers.pop(climber)
-
-    def _answer_together(self) -> None:
-        if not self._waiting or len(self._waiting) < self._climbing or self._failure is not None:
-            return
-        # In the order of the starts, whoever came first, so that an answer can be repeated.
-        asked = dict(sorted(self._waiting.items()))
-        self._waiting.clear()
-        try:
-            rows = self._worth(np.concatenate(list(asked.values())))
-        except BaseException as failure:
-            self._failure = failure
-        else:
-            ends = np.cumsum([len(points) for points in asked.values()])
-            self._answers.update(zip(asked, np.split(rows, ends[:-1]), strict=True))
-        self._all_waiting.notify_all()
-
-
-def _allowed(merit: Rows, start: FloatArray) -> tuple[float, FloatArray] | None:
+def _climber(merit: Rows, start: FloatArray) -> _Climber:
     """Return the height and the place of the end of a climb that keeps all constraints."""
-    end = _top(merit, start) if start.size else start
+    end = (yield from _top(merit, start)) if start.size else start
     # Where a constraint has a kink the climb may end a little beyond it: then back to the start,
     # as far as needed.
     ways = end + _BACK[:, None] * (start - end)
-    rows = merit(ways)
+    rows = merit((yield ways))
     kept = np.all(np.isfinite(rows), axis=1) & np.all(rows[:, 1:] >= -_SLACK, axis=1)
     if not kept.any():
         return None
@@ -196,58 +151,36 @@ def _allowed(merit: Rows, start: FloatArray) -> tuple[float, FloatArray] | None:
     return float(rows[best, 0]), ways[best]
 
 
-def _top(merit: Rows, start: FloatArray) -> FloatArray:
-    from scipy.optimize import minimize
-
-    slope = _Slope(merit)
-    try:
-        answer = minimize(
-            lambda point: -slope(point)[0][0],
-            start,
-            jac=lambda point: -slope(point)[1][0],
-            method="SLSQP",
-            bounds=[(0.0, 1.0)] * len(start),
-            constraints={
-                "type": "ineq",
-                "fun": lambda point: slope(point)[0][1:] - _MARGIN,
-                "jac": lambda point: slope(point)[1][1:],
-            },
-            options={"ftol": 1e-12, "maxiter": _ITERATIONS},
-        )
-    except _ThereError as there:
-        return there.point
-    top: FloatArray = np.clip(answer.x, 0.0, 1.0)
-    return top
+def _top(merit: Rows, start: FloatArray) -> Generator[FloatArray, FloatArray, FloatArray]:
+    steps = lowest(start, 1e-12, _ITERATIONS)
+    recent: deque[FloatArray] = deque(maxlen=_PATIENCE)
+    at, answer = b"", (np.empty(0), np.empty((0, 0)))
+    point = next(steps)
+    while True:
+        if point.tobytes() != at:
+            recent.append(point)
+            if len(recent) == _PATIENCE and np.ptp(recent, axis=0).max() < _STILL:
+                # It treads on the spot: what is left to gain is lost in the rounding of
+                # differences.
+                steps.close()
+                break
+            answer, at = (yield from _slopes(merit, point)), point.tobytes()
+        try:
+            point = steps.send(answer)
+        except StopIteration as ended:
+            point = ended.value
+            break
+    return np.clip(point, 0.0, 1.0)
 
 
-class _ThereError(Exception):
-    """A climb treads on the spot: what is left to gain is lost in the rounding of differences."""
-
-    def __init__(self, point: FloatArray) -> None:
-        self.point = np.clip(point, 0.0, 1.0)
-
-
-class _Slope:
-    """Value and slopes at a point, by differences in one call, kept for the next question.
-
-    Raises _ThereError where the questions have come from one spot for some time.
-    """
-
-    def __init__(self, merit: Rows) -> None:
-        self._merit = merit
-        self._at: bytes = b""
-        self._answer: tuple[FloatArray, FloatArray] = (np.empty(0), np.empty((0, 0)))
-        self._points: deque[FloatArray] = deque(maxlen=_PATIENCE)
-
-    def __call__(self, point: FloatArray) -> tuple[FloatArray, FloatArray]:
-        if point.tobytes() != self._at:
-            self._points.append(point.copy())
-            if len(self._points) == _PATIENCE and np.ptp(self._points, axis=0).max() < _STILL:
-                raise _ThereError(point)
-            # Backwards at the far side, to stay inside.
-            steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)
-            rows = self._merit(np.vstack([point, point + np.diag(steps)]))
-            rows = np.where(np.isnan(rows), _IMPOSSIBLE, rows)
-            self._answer = rows[0], ((rows[1:] - rows[0]) / steps[:, None]).T
-            self._at = point.tobytes()
-        return self._answer
+def _slopes(
+    merit: Rows, point: FloatArray
+) -> Generator[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
+    """Return what is to be low and the constraints, and their slopes by differences in one call."""
+    # Backwards at the far side, to stay inside.
+    steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)
+    rows = merit((yield np.vstack([point, point + np.diag(steps)])))
+    rows = np.where(np.isnan(rows), _IMPOSSIBLE, rows)
+    slopes = ((rows[1:] - rows[0]) / steps[:, None]).T
+    values = np.append(-rows[0, :1], rows[0, 1:] - _MARGIN)
+    return values, np.vstack([-slopes[:1], slopes[1:]])

@@ -21,6 +21,7 @@ from asperity.gearset.parameters import Gearset
 from asperity.gearset.threads import CLOSED_FORMS, thread_room
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rate import rate
+from asperity.rating.rated import Rated
 from asperity.rating.self_locking import locking_margins
 from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import variants
@@ -227,6 +228,10 @@ class Space:
         inside = np.clip(inside, self.lower, self.upper)
         return dict(zip(VARIABLES, np.moveaxis(inside, -1, 0), strict=True))
 
+    def rated(self, gearset: Gearset) -> Rated:
+        """Return the whole rating of a gearset under what all are under."""
+        return rate(gearset, self.operation, self.options, folder=self.folder)
+
     def numbers(self, points: FloatArray) -> dict[str, FloatArray]:
         """Return what the designs at points are worth, by the keys of a rating.
 
@@ -378,3 +383,12 @@ class Space:
         values = {name: float(value) for name, value in self.values(point).items()}
         distance = 1e-3 * old.geometry.centre_distance
         return Gearset.model_validate({**given, "centre_distance": distance, **values})
+
+
+def refuse_given_friction(options: RatingOptions | None) -> None:
+    """Refuse to look for what a given friction has no say on."""
+    if options is not None and options.friction is not None:
+        raise InputError(
+            f"rating.friction is {options.friction:g}, on which pressure angle and roughness have "
+            "no say; leave it out, or use rating.base_friction or rating.friction_factor"
+        )

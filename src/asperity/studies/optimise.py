@@ -26,7 +26,7 @@ from asperity.runs import Run
 from asperity.shafts.study import overhang_by, rows_by
 from asperity.studies.climb import climb, spread
 from asperity.studies.constraints import TORQUES, Limit, limits_of, number_of
-from asperity.studies.design import ASSUMED, VARIABLES, Bounds, Space
+from asperity.studies.design import VARIABLES, Bounds, Space, refuse_given_friction
 from asperity.studies.design_compared import (
     design_numbers,
     falls,
@@ -39,8 +39,8 @@ from asperity.studies.layout import points
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.requirements import Requirements, special_hob
 from asperity.studies.rounding import rounded
-from asperity.studies.search import bounds_of, known_safeties, least_safeties
-from asperity.studies.tradeoff import TradeOff, trade_off
+from asperity.studies.search import bounds_of, known_safeties, least_safeties, notes_of
+from asperity.studies.tradeoff import TradeOff, curve_in
 from asperity.studies.with_shafts import Borne, with_shafts
 
 if TYPE_CHECKING:
@@ -265,12 +265,19 @@ def optimise(
     """
     if starts < 1 or starts & (starts - 1):
         raise InputError(f"starts is {starts}; it must be a power of two, such as {STARTS}")
-    if options is not None and options.friction is not None:
-        raise InputError(
-            f"rating.friction is {options.friction:g}, on which pressure angle and roughness have "
-            "no say; leave it out, or use rating.base_friction or rating.friction_factor"
-        )
+    refuse_given_friction(options)
     space = Space(gearset, operation, options, bounds, folder, least, requirements)
+    return _best_in(space, bounds, least, starts, begin, borne)
+
+
+def _best_in(
+    space: Space,
+    bounds: Bounds | None,
+    least: Mapping[str, float] | None,
+    starts: int = STARTS,
+    begin: FloatArray | None = None,
+    borne: Borne | None = None,
+) -> Optimum:
     kept = space.numbers(space.start)
     torque = None if least is None else float(kept["M_permissible_Nm"])
     capacity = {key: float(kept[key]) if torque is None else torque for key in TORQUES}
@@ -290,10 +297,10 @@ def optimise(
         raise space.nothing_keeps()
     design = space.gearset_at(top.point)
     near = None if least is None else rounded(space, top.point, capacity, borne)
-    before, after = (rate(g, operation, options, folder=folder) for g in (gearset, design))
+    before, after = (space.rated(g) for g in (space.gearset, design))
     made = None
     if near is not None:
-        made = rate(space.gearset_at(near), operation, options, folder=folder)
+        made = space.rated(space.gearset_at(near))
     return Optimum(
         gearset=design,
         before=before,
@@ -303,7 +310,7 @@ def optimise(
         agreed=top.agreed,
         made=made,
         notes=(
-            *_notes(before, bounds),
+            *notes_of(before, bounds),
             *special_hob((made or after).gearset.pressure_angle),
             *space.kept,
             *(falls(before, made or after) if least else ()),
@@ -358,7 +365,10 @@ def answer(problem: Problem, _: Run) -> Optimum:
     now = rate(*tables[:3], folder=gears.folder)
     kept = gears.requirements
     least = least_safeties(now, problem.keep, kept.safety)
-    curve = trade_off(*tables, folder=gears.folder, least=least, requirements=kept)
+    refuse_given_friction(gears.options)
+    # Of one space, whose sample all climbs begin from.
+    space = Space(*tables, gears.folder, least, kept)
+    curve = curve_in(space)
     begin = np.stack(
         [
             varied_quantity(name).to_si(curve.numbers[varied_quantity(name).key])
@@ -368,9 +378,7 @@ def answer(problem: Problem, _: Run) -> Optimum:
     )
 
     def search(begin: FloatArray, borne: Borne | None = None) -> Optimum:
-        return optimise(
-            *tables, folder=gears.folder, least=least, begin=begin, requirements=kept, borne=borne
-        )
+        return _best_in(space, problem.bounds, least, begin=begin, borne=borne)
 
     best = search(begin)
     if problem.rows is not None:
@@ -387,13 +395,3 @@ def answer(problem: Problem, _: Run) -> Optimum:
             "that of a worm between its bearings; the row of the worm as a beam has its own",
         )
     return dataclasses.replace(best, curve=curve, notes=notes)
-
-
-def _notes(before: Rated, bounds: Bounds | None) -> tuple[str, ...]:
-    notes = []
-    if bounds is None:
-        notes.append(f"the bounds are assumed: {ASSUMED.note}")
-    rating = before.bs721
-    if rating is not None and rating.entry("M_w_Nm").from_memory:
-        notes.append("M_w and M_s rest on tables of BS 721 from memory; check them before use")
-    return tuple(notes)

@@ -9,7 +9,7 @@ from asperity.gearset.parameters import Gearset
 from asperity.rating.demands import DEMANDS
 from asperity.rating.rated import Rated
 from asperity.rating.standards import STANDARDS
-from asperity.studies.design import VARIABLES, Bounds
+from asperity.studies.design import ASSUMED, VARIABLES, Bounds
 from asperity.units import quantity_of, split_unit
 
 # A safety that nothing moves would else be on its limit wherever the search looks.
@@ -144,3 +144,14 @@ def known_safeties(name: str) -> set[str]:
     if name not in known:
         raise InputError(f"--keep {name}: it is not a safety{nearest(name, known)}")
     return known[name]
+
+
+def notes_of(before: Rated, bounds: Bounds | None) -> tuple[str, ...]:
+    """Return what to know of assumed bounds and of numbers from memory."""
+    notes = []
+    if bounds is None:
+        notes.append(f"the bounds are assumed: {ASSUMED.note}")
+    rating = before.bs721
+    if rating is not None and rating.entry("M_w_Nm").from_memory:
+        notes.append("M_w and M_s rest on tables of BS 721 from memory; check them before use")
+    return tuple(notes)

@@ -166,7 +166,12 @@ def trade_off(
     """
     if points < 2:
         raise InputError(f"points is {points}; a curve needs at least 2")
-    space = Space(gearset, operation, options, bounds, folder, least, requirements)
+    return curve_in(Space(gearset, operation, options, bounds, folder, least, requirements), points)
+
+
+def curve_in(space: Space, points: int = POINTS) -> TradeOff:
+    """Return the trade-off among the designs of a space, see `trade_off`."""
+    operation = space.operation
     now = space.numbers(space.start)
     unit = float(now["M_permissible_Nm"])
     begin = [space.start, *spread(space.dimensions, _STARTS)]
@@ -183,7 +188,7 @@ def trade_off(
     numbers = space.numbers(found)
     designs = space.values(found)
     return TradeOff(
-        name=gearset.name,
+        name=space.gearset.name,
         torque=numbers["M_permissible_Nm"],
         efficiency=numbers["eta_z1_2"],
         numbers={
@@ -227,8 +232,7 @@ def _strongest(space: Space, begin: list[FloatArray], unit: float) -> Top:
         return np.stack([*rows, *space.room(found)], axis=-1)
 
     begin = begin + space.best_of_sample("M_permissible_Nm", h_star=0.0)
-    top = climb(
-        merit, [np.append(point, _permissible(space, point) / (_MOST * unit)) for point in begin]
-    )
+    shares = space.numbers(np.array(begin))["M_permissible_Nm"] / (_MOST * unit)
+    top = climb(merit, [np.append(*one) for one in zip(begin, shares, strict=True)])
     assert top is not None  # the first of them bears its own torque
     return dataclasses.replace(top, point=top.point[:-1])
