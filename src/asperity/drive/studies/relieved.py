@@ -11,9 +11,10 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.notes import read_with_care, warmth
+from asperity.drive.static.notes import read_with_care
 from asperity.drive.static.spread import told_k_h_beta
 from asperity.drive.studies.points import points_for_json, table_of_points
+from asperity.drive.warmed import warmth
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.sweep.axis import Axis

@@ -22,9 +22,10 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces
 from asperity.drive.resolved.strip import FLANK
 from asperity.drive.static.loaded import loaded_of
-from asperity.drive.static.notes import rigid_parts, warmth
+from asperity.drive.static.notes import rigid_parts
 from asperity.drive.static.solve import StaticModel, TooMuchError
 from asperity.drive.static.sweep import LoadCase
+from asperity.drive.warmed import warmth
 from asperity.drive.wear.model import Taken, node_area, worn_model
 from asperity.drive.wear.result import WheelWorn
 from asperity.errors import AsperityError, InputError, plain
