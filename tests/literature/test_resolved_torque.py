@@ -2,8 +2,9 @@
 
 Both have the same bodies and the same balance of the wheel; the condensed teeth bear at the points
 of their mesh, the patches wherever worm and wheel touch. Where no edge bears, and the worm's
-threads give in both, they have to come to the same torque and deflection. On the intermediate mesh
-the deflection is 0.7 % less by the patches.
+threads give in both, they have to come to the same torque and deflection. What the points sink in
+goes by the size of the elements: on finer meshes the deflection is 0.7 and 1.4 % less by the
+patches, whose own hardly changes.
 """
 
 import numpy as np

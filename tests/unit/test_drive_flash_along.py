@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from asperity.drive.resolved.strip import FLANK, WHEEL_TIP
 from asperity.drive.static.flash import SHARE, Flash, Line
 from asperity.drive.static.reduction import _along
 
@@ -28,18 +29,20 @@ def flash():
         0.05,
         (2e4, 9e3),
     )
-    one.course, one.worst = [], Line(np.zeros(0), np.zeros(0))
+    one.course, one.on_flank = [], 0.0
+    one.worst = Line(np.zeros(0), np.zeros(0), np.zeros(0, bool))
     one.__dict__["_motion"] = np.array([SLIDING, WORM, WHEEL, WORM_ALONG, WHEEL_ALONG])
     return one, asked
 
 
-def tooth(force, share):
+def tooth(force, share, zone=FLANK):
     rows, columns = np.shape(force)
     z = np.tile(np.arange(columns) * ALONG, (rows, 1))
     z[-1] += 0.3e-3
     points = np.stack([np.zeros(z.size), np.ones(z.size), z.ravel()], axis=1)
     frame = SimpleNamespace(shape=(rows, columns), spacing=(ACROSS, ALONG))
     strip = SimpleNamespace(frame=frame, points=points, share=np.ravel(share))
+    strip.zone = np.ravel(np.broadcast_to(zone, (rows, columns)))
     return SimpleNamespace(
         force=np.ravel(np.array(force, dtype=float)), strip=strip, extent=lambda: (LENGTH, ACROSS)
     )
@@ -75,6 +78,21 @@ def test_the_hottest_tooth_of_a_phase_counts_and_the_hottest_phase_is_kept():
     assert one.course[1] == pytest.approx(4.0 * one.course[0])
     assert one.course[2:] == [0.0, one.course[0]]
     assert one.worst.rise == pytest.approx([one.course[1]])
+
+
+def test_what_an_edge_bears_counts_for_the_largest_and_not_for_the_flank_s():
+    one, _ = flash()
+    share = [[0.2, 0.2]]
+    # The last place bears on the wheel's tip, four times as much.
+    whole = tooth([[1.0, 4.0]], share, [[FLANK, WHEEL_TIP]])
+    one.take(SimpleNamespace(teeth=[whole]))
+    assert one.worst.on_edge.tolist() == [False, True]
+    assert one.course == [pytest.approx(4.0 * one.on_flank)]
+    assert one.worst.hottest == pytest.approx(ALONG, rel=0.5)
+    # Of no flank there is none.
+    edge, _ = flash()
+    edge.take(SimpleNamespace(teeth=[tooth([[1.0]], [[0.2]], WHEEL_TIP)]))
+    assert edge.on_flank == 0.0 < edge.course[0]
 
 
 def test_friction_s_work_is_of_what_lies_in_the_surface_alone():

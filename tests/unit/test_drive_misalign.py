@@ -10,10 +10,10 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.static.loaded import Loaded, loaded
-from asperity.drive.static.notes import warmth
 from asperity.drive.static.spread import STRIPS, Spread, k_h_alpha
 from asperity.drive.studies import misalign, points
 from asperity.drive.studies.misalign_plots import over_axes
+from asperity.drive.warmed import warmth
 from asperity.errors import ConvergenceError, InputError
 from asperity.gearset import Gearset
 from asperity.gearset.tolerancing.table import Tolerances

@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
-from apparatus.drives import problem
+from apparatus.drives import problem, solved
 
 from asperity.drive.motion.kernels import move
 from asperity.drive.protocols.equations_of_motion import begin, corners_of, shakes, system
 from asperity.drive.protocols.march import March
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
+from asperity.drive.warmed import warmth
+from asperity.errors import InputError
 from asperity.runs import Run
 from asperity.vibration.waveform import displacement_at
 
@@ -107,3 +109,24 @@ def test_of_every_freedom_the_rate_is_that_of_its_place():
     assert rates[1] == pytest.approx([151.0, 9e-3, 9.9, 3e-3, 5e-3], rel=1e-2)
     freely = [0, 1, 2, 3]
     assert np.diff(places, axis=0)[0, freely] / short == pytest.approx(rates[1, freely], rel=1e-3)
+
+
+@pytest.mark.parametrize("warm", [False, True])
+def test_a_shaken_drive_says_whether_it_is_warm(warm):
+    temperatures = "tolerances.temperatures={ housing = '60 degC', gears = '80 degC' }"
+    quick = "drive.protocol=window", "drive.window=1"
+    made = ("drive.warm=true",) if warm else ()
+    begins = "warm (drive.warm): tolerances" if warm else "cold: tolerances"
+    assert any(note.startswith(begins) for note in solved(*quick, temperatures, *made).notes)
+
+
+def test_a_gearset_that_could_not_stand_warm_says_so_and_goes_on():
+    class Cold:
+        warmed = None
+
+        @property
+        def warmer(self):
+            raise InputError("it would be 2 mm off")
+
+    (said,) = warmth(Cold())
+    assert said.startswith("cold: as warm as tolerances.temperatures say it does not stand (it w")

@@ -8,6 +8,7 @@ import pytest
 from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.drive.problem import DriveProblem
+from asperity.drive.root_stress.loads import loads_of
 from asperity.drive.static.loaded import loaded_of
 from asperity.drive.static.pressure import resolved
 from asperity.drive.static.solve import StaticModel
@@ -59,3 +60,18 @@ def test_shares_are_those_of_the_patches():
 def test_threads_that_give_in_the_balance_share_there_as_the_patches_do():
     found, _, condensed = both("elastic")
     assert largest(condensed) == pytest.approx(found.load_share, rel=1e-2)
+
+
+@pytest.mark.slow
+def test_roots_bear_as_the_patches_share_the_load():
+    _, patches, condensed = both("rigid")
+    loads = loads_of(model("rigid"))
+    for phase, (own, other) in enumerate(zip(patches, condensed, strict=True)):
+        borne = sorted(load.normal for load in loads if load.phase == phase)
+        np.testing.assert_allclose(borne, np.sort(own[own > 0.02 * own.sum()]), rtol=2e-3)
+        assert max(other) == pytest.approx(max(own), rel=0.2)
+    for load in loads:
+        # With friction of 0.134 the whole force is somewhat more.
+        force = np.linalg.norm(load.forces[1].sum(axis=0))
+        assert force == pytest.approx(load.normal, rel=0.03)
+    assert max(load.normal for load in loads) < 0.99 * max(max(each) for each in condensed)

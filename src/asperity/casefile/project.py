@@ -19,7 +19,8 @@ class Project(Table):
     note : str, optional
         What else a reader of the report should know.
     units : {'si', 'us'}
-        What screen, report, workbook and CSV are in; JSON and netCDF are in SI whatever it says.
+        What screen, report, workbook and CSV are in; numbers of JSON and netCDF keep the units
+        that their keys and attributes have, whatever it says.
     language : str
         What screen and report are in: ``en``, ``de``, or a file of sentences that ends in .toml.
     """

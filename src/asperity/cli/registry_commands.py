@@ -41,7 +41,9 @@ OutOption = Annotated[
 UnitsOption = Annotated[
     str,
     typer.Option(
-        "--units", metavar="SYSTEM", help="Show it in si or us units; JSON and netCDF are SI."
+        "--units",
+        metavar="SYSTEM",
+        help="Show it in si or us units; files keep their own.",
     ),
 ]
 LanguageOption = Annotated[

@@ -52,6 +52,18 @@ def flank_triangles(dataset: "xr.Dataset", side: float = 1.0) -> "Triangulation"
     return Triangulation(side * z, r, halves)
 
 
+def pitch_closed(dataset: "xr.Dataset", *courses: FloatArray) -> tuple[FloatArray, ...]:
+    """Return the worm's angles of a pitch, deg, and courses, as it begins again at their ends.
+
+    A single phase has no step by which the pitch would end.
+    """
+    angle = np.degrees(dataset["phase"].values)
+    if len(angle) < 2:
+        return angle, *courses
+    end = angle[0] + len(angle) * (angle[1] - angle[0])
+    return np.append(angle, end), *(np.append(course, course[0]) for course in courses)
+
+
 def pressure_label(dataset: "xr.Dataset") -> str:
     """Return what a colour bar of pressures is of, with their limit."""
     flow = dataset.get("flow_pressure")

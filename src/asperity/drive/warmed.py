@@ -1,6 +1,9 @@
 """A gearset that runs warm: what its housing and gears grow by, as errors of how it is mounted."""
 
-from typing import NamedTuple, Self
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple, Self
 
 from asperity.casefile import Case
 from asperity.errors import InputError
@@ -8,6 +11,9 @@ from asperity.flanks.parameters import Modification, Mount
 from asperity.gearset import Gearset
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.gearset.tolerancing.warmth import Warmth
+
+if TYPE_CHECKING:
+    from asperity.drive.problem import DriveProblem
 
 _MILLIMETRES, _MICRO = 1e3, 1e6
 
@@ -80,4 +86,23 @@ class Warmed(NamedTuple):
         """What warmth adds, in words."""
         return (
             f"centre distance {_MICRO * self.apart:+.3g} um, lead {_MICRO * self.pitch:+.3g} um/m"
+        )
+
+
+def warmth(problem: DriveProblem) -> Iterator[str]:
+    """Yield whether the gearset is warm or cold here, where the case says how warm it runs."""
+    if (warmed := problem.warmed) is not None:
+        yield (
+            f"warm (drive.warm): tolerances.temperatures added {warmed.told} to what [mount] and "
+            "[modification] say"
+        )
+    try:
+        warmer = problem.warmer
+    except InputError as error:
+        yield f"cold: as warm as tolerances.temperatures say it does not stand ({error})"
+        return
+    if warmer is not None:
+        yield (
+            f"cold: tolerances.temperatures add {warmer.told} to what [mount] and [modification] "
+            "say, which drive.warm = true puts in"
         )

@@ -88,7 +88,7 @@ class Result(Quantities):
         return super().to_json() | {"notes": list(self.notes)}
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return everything as a labelled dataset in SI, every variable with its unit."""
+        """Return everything as a labelled dataset, every variable with its unit in ``units``."""
         attributes = {"notes": "; ".join(self.notes), **self.inputs}
         return datasets.to_dataset(self, self.labels, attributes, title=self.title)
 

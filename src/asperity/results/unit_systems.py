@@ -1,6 +1,7 @@
 """What people are shown: in SI and the standards' own units or those of the US, in their language.
 
-Answers are calculated and kept in SI, and JSON and netCDF have them so. What is shown is converted
+Answers are calculated in SI. JSON and netCDF have each number in the unit of its key or attribute
+(``pressure_flank_MPa``, ``units``), whatever is asked for. What is shown is converted
 as it is shown: a table by its column ``unit`` and by units in headings, a sentence by the keys of
 its numbers, and other text where a number stands before a unit.
 """

@@ -18,6 +18,8 @@ _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 # Seconds between two times that what is done meanwhile is done.
 _PAUSE = 1.0
+# What a shell makes the exit code of a process that a signal ended.
+_BY_SIGNAL = 128
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,7 +68,7 @@ def done(
     is called now and then while nothing ends.
 
     Left early, as by Ctrl-C, it ends the processes at once, whatever they are at. So does the end
-    of this process, however it ends.
+    of this process, however it ends; where it is told to (SIGTERM), it tidies up what they share.
 
     Raises
     ------
@@ -76,7 +78,7 @@ def done(
     # Processes begin anew instead of with a copy of this one, whose threads a copy would not have.
     context = multiprocessing.get_context("spawn")
     ear, mouth = context.Pipe(duplex=False)
-    with _single_threaded(), ear, mouth:
+    with _single_threaded(), _tidily_terminated(), ear, mouth:
         pool = cf.ProcessPoolExecutor(
             processes, mp_context=context, initializer=_begin, initargs=(ear,)
         )
@@ -137,6 +139,25 @@ def _begin(ear: Connection) -> None:
         os._exit(1)
 
     threading.Thread(target=listen, daemon=True).start()
+
+
+@contextlib.contextmanager
+def _tidily_terminated() -> Iterator[None]:
+    """Leave by SystemExit when told to end: else Python warns of semaphores that nobody closed."""
+    number = signal.SIGTERM
+    main = threading.current_thread() is threading.main_thread()
+    if not main or signal.getsignal(number) is not signal.SIG_DFL:
+        yield
+        return
+
+    def leave(_number: int, _frame: object) -> None:
+        raise SystemExit(_BY_SIGNAL + number)
+
+    signal.signal(number, leave)
+    try:
+        yield
+    finally:
+        signal.signal(number, signal.SIG_DFL)
 
 
 @contextlib.contextmanager

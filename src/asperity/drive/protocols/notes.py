@@ -7,6 +7,7 @@ from asperity.drive.protocols.accuracy import WANTED, StepError
 from asperity.drive.protocols.judgement import Judgement
 from asperity.drive.protocols.rest import Rest
 from asperity.drive.reduced.mesh_model import MeshModel
+from asperity.drive.warmed import warmth
 
 # Of a tooth's lowest mode: below, its inertia adds an eighth to what it gives at most.
 _QUASI_STATIC = 1.0 / 3.0
@@ -89,7 +90,7 @@ def notes_of(
         hidden.append("bending of the worm's shaft (often more than the teeth give)")
     if hidden:
         notes.append(f"rigid: {'; '.join(hidden)}")
-    return tuple(notes)
+    return (*notes, *warmth(problem))
 
 
 def _of_step(problem: DriveProblem, off: StepError) -> str:

@@ -144,7 +144,14 @@ class ExactFlank:
         return nodes, np.linspace(0.0, 1.0, len(nodes)), z
 
     def interpolation(self, share: FloatArray, z: FloatArray) -> sparse.csr_array:
-        """Return what makes values at points of values at the nodes, smooth over the elements."""
+        """Return what makes values at points of values at the nodes, smooth over the elements.
+
+        Rows are of equal share, along which the radius has a kink where the throat ends. To give
+        what the teeth give the shape that a depth worn off has there (`_bends`) moves it by 0.02 um
+        for a force of 1 kN beside it, of which a coarse mesh is off by 0.06 um, and comes no nearer
+        to a fine mesh: at a free edge a tooth gives by how far one is from the edge, as shares are.
+        Peaks would move by less than 1 %, by 3 % where the wheel's tip edge hardly begins to bear.
+        """
         nodes, shares, places = self._lattice
         row, row_weight = hermite(shares, share)
         column, column_weight = hermite(places, z)

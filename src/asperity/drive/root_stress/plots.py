@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from asperity.drive.plots import pitch_closed
 from asperity.results.figures import BLACK, BLUE, VERMILION, axes_grid, legend
 
 if TYPE_CHECKING:
@@ -15,10 +16,11 @@ _LEVELS = 16
 
 def over_pitch(dataset: "xr.Dataset") -> "Figure":
     """Draw the largest tension and compression over a pitch."""
-    angle = np.degrees(dataset["phase"].values)
     figure, (panel,) = axes_grid(1, 1, width=6.4, height=3.6)
-    tension = 1e-6 * dataset["tension_course"].values
-    compression = -1e-6 * dataset["compression_course"].values
+    angle, tension, compression = pitch_closed(
+        dataset, 1e-6 * dataset["tension_course"].values,
+        -1e-6 * dataset["compression_course"].values,
+    )  # fmt: skip
     panel.plot(angle, tension, "o-", color=VERMILION, label="tension, loaded side")
     panel.plot(angle, compression, "s--", color=BLUE, label="compression, other side")
     panel.set_ylim(0.0, None)

@@ -10,7 +10,8 @@ from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
 from asperity.drive.root_stress.loads import Load
 from asperity.drive.root_stress.model import RootModel, Roots
-from asperity.drive.static.notes import read_with_care, warmth
+from asperity.drive.static.notes import read_with_care
+from asperity.drive.warmed import warmth
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.results.words import Number

@@ -25,10 +25,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from asperity.arrays import FloatArray
+from asperity.arrays import BoolArray, FloatArray
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import ExactFlank, exact_grid
 from asperity.drive.resolved.pressures import Resolved, ToothPressure
+from asperity.drive.resolved.strip import FLANK
 from asperity.flanks.meshing.kinematics import kinematics
 from asperity.gearset.masses import DENSITY
 from asperity.sources import Source
@@ -106,6 +107,12 @@ class Line(NamedTuple):
 
     face: FloatArray  #: (k,): Place along the wheel's axis, m
     rise: FloatArray  #: (k,): K
+    on_edge: BoolArray  #: (k,): Whether an edge bears most of the force there
+
+    @property
+    def hottest(self) -> float:
+        """Place of the largest along the wheel's axis, m."""
+        return float(self.face[np.argmax(self.rise)])
 
 
 class Flash:
@@ -126,7 +133,8 @@ class Flash:
         family = problem.gearset.wheel_material.family
         self._effusivities = _of_kind("steel"), _of_kind(family)
         self.course: list[float] = []  #: Largest of each phase, K
-        self.worst = Line(np.zeros(0), np.zeros(0))  #: Of the contact with the largest
+        self.on_flank = 0.0  #: Largest where no edge bears most of the force, K
+        self.worst = Line(np.zeros(0), np.zeros(0), np.zeros(0, bool))  #: With the largest of all
 
     @functools.cached_property
     def _motion(self) -> FloatArray:
@@ -148,6 +156,8 @@ class Flash:
         lines = [self._along(tooth) for tooth in resolved_pressure.teeth]
         hottest = max(lines, key=lambda line: float(line.rise.max(initial=0.0)))
         self.course.append(float(hottest.rise.max(initial=0.0)))
+        flanks = [float(line.rise[~line.on_edge].max(initial=0.0)) for line in lines]
+        self.on_flank = max(self.on_flank, *flanks)
         if self.course[-1] >= max(self.course):
             self.worst = hottest
 
@@ -161,6 +171,7 @@ class Flash:
             (force * values.reshape(shape)).sum(axis=0)[on] / whole
             for values in (strip.share, strip.points[:, 2])
         )
+        on_edge = np.where(strip.zone.reshape(shape) != FLANK, force, 0.0).sum(axis=0)[on]
         at = self._flank.nearest(np.clip(share, 0.0, 1.0), z)
         width = across * (force > 0.0).sum(axis=0)[on]
         slender = width / max(tooth.extent()[0], along)
@@ -170,4 +181,4 @@ class Flash:
             (passing(worm, worm_along, slender), passing(wheel, wheel_along, slender)),
             width, self._effusivities,
         )  # fmt: skip
-        return Line(z, rise)
+        return Line(z, rise, on_edge > 0.5 * whole)

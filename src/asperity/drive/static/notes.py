@@ -9,6 +9,7 @@ from asperity.drive.resolved.strip import FACE_END, FLANK, WHEEL_TIP, WORM_TIP
 from asperity.drive.static.recorder import PhaseRecord
 from asperity.drive.static.spread import STRIPS, told_k_h_beta
 from asperity.drive.static.sweep import PitchSweep
+from asperity.drive.warmed import warmth
 
 _MEGA, _MICRO = 1e6, 1e6
 # Of the normal force, from which on an edge is told of.
@@ -45,20 +46,6 @@ def notes_of(
         *_pressures(problem, record),
         *_error(problem, forward, noise),
     )
-
-
-def warmth(problem: DriveProblem) -> Iterator[str]:
-    """Yield whether the gearset is warm or cold here, where the case says how warm it runs."""
-    if (warmed := problem.warmed) is not None:
-        yield (
-            f"warm (drive.warm): tolerances.temperatures added {warmed.told} to what [mount] and "
-            "[modification] say"
-        )
-    if (warmer := problem.warmer) is not None:
-        yield (
-            f"cold: tolerances.temperatures add {warmer.told} to what [mount] and [modification] "
-            "say, which drive.warm = true puts in"
-        )
 
 
 def few_phases(problem: DriveProblem) -> Iterator[str]:

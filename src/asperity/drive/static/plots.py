@@ -4,7 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.drive.plots import flank_triangles, pressure_label
+from asperity.arrays import FloatArray
+from asperity.drive.plots import flank_triangles, pitch_closed, pressure_label
 from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, axes_grid, legend
 from asperity.results.panels import Panel, drawn, line
 
@@ -18,24 +19,21 @@ _SHOWN_SHARE = 1e-3
 
 def over_pitch(dataset: "xr.Dataset") -> "Figure":
     """Draw torque, transmission error and the teeth's shares against the worm's angle."""
-    angle = np.degrees(dataset["phase"].values)
-    torques = [
-        line(k, angle, dataset[name].values, what)
-        for k, (name, what) in enumerate(
-            (
-                ("torque", "forward"),
-                ("torque_frictionless", "without friction"),
-                ("torque_reversed", "friction turned round"),
-            )
-        )
+    names = {
+        "torque": "forward", "torque_frictionless": "without friction",
+        "torque_reversed": "friction turned round",
+    }  # fmt: skip
+    angle, *torques = pitch_closed(dataset, *(dataset[name].values for name in names))
+    torque_lines = [
+        line(k, angle, values, what)
+        for k, (values, what) in enumerate(zip(torques, names.values(), strict=True))
     ]
     loaded, unloaded = (1e6 * dataset[f"error_{name}"].values for name in ("loaded", "unloaded"))
-    errors = [
-        line(0, angle, loaded - loaded.mean(), "under load"),
-        line(1, angle, unloaded - unloaded.mean(), "without load"),
-    ]
-    force = dataset["tooth_force"].values
-    parts = force / force.sum(axis=1, keepdims=True)
+    _, loaded, unloaded = pitch_closed(
+        dataset, loaded - loaded.mean(), unloaded - unloaded.mean()
+    )  # fmt: skip
+    errors = [line(0, angle, loaded, "under load"), line(1, angle, unloaded, "without load")]
+    parts = _shares(dataset["tooth_force"].values)[: len(angle)]
     shares = [
         line(k % len(DASHES), angle, column, f"tooth {k + 1}", color=COLOURS[k % len(COLOURS)])
         for k, column in enumerate(parts.T[parts.max(axis=0) > _SHOWN_SHARE])
@@ -44,7 +42,7 @@ def over_pitch(dataset: "xr.Dataset") -> "Figure":
     below = {"ncols": len(shares), "loc": "upper center", "bbox_to_anchor": (0.5, -0.22)}
     return drawn(
         [
-            Panel(y="torque of the worm (N m)", marks=torques, legend={"ncols": 3},
+            Panel(y="torque of the worm (N m)", marks=torque_lines, legend={"ncols": 3},
                   limits={"ylim": (0.0, most)}),
             Panel(y="transmission error (µrad)", marks=errors, legend={"ncols": 2},
                   limits={"ymargin": 0.25}),
@@ -53,6 +51,18 @@ def over_pitch(dataset: "xr.Dataset") -> "Figure":
         ],
         height=8.0,
     )  # fmt: skip
+
+
+def _shares(force: FloatArray) -> FloatArray:
+    """Return shares of the teeth over a closed pitch, (p + 1, K + 1), those of forces (p, K).
+
+    At its end each tooth stands where the one behind it in the row stood at its beginning.
+    """
+    none = np.zeros((len(force), 1))
+    force = np.hstack([none, force])
+    ends = np.append(force[0, 1:], 0.0)
+    closed = np.vstack([force, ends])
+    return np.asarray(closed / closed.sum(axis=1, keepdims=True))
 
 
 def error(dataset: "xr.Dataset") -> "Figure":

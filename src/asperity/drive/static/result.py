@@ -152,7 +152,14 @@ class StaticResult(OfDrive):
         key="hertz_pressure_max_MPa", default=None,
     )  # fmt: skip
     flash_temperature: float = quantity(
-        "theta_fl", "K", "largest flash temperature of a contact; no limit is known for worm gears"
+        "theta_fl", "K", "largest flash temperature of a contact, edges included; no limit is "
+        "known for worm gears",
+    )  # fmt: skip
+    flash_temperature_face: float = quantity(
+        "z", "mm", "there: place along the wheel's axis, 0 in mid-face"
+    )
+    flash_temperature_flank: float = quantity(
+        "theta_fl", "K", "largest flash temperature on the flank, away from edges"
     )
     pressure_nodal: float = quantity(
         "p", "MPa", "largest pressure at a node of the mesh, which grows with a finer one",

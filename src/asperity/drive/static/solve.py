@@ -285,6 +285,8 @@ def solve_static(problem: DriveProblem, run: Run) -> StaticResult:
         **_pressures(model, seen),
         hertz_pressure_max=hertz_pressure(problem, sector_.wheel),
         flash_temperature=max(flash.course),
+        flash_temperature_face=_MILLIMETRES * problem.gearset.hand_sign * flash.worst.hottest,
+        flash_temperature_flank=flash.on_flank,
         flash_temperature_course=np.array(flash.course),
         flash_line_face=problem.gearset.hand_sign * flash.worst.face,
         flash_line=flash.worst.rise,

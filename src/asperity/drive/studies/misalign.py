@@ -17,10 +17,11 @@ from asperity.drive.lacking import require_all
 from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces, grid_of
 from asperity.drive.static.loaded import Loaded
-from asperity.drive.static.notes import few_phases, rigid_parts, warmth
+from asperity.drive.static.notes import few_phases, rigid_parts
 from asperity.drive.static.solve import wheel_of
 from asperity.drive.studies.misaligned import Misaligned
 from asperity.drive.studies.points import solve_points
+from asperity.drive.warmed import warmth
 from asperity.errors import ConvergenceError, InputError
 from asperity.flanks.parameters import Mount
 from asperity.gearset.tolerancing.allowances import Allowances

@@ -19,15 +19,17 @@ def designs(dataset: "xr.Dataset") -> "Figure":
     names = [_short(str(name)) for name in np.atleast_1d(dataset["design"].values)]
     at = np.arange(len(names))
     figure, (force, pressure, error) = axes_grid(3, 1, width=7.4, height=7.6)
-    below = np.zeros(len(names))
-    for key, label, colour in _EDGES:
-        values = np.nan_to_num(dataset[key].values)
-        if values.any():
-            force.bar(at, values, 0.6, bottom=below, color=colour, label=label)
-            below = below + values
+    # Beside each other: each at its own worst load and mounting, all together at theirs.
+    shown = [(*edge, np.nan_to_num(dataset[edge[0]].values)) for edge in _EDGES]
+    shown = [edge for edge in shown if edge[-1].any()]
+    wide = 0.75 / max(len(shown), 1)
+    for k, (_, label, colour, values) in enumerate(shown):
+        places = at + (k - 0.5 * (len(shown) - 1)) * wide
+        force.bar(places, values, 0.9 * wide, color=colour, label=label)
+    force.plot(at, dataset["edge_force"].values, "_", color=BLACK, markersize=22, label="together")
+    force.set_ylim(0.0, None)
     force.set_ylabel("force on edges (N)")
-    if below.any():
-        legend(force)
+    legend(force)
     pressure.plot(at, 1e-6 * dataset["peak"].values, "^", color=VERMILION, label="edges included")
     pressure.plot(at, 1e-6 * dataset["flank"].values, "o", color=BLUE, label="flank")
     pressure.set_ylim(0.0, None)

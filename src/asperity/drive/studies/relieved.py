@@ -11,9 +11,10 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.driven import OfDrive
 from asperity.drive.problem import DriveProblem
-from asperity.drive.static.notes import read_with_care, warmth
+from asperity.drive.static.notes import read_with_care
 from asperity.drive.static.spread import told_k_h_beta
 from asperity.drive.studies.points import points_for_json, table_of_points
+from asperity.drive.warmed import warmth
 from asperity.results import quantity
 from asperity.results.table import Table
 from asperity.sweep.axis import Axis
@@ -22,6 +23,7 @@ _DESIGN = ("design",)
 _MEGA, _MICRO = 1e-6, 1e6
 _ROOT = "modification.root_relief"
 _SAME = 1e-3  # of a pressure, within which it is the same one
+_BEARS = 1.0  # N, from which on an edge is said to bear
 
 
 NONE = (np.inf,) * 4
@@ -175,14 +177,7 @@ class Relieved(OfDrive):
         if not n:
             none = "no design that was tried is better than the case as it is"
             return none, *read_with_care(self.problem)
-        gone = [
-            edge
-            for edge, forces in (
-                ("the worm's tip edge", self.worm_tip), ("the wheel's tip edge", self.wheel_tip),
-                ("the ends of the face", self.face_end),
-            )
-            if forces[0] > 1.0 >= forces[n]
-        ]  # fmt: skip
+        gone = [edge for edge, forces in self._edges() if forces[0] > _BEARS >= forces[n]]
         does = f"takes {' and '.join(gone)} away" if gone else "takes load off the edges"
         return (
             f"{self.best} {does}: the force on edges goes from {self.edge_force_before:.4g} to "
@@ -192,16 +187,26 @@ class Relieved(OfDrive):
             *read_with_care(self.problem),
         )
 
+    def _edges(self) -> tuple[tuple[str, FloatArray], ...]:
+        """Edges in words, with the force on each by design, N."""
+        return (
+            ("the worm's tip edge", self.worm_tip), ("the wheel's tip edge", self.wheel_tip),
+            ("the ends of the face", self.face_end),
+        )  # fmt: skip
+
     def _pressure(self) -> str:
-        """What becomes of the largest pressure, in words."""
+        """What becomes of the largest pressure, in words; where it stays, where it is."""
         before, after = self.peak_before, self.peak_after
         if not math.isclose(before, after, rel_tol=_SAME):
             return f"the largest pressure from {before:.4g} to {after:.4g} MPa"
         flow = self.problem.flow_pressure
-        flows = flow is not None and math.isclose(after, _MEGA * flow, rel_tol=_SAME)
-        return f"the largest pressure stays at {after:.4g} MPa" + (
-            ", at which the wheel flows" if flows else ""
-        )
+        if flow is None or not math.isclose(after, _MEGA * flow, rel_tol=_SAME):
+            return f"the largest pressure stays at {after:.4g} MPa"
+        n = self.best_number
+        left = [edge for edge, forces in self._edges() if forces[n] > _BEARS]
+        on_edges = left and self.flank[n] < (1.0 - _SAME) * self.peak[n]
+        where = f" at what still bears, {' and '.join(left)}" if on_edges else ""
+        return f"the largest pressure stays at {after:.4g} MPa, at which the wheel flows{where}"
 
     @property
     def rows(self) -> list[dict[str, Any]]:

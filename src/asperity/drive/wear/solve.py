@@ -2,7 +2,9 @@
 
 A step wears the flank by what a pitch takes off it, times so many turns of the wheel that no point
 loses more than `DEEPEST`: a pressure that a larger step would turn about would hunt. Each step
-begins at other phases, so that what lies between two of them wears as well.
+begins at other phases, so that what lies between two of them wears as well, and takes off the mean
+of what was found at the phases of the last `PARTS` steps: its own alone would leave waves as deep
+as a step, and the flank would bear on more at the phases that were worn last than between them.
 """
 
 import dataclasses
@@ -20,9 +22,10 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.resolved.flank import grid_faces
 from asperity.drive.resolved.strip import FLANK
 from asperity.drive.static.loaded import loaded_of
-from asperity.drive.static.notes import rigid_parts, warmth
+from asperity.drive.static.notes import rigid_parts
 from asperity.drive.static.solve import StaticModel, TooMuchError
 from asperity.drive.static.sweep import LoadCase
+from asperity.drive.warmed import warmth
 from asperity.drive.wear.model import Taken, node_area, worn_model
 from asperity.drive.wear.result import WheelWorn
 from asperity.errors import AsperityError, InputError, plain
@@ -35,6 +38,9 @@ from asperity.units import to_si
 
 DEEPEST = 1e-6
 """Depth of a step where it wears fastest, m: at twice that the shortest waves would hunt."""
+
+PARTS = 5
+"""Steps whose phases wear together: they lie evenly over the pitch."""
 
 _MOST_DEPTH = 0.5e-3
 _MOST_STEPS = 500
@@ -82,12 +88,33 @@ class _Worn:
     turns: float  #: Of the wheel
     work: float  #: Of the normal forces on a tooth on the way that they slide, N m
     rows: list[FloatArray]  #: Of the course
+    #: Depth and work of a turn at the phases of the last steps, up to `PARTS` of them
+    rates: list[FloatArray] = dataclasses.field(default_factory=list)
+    works: list[float] = dataclasses.field(default_factory=list)
 
-    def wear(self, turns: float, rate: FloatArray, work: float) -> None:
-        """Wear it for so many turns, by a depth and a work in each."""
-        self.depth = self.depth + turns * rate
+    def take(self, rate: FloatArray, work: float) -> None:
+        """Take a depth, m, and a work, N m, of a turn at the phases of a step."""
+        self.rates = [*self.rates, rate][-PARTS:]
+        self.works = [*self.works, work][-PARTS:]
+
+    def length(self) -> float:
+        """Return for how many turns of the wheel the next step is.
+
+        No point loses more than `DEEPEST` in it. The first steps, with fewer phases to take a mean
+        of, are shorter, so that those of each step wear for as long.
+        """
+        most = max(float(rate.max()) for rate in self.rates)
+        return DEEPEST / most * len(self.rates) / PARTS
+
+    def rate(self) -> FloatArray:
+        """Return the depth of a turn at the points of the flank, mean of the last steps, m."""
+        return np.asarray(np.mean(self.rates, axis=0))
+
+    def wear(self, turns: float) -> None:
+        """Wear it for so many turns."""
+        self.depth = self.depth + turns * self.rate()
         self.turns += turns
-        self.work += turns * work
+        self.work += turns * float(np.mean(self.works))
 
 
 def prepare(case: Case, *, depth: str = "20 um", revolutions: str = "") -> Wearing:
@@ -155,7 +182,7 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
                 taken.peaks[FLANK], np.ptp(pitch_sweep.error), pitch_sweep.worm_torque.mean(),
                 pitch_sweep.mean_deflection, taken.area / len(phases),
             ]))  # fmt: skip
-            rate = asked.coefficient * taken.depth
+            now.take(asked.coefficient * taken.depth, taken.work)
             left = asked.revolutions - now.turns
             if now.depth.max() >= asked.depth * (1.0 - _ENOUGH) or left <= _ENOUGH * now.turns:
                 break
@@ -163,10 +190,9 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
                 ended = _ended(now, _MANY)
                 break
             # Where it wears fastest, and not beyond the depth at which it ends.
-            still = (asked.depth - now.depth) / np.maximum(rate, 1e-300)
-            length = min(DEEPEST / float(rate.max()), float(still.min()), left)
+            still = (asked.depth - now.depth) / np.maximum(now.rate(), 1e-300)
             before = dataclasses.replace(now)
-            now.wear(length, rate, taken.work)
+            now.wear(min(now.length(), float(still.min()), left))
             share = max(float(now.depth.max()) / asked.depth, now.turns / asked.revolutions)
             total = max(len(now.rows), math.ceil(len(now.rows) / share))
             run.checkpoint(len(now.rows), total, partial(to_tree, now))
