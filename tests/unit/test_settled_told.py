@@ -104,7 +104,7 @@ class TestBranches:
         return Branches(
             source="own.toml", axis=axis, shared={}, value=np.array(axis.shown, float),
             ratio=ratio, settled=stays, missing=int(np.isnan(ratio).sum()),
-            **dict.fromkeys(names, blank),
+            ratio_from_rest=np.full(len(axis.shown), np.nan), **dict.fromkeys(names, blank),
         )  # fmt: skip
 
     def test_has_two_states_only_where_both_stay(self):

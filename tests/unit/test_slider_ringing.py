@@ -12,7 +12,7 @@ from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import from_rest
 from asperity.slider.held import Creep
 from asperity.slider.periodic import cycle_steps, settle
-from asperity.slider.ringing import faded_after, ringing_time, rings
+from asperity.slider.ringing import UNHEARD, faded_after, ringing_time, rings
 from asperity.slider.timetable import FAR
 
 
@@ -242,3 +242,17 @@ def test_a_march_that_rings_about_the_state_found_has_come_to_no_other(damping, 
     assert answer.settled
     assert answer.ratio == pytest.approx(ratio, abs=1e-4)
     assert answer.notes == ()
+
+
+@pytest.mark.parametrize(("law", "friction", "follows"), [
+    ("rough", "springs", False), ("hertz", "dahl", True),
+])  # fmt: skip
+def test_a_ring_is_of_many_states_only_where_the_ratio_follows_it(law, friction, follows):
+    contact = "normal.damping_ratio=0", f"normal.law={law}", f"friction.model={friction}"
+    shaken = *contact, "vibration.velocity_ratio=2"
+    state = solved("normal-pin", *shaken, "solve.method=periodic")
+    marched = solved("normal-pin", *shaken, "solve.method=march", "solve.duration=0.6 s")
+    assert (abs(state.ratio - marched.ratio) > 1e-3) == follows
+    assert state.settled != follows
+    assert marched.settled != follows
+    assert (UNHEARD in marched.notes) != follows

@@ -7,6 +7,8 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.errors import ConvergenceError
+from asperity.results.settled import smaller_step
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, march_end, orders, solve, step_error
 from asperity.slider.continuation import Walk, follow
@@ -186,6 +188,31 @@ def test_where_no_steps_end_on_the_flanks_finer_ones_are_not_tried():
     exact = 1.0 - 2.0 * rise + 2.0 * rise / np.hypot(1.0, 1000.0)
     assert 0.5 * answer.step_error < abs(answer.ratio - exact) < 1.02 * answer.step_error
     assert sum("no steps end on the flanks" in note for note in answer.notes) == 1
+
+
+def test_powers_that_do_not_balance_are_solved_in_finer_steps_where_none_is_given():
+    model = model_of("solve.method=periodic", name="table-4.3")
+    left_out = dataclasses.replace(model, solve=model.solve.model_copy(update={"step": None}))
+    answer, tried = solve(left_out, history=False), []
+
+    def once(tried_with):
+        tried.append(tried_with.finer)
+        if tried_with.finer < 8:
+            raise ConvergenceError("do not balance", reached={"power_residual": 0.017})
+        return answer
+
+    # Of order two: a residual 17 times too great is below what is noted on an eighth of the step.
+    assert step_error.refined(left_out, once) is answer
+    assert tried == [1, 8]
+    with pytest.raises(ConvergenceError, match="do not balance"):
+        step_error.refined(model, once)
+
+
+@pytest.mark.parametrize(("order", "step"), [(2.0, "4.5e-07"), (1.0, "2.3e-07")])
+def test_a_smaller_step_is_named_and_one_that_was_left_out_is_not_blamed(order, step):
+    given = smaller_step(1e-6, 4.0, order=order)
+    assert given == f"give a solve.step of at most {step} s, or none"
+    assert smaller_step(1e-6, 4.0, order=order, given=False) == f"a solve.step of {step} s may do"
 
 
 def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch):

@@ -22,7 +22,7 @@ from asperity.slider.fading import quarter_means
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.judged_march import judged_answer
 from asperity.slider.longer import STILL_GOES, advice
-from asperity.slider.march import march, march_once
+from asperity.slider.march import beyond_numbers, march, march_once
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import as_it_rings
@@ -276,7 +276,7 @@ def _answer(
     """Result of a body whose march is at its end."""
     model, table = body.model, body.table
     if not np.all(np.isfinite(column)):
-        return ConvergenceError("the march left the finite numbers; give a smaller solve.step")
+        return beyond_numbers(model, table.step, table.steps)
     sums = _sums(column, body, start_free)
     early, to_the_middle, late = map(float, quarters)
     begin, (first, middle, third) = table.window_start, table.quarters

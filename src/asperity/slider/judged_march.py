@@ -9,10 +9,11 @@ from asperity.results.settled import Standing
 from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.integrators import Integrator
 from asperity.slider.longer import brought_home, needed, still_goes
-from asperity.slider.march_end import MarchEnd, end_of_march
+from asperity.slider.march_end import MarchEnd, end_of_march, without_ring
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import heard, ringing_notes
+from asperity.slider.ringing import heard, ringing_notes, rings
+from asperity.slider.step_error import allowed_at
 from asperity.slider.summary import summarise
 from asperity.slider.timetable import WindowMeans, march_notes
 
@@ -64,6 +65,12 @@ def judged_answer(
         if standing.settled:
             end = end_of_march(at_end, table, sums, window)
     ratio = float(sums["drive_force"] / sums["steps"])
+    follows = True
+    if standing.settled and rings(model):
+        # Its mean goes nowhere.
+        still = without_ring(body(), table)
+        follows = still is None or abs(still - ratio) > allowed_at(ratio)
+        end = end._replace(ratio=None)
     home = brought_home(window, ratio, end.ratio)
     if home is not None and end.ratio is not None:
         wanders += (still_goes(home, ratio, end.ratio),)
@@ -72,7 +79,7 @@ def judged_answer(
         standing=standing,
         step_error=end.error,
         residual=window.residual, steps=table.steps, cycles=table.cycles, substeps=model.substeps,
-        notes=(*march_notes(steady), *ringing_notes(model), *wanders, *notes),
+        notes=(*march_notes(steady), *ringing_notes(model, follows=follows), *wanders, *notes),
         **told,
     )  # fmt: skip
     return answer, home if answer.settled else needed(window)

@@ -141,11 +141,7 @@ class March:
             self.done += count * length
             self.seconds += time.perf_counter() - began
             if not all(map(np.isfinite, self.state.tolist())):
-                at = self.done * self.table.step
-                raise ConvergenceError(
-                    f"the march left the finite numbers before {at:g} s; give a smaller solve.step",
-                    reached={"time_s": at},
-                )
+                raise beyond_numbers(self.model, self.table.step, self.done)
             self._run.checkpoint(self.done, self.table.steps, self.tree)
 
     @property
@@ -257,6 +253,16 @@ class March:
         at, span = np.concatenate(self._places).T / self.table.parts * self.model.step
         mean, least, greatest = np.concatenate(self._rows, axis=1)
         return history_of(self.model, self.table.step, at, span, mean, least, greatest)
+
+
+def beyond_numbers(model: Model, step: float, done: int) -> ConvergenceError:
+    """Return the error of a march that has left the finite numbers after so many steps of one."""
+    advice = "" if model.solve.step is None else "; give no solve.step, to have it chosen"
+    return ConvergenceError(
+        f"the march left the finite numbers before {done * step:g} s, in steps of {step:.2g} s"
+        f"{advice}",
+        reached={"time_s": done * step},
+    )
 
 
 def _pulled(sums: np.void) -> tuple[float, float]:

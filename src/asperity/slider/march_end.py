@@ -14,6 +14,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.slider import at_corners, on_twice
 from asperity.slider.cycle_map import Cycle
+from asperity.slider.from_rest import ratio_of
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import at_state
@@ -108,6 +109,15 @@ def _end_of(body: Integrator, table: Timetable, ratio: float, *, drifts: bool) -
                 return MarchEnd(max(abs(other - one) * part, hidden), comes_to)
     again = int(_SHARE * cycles / (0.5 + _beside(model)))
     return MarchEnd(_cycles_again(end, min(max(1, again), _MOST_AGAIN)), comes_to)
+
+
+def without_ring(body: Integrator, table: Timetable) -> float | None:
+    """Return the ratio of the state that repeats itself near a march's end, which rings about it.
+
+    None where none is found.
+    """
+    there = at_the_end(body, table)
+    return ratio_of(there) if there.find(-1) else None
 
 
 def at_the_end(body: Integrator, table: Timetable) -> Cycle:

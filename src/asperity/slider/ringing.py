@@ -27,6 +27,10 @@ _RINGS = (
     "shown is the state from this start, one of many (vibration.ramp has another); give a damping "
     "(normal.damping_ratio)"
 )
+UNHEARD = (
+    "little or nothing damps the contact: it rings as the vibration began, but the ratio does not "
+    "follow that: it is the same in the state next to it without a ring"
+)
 OF_MANY = "the state is one of many: nothing damps the contact, and the ratio follows its ringing"
 
 
@@ -171,10 +175,12 @@ def lasting_ring(model: Model) -> str:
     )
 
 
-def ringing_notes(model: Model) -> tuple[str, ...]:
-    """Say of a contact that rings on which of its states is shown."""
+def ringing_notes(model: Model, *, follows: bool = True) -> tuple[str, ...]:
+    """Say of a contact that rings on which of its states is shown, and if the ratio follows."""
     if not rings(model):
         return ()
+    if not follows:
+        return (UNHEARD,)
     if math.isinf(ringing_time(model)):
         return (_RINGS,)
     return (
@@ -187,9 +193,10 @@ def ringing_notes(model: Model) -> tuple[str, ...]:
 def as_it_rings(answer: SlideResult) -> SlideResult:
     """Return a march's answer; that of a contact that rings on as not settled.
 
-    Its means are steady, but those of another start are others: a periodic search says the same.
+    Its means are steady, but those of another start are others: a periodic search says the same,
+    and neither does where the ratio does not follow the ring.
     """
-    if not (answer.settled and rings(answer.model)):
+    if not (answer.settled and rings(answer.model)) or UNHEARD in answer.notes:
         return answer
     by = f"{answer.settled_by}, but {lasting_ring(answer.model)}"
     return dataclasses.replace(answer, settled=False, settled_by=by, step_error=None)

@@ -18,12 +18,14 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.errors import AsperityError
+from asperity.errors import AsperityError, ConvergenceError
+from asperity.results.ledger import NOTED as NOTED_OF_POWERS
+from asperity.results.settled import smaller_step
 from asperity.slider import at_corners, on_twice
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.model import Model
 from asperity.slider.on_twice import at_state, friction_on_twice, predicted_on_half
-from asperity.slider.orders import ORDER_TWO, of_the_error, part_of_difference
+from asperity.slider.orders import of_the_error, part_of_difference, power_of
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import run_cycle
@@ -50,16 +52,15 @@ def refined(
 
     ``once`` solves a model with the step it has; ``first`` is its answer, if there is one.
     """
-    answer = first if first is not None else once(model)
+    answer = first if first is not None else _balanced(model, once)
     while (error := answer.step_error) is not None and error > allowed(answer):
-        over = error / allowed(answer)
-        if of_the_error(model) == ORDER_TWO:
-            over = math.sqrt(over)
+        over, power = error / allowed(answer), power_of(model)
         two_phase = model.solve.scheme == "two-phase"
         if model.solve.step is not None or two_phase:
-            step = answer.model.step / answer.model.substeps / (1.1 * over)
-            other = "leave solve.scheme out" if two_phase else "none"
-            return _noted(answer, f"give a solve.step of at most {step:.2g} s, or {other}")
+            step = answer.model.step / answer.model.substeps
+            advice = smaller_step(step, over, order=power)
+            return _noted(answer, advice[:-4] + "leave solve.scheme out" if two_phase else advice)
+        over **= 1.0 / power
         finer = min(2 ** math.ceil(math.log2(over)), _FINEST // answer.model.finer)
         moved = at_corners.of_moved_flanks(answer.model, answer.model.step)
         if moved > allowed(answer):
@@ -75,6 +76,21 @@ def refined(
             return _noted(answer, "what a finer one gives has not settled")
         answer = better
     return answer
+
+
+def _balanced(model: Model, once: Callable[[Model], SlideResult]) -> SlideResult:
+    """Solve with the step of the case; where none is given and powers do not balance, a finer one.
+
+    A contact that rings ever harder is met harder than the step was laid out for.
+    """
+    try:
+        return once(model)
+    except ConvergenceError as error:
+        missing = error.reached.get("power_residual", math.nan)
+        if model.solve.step is not None or not math.isfinite(missing):
+            raise
+        finer = 2 ** math.ceil(math.log2(missing / NOTED_OF_POWERS) / power_of(model))
+        return once(dataclasses.replace(model, finer=min(finer, _FINEST)))
 
 
 def _noted(answer: SlideResult, advice: str) -> SlideResult:

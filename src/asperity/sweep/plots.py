@@ -107,9 +107,15 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
                     marker="x", color=BLACK, zorder=5,
                     label=None if told else "not settled",
                 )  # fmt: skip
+        rest = dataset.get("ratio_from_rest")
+        if variable == "ratio" and rest is not None and np.isfinite(rest).any():
+            panel.plot(
+                rest["value"].values, rest.values, linestyle="", marker="^", color=BLACK,
+                fillstyle="none", label="from rest",
+            )  # fmt: skip
         panel.set_ylabel(label)
         panel.margins(x=0.01)
-    legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     every[-1].set_xlabel(f"{name} ({unit})" if unit else name)
     return figure
 
