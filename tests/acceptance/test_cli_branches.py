@@ -71,7 +71,8 @@ def test_ctrl_c_ends_a_walk_between_two_states_and_says_how_many_were_found(star
     ("there", "back", "rest", "told"),
     [
         ([0.5, 0.4, 0.3], [0.5, 0.4, 0.3], None, "the same states both ways"),
-        ([0.5, 0.4, 0.3], [0.5, 0.4, 0.3], 0.45, "the same states both ways; from rest another at 0.2"),
+        ([0.5, 0.4, 0.3], [0.5, 0.4, 0.3], 0.45,
+         "the same states both ways; from rest another at 0.2"),
         # From rest it comes to the state on the way back.
         ([0.5, 0.4, 0.3], [0.5, 0.2, 0.3], 0.2,
          "two stable states at 0.2, by where the body comes from"),
@@ -92,7 +93,8 @@ def test_the_heading_says_what_was_found(there, back, rest, told):
     found = branches.Branches(
         source="normal-pin", axis=axis, shared={},
         **numbers | {"value": np.array([0.1, 0.2, 0.3])},
-        ratio_from_rest=np.array([np.nan, np.nan if rest is None else rest, np.nan]), missing=int(np.isnan(ratio).sum()),
+        ratio_from_rest=np.array([np.nan, np.nan if rest is None else rest, np.nan]),
+        missing=int(np.isnan(ratio).sum()),
     )  # fmt: skip
     assert found.heading() == told
 

@@ -123,7 +123,7 @@ def summarise(
     if normal is not None:
         notes += remarks(model, step, sums, normal)
         if normal.in_flight:
-            standing = Standing(False, IN_FLIGHT)
+            standing, step_error = Standing(False, IN_FLIGHT), None
         if model.wear is not None:
             slip = normal.wear_integral / normal.normal_mean if normal.normal_mean else 0.0
             mean = ledger.friction, slip

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_MARKED = 40
+_ROOM = 0.04  # above the greatest value, over what is drawn
 _LABELS = {
     "ratio": r"mean drive force over $\mu F_N$",
     "torque_ratio": "mean torque over that without vibration",
@@ -76,6 +77,10 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
         panel.axhline(0.0, color=BLACK, linewidth=1.0)
     else:
         panel.set_ylim(bottom=0.0)
+    if "settled" in dataset:
+        # Marks at the greatest value are not cut by the edge.
+        low, high = panel.get_ylim()
+        panel.set_ylim(low, high + _ROOM * (high - low))
     return figure
 
 
@@ -141,11 +146,9 @@ def _mark_unsettled(
         for column, out in zip(values.T, loose.T, strict=True)
     ]
     crosses[0].set_label("not settled")
+    # Beside it: in it a cross would be one more that has not settled.
     lines = panel.get_legend()
-    if lines is None:
-        legend(panel, handles=crosses[:1])
-    else:
-        _beside(panel, lines.get_title().get_text())
+    _beside(panel, "" if lines is None else lines.get_title().get_text())
 
 
 def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") -> None:
