@@ -256,3 +256,16 @@ def test_a_ring_is_of_many_states_only_where_the_ratio_follows_it(law, friction,
     assert state.settled != follows
     assert marched.settled != follows
     assert (UNHEARD in marched.notes) != follows
+
+
+def test_where_a_period_begins_to_double_a_disturbance_lasts():
+    # The state of one cycle lets go there: damped, a push of it neither grows nor fades.
+    answers = {k: solved("pin-on-disc", f"vibration.velocity_ratio={k}") for k in (18.3, 18.338)}
+    assert answers[18.3].settled
+    told = answers[18.338]
+    assert told.normal.period == 1
+    assert told.normal.multiplier == pytest.approx(1.0, abs=1e-5)
+    assert not told.settled
+    assert told.settled_by.endswith("but a disturbance lasts, and the ratio follows it")
+    assert any(note.startswith("of this periodic state a disturbance lasts") for note in told.notes)
+    assert told.ratio == pytest.approx(answers[18.3].ratio, abs=2e-3)
