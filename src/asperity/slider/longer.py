@@ -151,7 +151,9 @@ def needed(window: WindowMeans) -> float | None:
         least.append(model.start + (model.duration - model.start) * times)
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
-    longest = max(longest, rung_out(model))
+    longest = max(
+        longest, rung_out(model, with_friction=residual > UNSTEADY and not steadily(means))
+    )
     return longest if longest > model.duration else None
 
 
