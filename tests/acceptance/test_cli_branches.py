@@ -68,28 +68,49 @@ def test_ctrl_c_ends_a_walk_between_two_states_and_says_how_many_were_found(star
 
 
 @pytest.mark.parametrize(
-    ("there", "back", "told"),
+    ("there", "back", "rest", "told"),
     [
-        ([0.5, 0.4, 0.3], [0.5, 0.4, 0.3], "the same states both ways"),
-        ([0.5, 0.4, 0.3], [0.5, 0.2, 0.3],
+        ([0.5, 0.4, 0.3], [0.5, 0.4, 0.3], None, "the same states both ways"),
+        ([0.5, 0.4, 0.3], [0.5, 0.4, 0.3], 0.45,
+         "the same states both ways; from rest another at 0.2"),
+        # From rest it comes to the state on the way back.
+        ([0.5, 0.4, 0.3], [0.5, 0.2, 0.3], 0.2,
          "two stable states at 0.2, by where the body comes from"),
-        ([0.5, 0.4, np.nan], [0.5, 0.4, 0.3],
+        ([0.5, 0.4, 0.3], [0.5, 0.2, 0.3], None,
+         "two stable states at 0.2, by where the body comes from"),
+        ([0.5, 0.4, np.nan], [0.5, 0.4, 0.3], None,
          "the same states both ways, at the 2 of 3 values with both"),
-        ([0.5, np.nan, np.nan], [np.nan, 0.4, 0.3], "no value with a state both ways"),
-        ([np.nan] * 3, [np.nan] * 3, "no stable periodic state found"),
+        ([0.5, np.nan, np.nan], [np.nan, 0.4, 0.3], None, "no value with a state both ways"),
+        ([np.nan] * 3, [np.nan] * 3, None, "no stable periodic state found"),
     ],
 )  # fmt: skip
-def test_the_heading_says_what_was_found(there, back, told):
+def test_the_heading_says_what_was_found(there, back, rest, told):
     ratio = np.array([there, back])
     (axis,) = parse_axes(["friction.mu=0.1,0.2,0.3"], read_case("normal-pin", case_tables()))
-    numbers = dict.fromkeys(
-        (entry.name for entry in branches.Branches.declared() if entry.label.dims), ratio
-    )
+    declared = branches.Branches.declared()
+    ways = (entry.name for entry in declared if entry.label.dims == ("way", "value"))
+    numbers = dict.fromkeys(ways, ratio)
     found = branches.Branches(
         source="normal-pin", axis=axis, shared={},
-        **numbers | {"value": np.array([0.1, 0.2, 0.3])}, missing=int(np.isnan(ratio).sum()),
+        **numbers | {"value": np.array([0.1, 0.2, 0.3])},
+        ratio_from_rest=np.array([np.nan, np.nan if rest is None else rest, np.nan]),
+        missing=int(np.isnan(ratio).sum()),
     )  # fmt: skip
     assert found.heading() == told
+
+
+def test_a_state_that_a_body_comes_to_from_rest_alone_is_told(asperity):
+    over = "vibration.velocity_ratio=18,20"
+    code, output, _ = asperity("branches", "pin-on-disc", "--over", over, "--json")
+    assert code == 0
+    answer = json.loads(output)
+    code, output, _ = asperity(
+        "slide", "pin-on-disc", "--set", "vibration.velocity_ratio=20", "--json"
+    )
+    assert code == 0
+    rested = json.loads(output)["ratio"]
+    assert abs(answer["ratio"][0][1] - rested) > 0.01
+    assert answer["ratio_from_rest"] == [None, pytest.approx(rested, abs=1e-5)]
 
 
 def test_a_walk_that_was_interrupted_on_its_way_back_goes_on_there(asperity, tmp_path):

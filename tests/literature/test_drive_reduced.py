@@ -7,6 +7,7 @@ wheel rotation, J1 1.3e-5 and J2 3.2e-3 kg m2, 4394 N m/rad) that another hand w
 law keeping its stiffness, with contact laws of 542 and 365 urad at 366 N m.
 """
 
+import dataclasses
 import math
 
 import numpy as np
@@ -123,6 +124,20 @@ def locked(*settings):
 @pytest.fixture(scope="module")
 def held():
     return locked("vibration.displacement_amplitude=15 um")
+
+
+def test_a_gearset_that_nothing_shakes_holds_by_the_same_share(held):
+    shaken = case(*LOCKING)
+    still = dataclasses.replace(
+        shaken, tables={name: table for name, table in shaken.tables.items() if name != "vibration"}
+    )
+    found = locking(prepare_locking(still), Run())
+    assert found.locked
+    assert found.holding_share == held.holding_share
+    assert found.elastic_slip == held.elastic_slip
+    assert (found.threshold, found.creep, found.settled) == (None, None, None)
+    assert found.headline() == ()
+    assert any("with a [vibration]" in note for note in found.notes)
 
 
 def test_a_gearset_holds_until_vibration_bends_its_flanks_to_full_friction(held):

@@ -8,7 +8,7 @@ from asperity.results.ledger import PowerLedger, PressedLedger, guard
 CLOSED = PowerLedger(
     drive=1.0, vibration=2.0, friction=2.5, damping=0.25, stored=0.25, untransferred=7.0
 )
-ADVICE = "give a smaller solve.step"
+ADVICE = "give a solve.step of at most 1e-06 s, or none"
 
 
 def missing(power, **changes):

@@ -3,6 +3,7 @@
 import dataclasses
 import functools
 import math
+from pathlib import Path
 from types import SimpleNamespace
 from typing import ClassVar
 
@@ -19,11 +20,15 @@ from asperity.results.settled import by_what, told, whether_settled
 from asperity.slider import TABLES, Model, curves, periodic, solve
 from asperity.start.compare import compare
 from asperity.studies.vibrated_friction import shake
+from asperity.sweep import read_grid
+from asperity.sweep import run as sweep
 from asperity.sweep.axes import parse_axes
 from asperity.sweep.branches import Branches
+from asperity.sweep.plots import plot_sweep
 from asperity.tribometer.reduction import prediction
 from asperity.vibration import Vibration
 
+SHIPPED = Path(__file__).parents[2] / "cases"
 WHY = "the halves of the window differ by 0.2"
 TOLD = f"Not settled, no prediction: {WHY}."
 EARLY = "solve.duration=0.3 s", "vibration.start=10 ms"
@@ -83,6 +88,33 @@ def test_a_comparison_marks_it_and_says_what_it_lacks():
     assert found.to_json()["settled"] == [True, False]
 
 
+def test_heads_are_the_names_of_files_that_are_not_named_alike(tmp_path):
+    paths = [tmp_path / "one" / "hard.toml", tmp_path / "one" / "soft.toml"]
+    paths += [tmp_path / "other" / "soft.toml"]
+    for path in paths:
+        path.parent.mkdir(exist_ok=True)
+        path.write_text((SHIPPED / "table-4.3.toml").read_text())
+    for chosen, heads in ((paths[:2], ["hard.toml", "soft.toml"]), (paths[1:], paths[1:])):
+        found = compare([read_case(path, case_tables()) for path in chosen], lambda *_: settled())
+        for table in found.tables():
+            assert [column.heading for column in table.columns][-2:] == list(map(str, heads))
+
+
+def test_points_that_have_not_settled_are_whole_in_a_picture_and_marches_asked_for_are_no_news():
+    soft = "solve.method=march", "solve.duration=0.1 s", "slider.drive_stiffness=20000 N/m"
+    over = ["vibration.velocity_ratio=2,20"]
+    found = sweep(*read_grid("pin-on-disc", case_tables(), soft, over), cache=False)
+    assert found.loose.all()
+    assert found.aperiodic == 0
+    assert not any("are marches" in remark for remark in found.tables()[0].remarks)
+    figure = plot_sweep(found.to_dataset())
+    (panel,) = figure.axes
+    assert panel.get_ylim()[1] > 1.02 * found.arrays["ratio"].max()
+    figure.canvas.draw()
+    box = panel.get_legend().get_window_extent()
+    assert box.x0 >= panel.get_window_extent().x1
+
+
 ONE = (0.6, 0.5, 0.4, 0.3)
 OTHER = (0.6, 0.5, 0.2, 0.1)
 
@@ -104,7 +136,7 @@ class TestBranches:
         return Branches(
             source="own.toml", axis=axis, shared={}, value=np.array(axis.shown, float),
             ratio=ratio, settled=stays, missing=int(np.isnan(ratio).sum()),
-            **dict.fromkeys(names, blank),
+            ratio_from_rest=np.full(len(axis.shown), np.nan), **dict.fromkeys(names, blank),
         )  # fmt: skip
 
     def test_has_two_states_only_where_both_stay(self):

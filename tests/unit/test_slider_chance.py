@@ -3,14 +3,12 @@
 A ball that a shaken table throws has such motions: P. J. Holmes, J. Sound Vib. 84 (1982) 173.
 """
 
-import sys
-
 import numpy as np
 import pytest
 
 from asperity.casefile import read_case
 from asperity.results.settled import Standing
-from asperity.slider import TABLES, Model, solve, solve_many
+from asperity.slider import TABLES, Model, judged_march, solve, solve_many
 from asperity.slider.chance import judged, scatter
 from asperity.slider.march import March
 
@@ -88,8 +86,9 @@ def test_a_lane_and_a_march_ask_whether_it_was_by_chance(monkeypatch):
         )
         for k in (3, 6)
     ]
-    room = sys.modules[March.__module__]
-    monkeypatch.setattr(room, "judged", lambda *given: (Standing(True, "luck"), ("a note",)))
+    monkeypatch.setattr(
+        judged_march, "judged", lambda *given: (Standing(True, "luck"), ("a note",))
+    )
     for answer in (*solve_many(models), solve(models[0], history=False)):
         assert answer.settled_by == "luck"
         assert "a note" in answer.notes

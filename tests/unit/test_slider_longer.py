@@ -13,7 +13,7 @@ from asperity.slider import solve
 from asperity.slider.fading import apart, mean_left, quarters_in_time
 from asperity.slider.longer import advice, lasting, needed
 from asperity.slider.model import WINDOW_SHARE, Model
-from asperity.slider.ringing import rung_out
+from asperity.slider.ringing import friction_on_ring, rung_out
 from asperity.slider.tables import TABLES
 from asperity.slider.timetable import Timetable, WindowMeans
 
@@ -178,3 +178,41 @@ def test_a_ring_has_faded_when_it_keeps_halves_less_apart_than_is_steady(stiffne
     # In a shorter window than the usual one it is not known how many rings it has.
     assert apart == pytest.approx(8e-4, rel=1e-2) if whole else apart < 8e-4
     assert halves_apart(body, 0.8 * foreseen) > apart
+
+
+# A ring that friction alone damps, by what shakes it across or faster than the drive.
+HEAVY = (
+    "friction.model=coulomb", "friction.mu=0.1", "slider.normal_force=38 N", "slider.mass=18 kg",
+    "slider.drive_velocity=0.47 mm/s", "slider.drive_stiffness=33 MN/m",
+    "slider.drive_damping=0 N s/m", "vibration.frequency=2 kHz", "vibration.start=0 s",
+    "slider.lateral=guided", "solve.step=1 us",
+)  # fmt: skip
+
+
+def test_a_heavy_body_is_foreseen_to_ring_for_as_long_as_shaken_friction_damps_it():
+    shaken = "vibration.direction=90 deg", "vibration.velocity_ratio=0.15"
+    body = Model.from_case(read_case("table-4.3", TABLES, (*HEAVY, *shaken)))
+    first = solve(lasting(body, 0.3), history=False)
+    (said,) = [note for note in first.notes if "would do, by the means" in note]
+    foreseen = float(said.split()[3])
+    # The usual duration does not do, and what is said is less than three times as long.
+    assert not solve(lasting(body, 1.01 * body.usual_duration), history=False).settled
+    assert body.usual_duration < foreseen < 3.0 * body.usual_duration
+    then, late = (solve(lasting(body, each * foreseen), history=False) for each in (1.0, 3.0))
+    assert then.settled
+    assert then.ratio == pytest.approx(late.ratio, abs=1e-3)
+
+
+def test_friction_that_is_shaken_damps_a_slow_motion_by_the_slope_of_its_mean():
+    def damping(*settings):
+        body = Model.from_case(read_case("table-4.3", TABLES, (*HEAVY, *settings)))
+        return friction_on_ring(body) * body.slider.drive_velocity / body.full_friction
+
+    along = "vibration.direction=0 deg"
+    assert damping(along, "vibration.velocity_ratio=0.9") == 0.0
+    fast = damping(along, "vibration.velocity_ratio=4")
+    assert fast == pytest.approx(2.0 / math.pi / math.sqrt(15.0), rel=0.03)
+    # Across a little: the mean of cos of the slip's direction, 1 - k^2/4, whose slope is k^2/2.
+    across = "vibration.direction=90 deg", "friction.transfer=1"
+    little = damping(*across, "vibration.velocity_ratio=0.1")
+    assert little == pytest.approx(0.005, rel=0.03)

@@ -13,7 +13,7 @@ from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import from_rest
 from asperity.slider.held import Creep
 from asperity.slider.periodic import cycle_steps, settle
-from asperity.slider.ringing import faded_after, ringing_time, rings
+from asperity.slider.ringing import UNHEARD, faded_after, ringing_time, rings
 from asperity.slider.timetable import FAR
 
 
@@ -243,3 +243,30 @@ def test_a_march_that_rings_about_the_state_found_has_come_to_no_other(damping, 
     assert answer.settled
     assert answer.ratio == pytest.approx(ratio, abs=1e-4)
     assert answer.notes == ()
+
+
+@pytest.mark.parametrize(("law", "friction", "follows"), [
+    ("rough", "springs", False), ("hertz", "dahl", True),
+])  # fmt: skip
+def test_a_ring_is_of_many_states_only_where_the_ratio_follows_it(law, friction, follows):
+    contact = "normal.damping_ratio=0", f"normal.law={law}", f"friction.model={friction}"
+    shaken = *contact, "vibration.velocity_ratio=2"
+    state = solved("normal-pin", *shaken, "solve.method=periodic")
+    marched = solved("normal-pin", *shaken, "solve.method=march", "solve.duration=0.6 s")
+    assert (abs(state.ratio - marched.ratio) > 1e-3) == follows
+    assert state.settled != follows
+    assert marched.settled != follows
+    assert (UNHEARD in marched.notes) != follows
+
+
+def test_where_a_period_begins_to_double_a_disturbance_lasts():
+    # The state of one cycle lets go there: damped, a push of it neither grows nor fades.
+    answers = {k: solved("pin-on-disc", f"vibration.velocity_ratio={k}") for k in (18.3, 18.338)}
+    assert answers[18.3].settled
+    told = answers[18.338]
+    assert told.normal.period == 1
+    assert told.normal.multiplier == pytest.approx(1.0, abs=1e-5)
+    assert not told.settled
+    assert told.settled_by.endswith("but a disturbance lasts, and the ratio follows it")
+    assert any(note.startswith("of this periodic state a disturbance lasts") for note in told.notes)
+    assert told.ratio == pytest.approx(answers[18.3].ratio, abs=2e-3)

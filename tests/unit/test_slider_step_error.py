@@ -7,8 +7,10 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.commands import case_tables
+from asperity.errors import ConvergenceError
+from asperity.results.settled import smaller_step
 from asperity.runs import Run
-from asperity.slider import TABLES, Model, orders, solve, step_error
+from asperity.slider import TABLES, Model, march_end, orders, solve, step_error
 from asperity.slider.continuation import Walk, follow
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import ratio_of
@@ -116,7 +118,7 @@ def foreseen_beside(cycle):
 )  # fmt: skip
 def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):
     _, cycle = at_its_state(*settings, "vibration.waveform=triangle", name=name)
-    found = step_error._closed(step_error._on_half(cycle), cycle.jacobian)
+    found = step_error.closed(step_error._on_half(cycle), cycle.jacobian)[1]
     foreseen, here = foreseen_beside(cycle)
     assert abs(found - here) > 1e-7
     assert foreseen - here == pytest.approx(found - here, rel=0.2)
@@ -188,9 +190,34 @@ def test_where_no_steps_end_on_the_flanks_finer_ones_are_not_tried():
     assert sum("no steps end on the flanks" in note for note in answer.notes) == 1
 
 
+def test_powers_that_do_not_balance_are_solved_in_finer_steps_where_none_is_given():
+    model = model_of("solve.method=periodic", name="table-4.3")
+    left_out = dataclasses.replace(model, solve=model.solve.model_copy(update={"step": None}))
+    answer, tried = solve(left_out, history=False), []
+
+    def once(tried_with):
+        tried.append(tried_with.finer)
+        if tried_with.finer < 8:
+            raise ConvergenceError("do not balance", reached={"power_residual": 0.017})
+        return answer
+
+    # Of order two: a residual 17 times too great is below what is noted on an eighth of the step.
+    assert step_error.refined(left_out, once) is answer
+    assert tried == [1, 8]
+    with pytest.raises(ConvergenceError, match="do not balance"):
+        step_error.refined(model, once)
+
+
+@pytest.mark.parametrize(("order", "step"), [(2.0, "4.5e-07"), (1.0, "2.3e-07")])
+def test_a_smaller_step_is_named_and_one_that_was_left_out_is_not_blamed(order, step):
+    given = smaller_step(1e-6, 4.0, order=order)
+    assert given == f"give a solve.step of at most {step} s, or none"
+    assert smaller_step(1e-6, 4.0, order=order, given=False) == f"a solve.step of {step} s may do"
+
+
 def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch):
-    monkeypatch.setattr(step_error, "_closed", lambda *given: 5.0)
-    monkeypatch.setattr(step_error, "_cycles_again", lambda *given: 1.25e-5)
+    monkeypatch.setattr(march_end, "closed", lambda *given: (0.0, 5.0))
+    monkeypatch.setattr(march_end, "_cycles_again", lambda *given: 1.25e-5)
     case = read_case("table-4.3", TABLES, ["solve.duration=0.6 s"])
     assert solve(Model.from_case(case), history=False).step_error == 1.25e-5
 
@@ -200,7 +227,7 @@ def test_where_no_state_is_next_to_a_march_its_last_cycles_tell_its_error(monkey
     settings = ["slider.drive_stiffness=20 MN/m", f"vibration.waveform={waveform}"]
     case = read_case("table-4.3", TABLES, [*settings, "solve.duration=0.6 s"])
     told = solve(Model.from_case(case), history=False).step_error
-    monkeypatch.setattr(step_error, "_closed", lambda *given: None)
+    monkeypatch.setattr(march_end, "closed", lambda *given: (1.0, 5.0))
     again = solve(Model.from_case(case), history=False).step_error
     assert told > 1e-6
     assert again == pytest.approx(told, rel=0.5)
@@ -209,7 +236,7 @@ def test_where_no_state_is_next_to_a_march_its_last_cycles_tell_its_error(monkey
 def test_where_no_state_is_next_to_it_one_is_searched(monkeypatch):
     model, cycle = at_its_state("vibration.waveform=triangle")
     told = step_error.error_of_state(cycle, model)
-    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: (None, 0.0))
+    monkeypatch.setattr(step_error, "closed_beside", lambda *given: (None, 0.0))
     searched = step_error.error_of_state(cycle, model)
     assert searched.error == pytest.approx(told.error, rel=0.05)
     assert not told.notes
@@ -222,13 +249,13 @@ def test_where_none_is_found_at_all_a_note_says_what_it_was_taken_from(
 ):
     model, cycle = at_its_state(f"vibration.waveform={waveform}")
     told = step_error.error_of_state(cycle, model)
-    monkeypatch.setattr(step_error, "_closed_beside", lambda *given: (None, 0.0))
+    monkeypatch.setattr(step_error, "closed_beside", lambda *given: (None, 0.0))
     monkeypatch.setattr(step_error, "_found_beside", lambda *given: None)
     from_there = step_error.error_of_state(cycle, model)
     assert from_there.error == pytest.approx(told.error, rel=0.15)
     (note,) = from_there.notes
     assert note.startswith(f"no state that repeats itself was found on {beside} the step")
-    monkeypatch.setattr(step_error, "_friction_beside", lambda *given: float("nan"))
+    monkeypatch.setattr(step_error, "friction_beside", lambda *given: float("nan"))
     lost = step_error.error_of_state(cycle, model)
     assert lost.error is None
     assert "is not known" in lost.notes[0]

@@ -8,9 +8,11 @@ flanks creep at :math:`v_a\sin(\pi\phi/2)`. Only asperities that stick until the
 under the smallest vibration (Coulomb, Dahl's exponent 0); those of exponent 1 creep at any.
 """
 
+import dataclasses
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, NamedTuple
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +27,7 @@ from asperity.drive.protocols.solve import asked, least_creep
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import Reduction, reduction
 from asperity.drive.result import DriveResult
+from asperity.drive.solve import prepare as prepare_drive
 from asperity.drive.solve import prepare_shaken
 from asperity.errors import AsperityError, ConvergenceError
 from asperity.friction import Friction
@@ -32,8 +35,18 @@ from asperity.results import Result, quantity
 from asperity.results.settled import told
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
+from asperity.vibration import Vibration
+
+if TYPE_CHECKING:
+    from asperity.results.report import Picture
 
 _AMPLITUDES = ("amplitude",)
+_PROTOCOL = "back-drive"
+_DRIVES = "it does not hold its load without vibration: the wheel drives the worm"
+_NOT_SHAKEN = (
+    "nothing shakes it: how much shaking sets it free is told with a [vibration] (mode, frequency "
+    "and an amplitude)"
+)
 # Of the way from rest to full friction, what the chart shows.
 _CHART = np.geomspace(0.05, 20.0, 14)
 _ROUNDS, _AT_ONCE = 2, 4
@@ -71,7 +84,7 @@ class Locking(Result):
     creep: float | None = quantity(
         "", "rad/s", "mean speed of the wheel under the case's vibration", key="creep_rad_s"
     )
-    settled: bool = quantity("", "", "whether that speed stays")
+    settled: bool | None = quantity("", "", "whether that speed stays")
     settled_by: str = quantity("", "", "settled by", shown=False, default="")
     step_error: float | None = quantity(
         "", "", "error of that speed from the step, about", default=None
@@ -97,6 +110,14 @@ class Locking(Result):
         """Return that the creep under the case's vibration is none that stays, where it is not."""
         return told(self)
 
+    def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
+        """Write JSON, netCDF and, of one that is shaken, a picture."""
+        return super().write(folder, pictures=pictures if self.amplitude.size else "")
+
+    def pictures(self, folder: Path | None = None) -> "tuple[Picture, ...]":
+        """Return its picture, of one that is shaken."""
+        return super().pictures(folder) if self.amplitude.size else ()
+
     @property
     def inputs(self) -> Mapping[str, Any]:
         """What was asked, by ``table.key``."""
@@ -104,8 +125,15 @@ class Locking(Result):
 
 
 def prepare(case: Case) -> DriveProblem:
-    """Return the problem of a case, its motor off; InputError where it cannot be solved."""
-    return prepare_shaken(case, "back-drive")
+    """Return the problem of a case, its motor off; InputError where it cannot be solved.
+
+    Without a vibration it is asked no more than whether it holds.
+    """
+    if Vibration.table in case:
+        return prepare_shaken(case, _PROTOCOL)
+    problem = prepare_drive(case, static=True)
+    drive = problem.drive.model_copy(update={"protocol": _PROTOCOL})
+    return dataclasses.replace(problem, drive=drive)
 
 
 def answer(problem: DriveProblem, run: Run) -> Locking:
@@ -124,6 +152,8 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     locked = share < 1.0
     force = point.normal_force(problem.load, -min(share, 1.0) * at_rest)
     slip = model.elastic_slip * force / model.normal_force
+    if problem.vibration is None:
+        return _at_rest(problem, reduced, share, slip)
     # Way along the flank for a displacement of the vibration, and the wheel's turn for a way.
     along = _along(problem, model)
     turn = 1.0 / (point.length * point.ratio)
@@ -147,7 +177,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
                 "amplitude; exponent 0 holds"
             )
     else:
-        notes.append("it does not hold its load without vibration: the wheel drives the worm")
+        notes.append(_DRIVES)
     limit = math.sin(0.5 * math.pi * min(share, 1.0)) * turn * along * frequency
     chart = amplitudes if locked else np.array([problem.amplitude])
     return Locking(
@@ -167,6 +197,27 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         creep_limit=limit * chart,
         settled_over=np.array([each.settled for each in over], np.int8),
         notes=tuple(notes),
+    )
+
+
+def _at_rest(problem: DriveProblem, reduced: Reduction, share: float, slip: float) -> Locking:
+    """Return whether a gearset holds that nothing shakes, which takes no march."""
+    none = np.zeros(0)
+    return Locking(
+        problem=problem,
+        locked=share < 1.0,
+        holding_share=share,
+        elastic_slip=slip,
+        threshold=None,
+        threshold_closed_form=None,
+        creep=None,
+        settled=None,
+        creep_closed_form=None,
+        amplitude=none,
+        creep_over=none,
+        creep_limit=none,
+        settled_over=np.zeros(0, np.int8),
+        notes=(*reduced.notes, *(() if share < 1.0 else (_DRIVES,)), _NOT_SHAKEN),
     )
 
 

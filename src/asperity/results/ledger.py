@@ -135,7 +135,7 @@ def guard(
     ledger : Ledger
         The powers of the answer.
     advice : str
-        What a user can do about it, such as ``give a smaller solve.step``.
+        What a user can do about it, as `asperity.results.settled.smaller_step` says it.
     reached : mapping of str to float, optional
         What else was reached, for the exception; the residual is added as ``power_residual``.
 

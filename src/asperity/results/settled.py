@@ -49,6 +49,26 @@ def error_of_step() -> Any:
     return quantity("", "", "error of the ratio from the step", default=None)
 
 
+def smaller_step(step: float, over: float, *, order: float = 2.0, given: bool = True) -> str:
+    """Say what step would do in place of one that makes too great an error.
+
+    Parameters
+    ----------
+    step : float
+        That was taken, s.
+    over : float
+        How many times too great its error is.
+    order : float
+        What power of the step the error goes with.
+    given : bool
+        Whether the case says the step: it is not to blame else.
+    """
+    does = step / (1.1 * over ** (1.0 / order))
+    if given:
+        return f"give a solve.step of at most {does:.2g} s, or none"
+    return f"a solve.step of {does:.2g} s may do"
+
+
 def marked(values: Sequence[Any], loose: Sequence[bool]) -> list[Any]:
     """Return numbers as a table has them, those that have not settled marked."""
     return [

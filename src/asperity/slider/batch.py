@@ -20,8 +20,9 @@ from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.fading import quarter_means
 from asperity.slider.integrators import Integrator, integrator
-from asperity.slider.longer import advice, needed
-from asperity.slider.march import judged_answer, march, march_once
+from asperity.slider.judged_march import judged_answer
+from asperity.slider.longer import STILL_GOES, advice
+from asperity.slider.march import beyond_numbers, march, march_once
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import as_it_rings
@@ -160,7 +161,8 @@ def _refined(
         return answer
     once = functools.partial(march_once, history=False, stop=stop)
     try:
-        if not answer.settled and model.solve.duration is None:
+        still_goes = any(note.startswith(STILL_GOES) for note in answer.notes)
+        if (still_goes or not answer.settled) and model.solve.duration is None:
             return march(model, history=False, stop=stop)
         return as_it_rings(refined(model, once, answer))
     except AsperityError as error:
@@ -274,7 +276,7 @@ def _answer(
     """Result of a body whose march is at its end."""
     model, table = body.model, body.table
     if not np.all(np.isfinite(column)):
-        return ConvergenceError("the march left the finite numbers; give a smaller solve.step")
+        return beyond_numbers(model, table.step, table.steps)
     sums = _sums(column, body, start_free)
     early, to_the_middle, late = map(float, quarters)
     begin, (first, middle, third) = table.window_start, table.quarters
@@ -294,7 +296,7 @@ def _answer(
         return there
 
     try:
-        answer = judged_answer(
+        answer, foreseen = judged_answer(
             model, window, sums, (start, _energies(column, body)), at_end,
             seconds=seconds,
             breakaway_time=float(column[row.WAITED]) * table.step if broke else None,
@@ -303,7 +305,7 @@ def _answer(
         return failed
     if answer.settled:
         return answer
-    return dataclasses.replace(answer, notes=(*answer.notes, advice(needed(window), model)))
+    return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen, model)))
 
 
 def _load(column: FloatArray, body: _Body) -> None:

@@ -17,8 +17,9 @@ from asperity.results.settled import Standing
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import alike_after, ratio_of
 from asperity.slider.integrators import Integrator
+from asperity.slider.march_end import at_the_end
 from asperity.slider.model import Model
-from asperity.slider.step_error import at_the_end, run_once
+from asperity.slider.step_error import run_once
 from asperity.slider.timetable import (
     FAR,
     SHORT,

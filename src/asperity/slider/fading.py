@@ -54,6 +54,22 @@ def mean_left(windows: float) -> float:
     return -math.expm1(-windows) / windows
 
 
+def windows_in_time(change: float, left: float) -> float | None:
+    """Return how many windows the time constant is of what is left; None where it does not fade.
+
+    Parameters
+    ----------
+    change : float
+        Of the mean from the first half of the window to the second.
+    left : float
+        From the mean of the window to where it goes.
+    """
+    if left == 0.0 or not 0.0 < change / left < 2.0:
+        return None
+    share = change / left
+    return -0.5 / math.log((2.0 - share) / (2.0 + share))
+
+
 def steadily(means: Sequence[float]) -> bool:
     """Whether means go from quarter to quarter in the same direction, and less each time.
 

@@ -13,6 +13,7 @@ from asperity.slider.fading import (
     quarters_in_time,
     steadily,
     still_to_come,
+    windows_in_time,
 )
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
@@ -25,6 +26,7 @@ from asperity.slider.ringing import (
     still_rings,
     upward,
 )
+from asperity.slider.step_error import allowed_at
 from asperity.slider.timetable import (
     FAR,
     UNSTEADY,
@@ -43,6 +45,8 @@ _SPARE = 1.2
 _MOST_TIMES = 1e3  # what has been marched, that a body is told to be marched for
 _NEXT, _MOST_TRIED = 1.02, 400
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
+STILL_GOES = "the mean still goes on as it fades"
+"""How the note on a mean begins that has settled and is not yet where it goes to."""
 
 M = TypeVar("M", bound=Model)
 A = TypeVar("A", bound=SlideResult)
@@ -58,7 +62,10 @@ class Marching(Protocol[A_co]):
         ...
 
     def to_the_end(self) -> tuple[A_co, float | None]:
-        """March to that time; the answer, and the duration in s that would do where foreseen."""
+        """March to that time; the answer, and the duration in s that would do where foreseen.
+
+        What has settled is foreseen none where its mean is where it goes to.
+        """
         ...
 
     def go_on(self, duration: float) -> None:
@@ -82,11 +89,12 @@ def until_settled(model: Model, marching: Marching[A], instead: str | None = "pe
         answer, foreseen = marching.to_the_end()
         marched = marching.duration
         farthest = FARTHEST * model.duration
+        goes_on = foreseen is not None or not answer.settled
+        if goes_on and model.solve.duration is None and marched < farthest * (1.0 - 1e-9):
+            low, high = (share * marched for share in _FURTHER)
+            marching.go_on(min(max(foreseen or high, low), high, farthest))
+            continue
         if not answer.settled:
-            if model.solve.duration is None and marched < farthest * (1.0 - 1e-9):
-                low, high = (share * marched for share in _FURTHER)
-                marching.go_on(min(max(foreseen or high, low), high, farthest))
-                continue
             note = advice(foreseen, model, instead)
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:
@@ -143,7 +151,9 @@ def needed(window: WindowMeans) -> float | None:
         least.append(model.start + (model.duration - model.start) * times)
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
-    longest = max(longest, rung_out(model))
+    longest = max(
+        longest, rung_out(model, with_friction=residual > UNSTEADY and not steadily(means))
+    )
     return longest if longest > model.duration else None
 
 
@@ -190,6 +200,43 @@ def _fading(of: WindowMeans) -> float | None:
         ):
             return model.duration + _SPARE * (duration - model.duration)
     return None
+
+
+def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> float | None:
+    r"""Return the duration in s whose mean ratio is where it comes to, to 1e-3 of it.
+
+    None where it is there, or is not seen to go there: the halves of the window tell in what time.
+
+    Parameters
+    ----------
+    window : WindowMeans
+        What a march has come to.
+    ratio : float
+        Its mean.
+    comes_to : float or None
+        The ratio of the state next to its end.
+    """
+    if comes_to is None:
+        return None
+    left, untold = comes_to - ratio, allowed_at(comes_to)
+    windows = windows_in_time(window.change, left)
+    if abs(left) <= untold or windows is None:
+        return None
+    model = window.model
+    span = window.table.window * window.table.step
+    tau = windows * span
+    # A longer window has more of what is left in it.
+    more = mean_left(model.window / tau) / mean_left(span / tau)
+    fades = tau * math.log(abs(left) * more / (_LEFT * untold))
+    return model.duration + max(model.window - span, 0.0) + fades
+
+
+def still_goes(duration: float, ratio: float, comes_to: float) -> str:
+    """Say how far a mean still goes, and the duration in s in which it has."""
+    return (
+        f"{STILL_GOES}, from a ratio of {ratio:.5g} to about {comes_to:.5g}: "
+        f"a solve.duration of {upward(duration):.3g} s would do"
+    )
 
 
 def advice(duration: float | None, model: Model, instead: str | None = "periodic") -> str:

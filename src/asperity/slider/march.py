@@ -13,18 +13,17 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
-from asperity.results.settled import Standing
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
-from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
-from asperity.slider.integrators import Integrator, integrator
-from asperity.slider.longer import lasting, needed, until_settled
+from asperity.slider.integrators import integrator
+from asperity.slider.judged_march import judged_answer
+from asperity.slider.longer import lasting, until_settled
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import as_it_rings, heard, ringing_notes
+from asperity.slider.ringing import as_it_rings
 from asperity.slider.scaled import Parameters
 from asperity.slider.steady import (
     fading_rate,
@@ -34,13 +33,12 @@ from asperity.slider.steady import (
     two_states,
     until_it_sticks,
 )
-from asperity.slider.step_error import error_of_march, refined
-from asperity.slider.summary import history_of, summarise
+from asperity.slider.step_error import refined
+from asperity.slider.summary import history_of
 from asperity.slider.timetable import (
     BLOCK,
     Timetable,
     WindowMeans,
-    march_notes,
     pull_across,
 )
 from asperity.vibration.waveform import AT_REST
@@ -143,11 +141,7 @@ class March:
             self.done += count * length
             self.seconds += time.perf_counter() - began
             if not all(map(np.isfinite, self.state.tolist())):
-                at = self.done * self.table.step
-                raise ConvergenceError(
-                    f"the march left the finite numbers before {at:g} s; give a smaller solve.step",
-                    reached={"time_s": at},
-                )
+                raise beyond_numbers(self.model, self.table.step, self.done)
             self._run.checkpoint(self.done, self.table.steps, self.tree)
 
     @property
@@ -229,17 +223,15 @@ class March:
         swings = _swing(first_half), _swing(self.sums)
         half = 0.5 * table.window * table.step
         leaves = "" if model.vibrates else still_leaves(model, half, swings)
-        answer = judged_answer(
+        answer, foreseen = judged_answer(
             model, window, sums, (start, self.energies()), lambda: self._body,
             leaves=leaves, notes=self._beside(swings), seconds=self.seconds,
             breakaway_time=self.breakaway, history=self.history() if self._record else None,
         )  # fmt: skip
-        if answer.settled:
-            return answer, None
-        if leaves:
+        if leaves and not answer.settled:
             sticks = _SPARE * until_it_sticks(model, swings[1])
             return answer, self.duration + sticks + model.window
-        return answer, needed(window)
+        return answer, foreseen
 
     def _beside(self, swings: tuple[float, float]) -> tuple[str, ...]:
         """Return a note on steady sliding, where it is unstable or a body lasts beside it."""
@@ -263,62 +255,18 @@ class March:
         return history_of(self.model, self.table.step, at, span, mean, least, greatest)
 
 
+def beyond_numbers(model: Model, step: float, done: int) -> ConvergenceError:
+    """Return the error of a march that has left the finite numbers after so many steps of one."""
+    advice = "" if model.solve.step is None else "; give no solve.step, to have it chosen"
+    return ConvergenceError(
+        f"the march left the finite numbers before {done * step:g} s, in steps of {step:.2g} s"
+        f"{advice}",
+        reached={"time_s": done * step},
+    )
+
+
 def _pulled(sums: np.void) -> tuple[float, float]:
     return float(sums["drive_force"]), float(sums["steps"])
-
-
-def judged_answer(
-    model: Model,
-    window: WindowMeans,
-    sums: np.void,
-    ends: tuple[tuple[float, float], tuple[float, float]],
-    body: Callable[[], Integrator],
-    *,
-    leaves: str = "",
-    notes: tuple[str, ...] = (),
-    **told: Any,
-) -> SlideResult:
-    """Return the answer of a march that is at its end, judged by all that is known of it.
-
-    Parameters
-    ----------
-    model : Model
-        The body as the case has it.
-    window : WindowMeans
-        What it has come to.
-    sums : np.void
-        Over the whole window.
-    ends : tuple of 2 tuples
-        Energies where the window begins and ends, as `summarise` takes them.
-    body : callable
-        Gives the body at the end; called where its means agree.
-    leaves : str
-        What it lacks that is next to steady sliding which is unstable.
-    notes : tuple of str
-        Beside those of the march.
-    told
-        What else `summarise` takes.
-    """
-    table = window.table
-    wanders: tuple[str, ...] = ()
-    step_error = None
-    standing, steady, means = standing_by_cycles(window, body, sums)
-    if standing.settled and leaves:
-        standing = Standing(False, leaves)
-    standing = heard(standing, model, window.model.duration)
-    if standing.settled:
-        at_end = body()
-        standing, wanders = judged(standing, at_end, table, sums, means)
-        if standing.settled:
-            step_error = error_of_march(at_end, table, sums)
-    return summarise(
-        model, model.parameters(table.step), table.step, sums, *ends,
-        standing=standing,
-        step_error=step_error,
-        residual=window.residual, steps=table.steps, cycles=table.cycles, substeps=model.substeps,
-        notes=(*march_notes(steady), *ringing_notes(model), *wanders, *notes),
-        **told,
-    )  # fmt: skip
 
 
 def _swing(sums: np.void) -> float:

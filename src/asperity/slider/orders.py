@@ -16,6 +16,11 @@ def part_of_difference(model: Model) -> float:
     return 1.0 / of_the_error(model) + (1.0 if model.meets_corners else 0.0)
 
 
+def power_of(model: Model) -> float:
+    """Return what power of the step its error goes with, for a step that would do."""
+    return 2.0 if of_the_error(model) == ORDER_TWO else 1.0
+
+
 def of_the_error(model: Model) -> float:
     """Return what the difference to a solution on twice the step is of the error of the first."""
     smooth = model.shape is None or not model.shape.cornered

@@ -8,6 +8,8 @@ import cmath
 import dataclasses
 import math
 
+import numpy as np
+
 from asperity.results.settled import Standing
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
@@ -20,12 +22,18 @@ _GONE = -math.log(FAR)  # time constants, in which a ringing has come down to th
 # Of a time constant, a window that tells a ringing that fades: its halves are then apart by a fifth
 # of what the ringing does to the mean, and their quarters tell the rest.
 _TELLS = 0.5
+_SPARE = 1.25  # times, that friction may damp a ring less than Coulomb's
+_TURNS, _BESIDE = 16384, 0.05  # points of a cycle; of the drive velocity, between which is a slope
 FARTHEST = 16.0
 """Times the usual duration, that a march goes on by itself."""
 _RINGS = (
     "nothing damps the contact: it rings as the vibration began, and the ratio follows that; "
     "shown is the state from this start, one of many (vibration.ramp has another); give a damping "
     "(normal.damping_ratio)"
+)
+UNHEARD = (
+    "little or nothing damps the contact: it rings as the vibration began, but the ratio does not "
+    "follow that: it is the same in the state next to it without a ring"
 )
 OF_MANY = "the state is one of many: nothing damps the contact, and the ratio follows its ringing"
 
@@ -72,18 +80,43 @@ def _ring_on_drive(model: Model) -> float:
     return max(8.0 * slider.mass * left / model.full_friction, 0.0)
 
 
-def rung_out(model: Model) -> float:
-    r"""Return the duration in which a ring on the drive has faded by its damper alone, s.
+def friction_on_ring(model: Model) -> float:
+    r"""Return what friction that is shaken damps a slow motion along the drive by, N s/m.
+
+    The slope of its mean at the drive velocity, of Coulomb's law along the slip: nothing where a
+    vibration along the drive is slower than this, :math:`2\mu F_N/(\pi\sqrt{v_a^2 - v_d^2})` where
+    it is faster. Asperities that bend by much of the vibration's amplitude damp less.
+    """
+    velocity, turn = model.slider.drive_velocity, np.linspace(0.0, 2.0 * np.pi, _TURNS + 1)[1:]
+    along, across, _ = model.unit_direction
+    shaken = model.peak_velocity * np.cos(turn)
+    sideways = model.friction.transfer * across * shaken
+    early, late = (
+        float(np.mean(flat / np.hypot(flat, sideways)))
+        for flat in (share * velocity + along * shaken for share in (1.0 - _BESIDE, 1.0 + _BESIDE))
+    )
+    slope = (late - early) / (2.0 * _BESIDE * velocity)
+    return model.full_friction * slope + (model.friction.viscous_damping or 0.0)
+
+
+def rung_out(model: Model, *, with_friction: bool = False) -> float:
+    r"""Return the duration in which a ring on the drive has faded by its damper, s.
 
     It begins where the body is taken up, and fades by :math:`e^{-ht/2m}`; what phase it has in the
-    window is not known. Zero where there is none.
+    window is not known. Zero where there is none, or where friction damps it as well if that is
+    not asked for.
     """
-    slider, makes = model.slider, _ring_on_drive(model)
-    if makes == 0.0 or slider.drive_damping == 0.0 or slider.mass is None:
+    slider, makes, damping = model.slider, _ring_on_drive(model), model.slider.drive_damping
+    if with_friction and slider.mass is not None and slider.drive_stiffness is not None:
+        if model.normal is not None or not model.vibrates:
+            return 0.0
+        makes = 8.0 * slider.mass * slider.drive_velocity / model.full_friction
+        damping += friction_on_ring(model) / _SPARE
+    if makes == 0.0 or damping == 0.0 or slider.mass is None:
         return 0.0
     stiffness = slider.drive_stiffness or math.inf
     begins = max(model.start, model.full_friction / (stiffness * slider.drive_velocity))
-    rate, whole, least = 0.5 * slider.drive_damping / slider.mass, model.window, _SURELY * UNSTEADY
+    rate, whole, least = 0.5 * damping / slider.mass, model.window, _SURELY * UNSTEADY
     if rate * model.ring_period >= 2.0 * math.pi:
         return 0.0
 
@@ -171,10 +204,12 @@ def lasting_ring(model: Model) -> str:
     )
 
 
-def ringing_notes(model: Model) -> tuple[str, ...]:
-    """Say of a contact that rings on which of its states is shown."""
+def ringing_notes(model: Model, *, follows: bool = True) -> tuple[str, ...]:
+    """Say of a contact that rings on which of its states is shown, and if the ratio follows."""
     if not rings(model):
         return ()
+    if not follows:
+        return (UNHEARD,)
     if math.isinf(ringing_time(model)):
         return (_RINGS,)
     return (
@@ -187,9 +222,10 @@ def ringing_notes(model: Model) -> tuple[str, ...]:
 def as_it_rings(answer: SlideResult) -> SlideResult:
     """Return a march's answer; that of a contact that rings on as not settled.
 
-    Its means are steady, but those of another start are others: a periodic search says the same.
+    Its means are steady, but those of another start are others: a periodic search says the same,
+    and neither does where the ratio does not follow the ring.
     """
-    if not (answer.settled and rings(answer.model)):
+    if not (answer.settled and rings(answer.model)) or UNHEARD in answer.notes:
         return answer
     by = f"{answer.settled_by}, but {lasting_ring(answer.model)}"
     return dataclasses.replace(answer, settled=False, settled_by=by, step_error=None)

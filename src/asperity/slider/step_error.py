@@ -2,13 +2,12 @@
 
 Of a state that repeats itself, the state on twice the step is found with the Jacobian of the first,
 in a few cycles; of a wave with corners that on half the step, which ends on the same corners, is
-foreseen from one cycle, and found where that may not be enough. A march is at its end next to such
-a state, and both are found from there; where there is none, some of its last cycles are marched
-again. Of order two the error is a third of the difference to twice the step (four thirds of that to
-half of it), of order one all of it (twice): with low exponents, and at the corners of a wave with
-LuGre friction or under a load that changes. An exponent of nothing and a slip that turns make it
-more than all of it. As of order one is told too what Coulomb friction makes that stops a body at
-corners, which falls by four on average only, and the two-phase scheme.
+foreseen from one cycle, and found where that may not be enough (`asperity.slider.march_end` has
+those of a march). Of order two the error is a third of the difference to twice the step (four
+thirds of that to half of it), of order one all of it (twice): with low exponents, and at the
+corners of a wave with LuGre friction or under a load that changes. An exponent of nothing and a
+slip that turns make it more than all of it. As of order one is told too what Coulomb friction makes
+that stops a body at corners, which falls by four on average only, and the two-phase scheme.
 """
 
 import dataclasses
@@ -19,30 +18,28 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.errors import AsperityError
+from asperity.errors import AsperityError, ConvergenceError
+from asperity.results.ledger import NOTED as NOTED_OF_POWERS
+from asperity.results.settled import smaller_step
 from asperity.slider import at_corners, on_twice
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import at_state, friction_on_twice, predicted_on_half
-from asperity.slider.orders import ORDER_ONE, ORDER_TWO, of_the_error, part_of_difference
+from asperity.slider.orders import of_the_error, part_of_difference, power_of
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
 from asperity.slider.shooting import run_cycle
-from asperity.slider.timetable import Timetable
-from asperity.slider.unknowns import unknown_scales
 
 WANTED = 1e-3
 """Error of a ratio that a step is chosen by, over the ratio."""
 NOTED = "the step makes an error of about"
 """How the note on an error that is too great begins."""
 _LEAST_RATIO = 1e-3  # what a ratio is taken as at least, for its error to be small against it
-_CLOSING = 6  # cycles at most to a state on another step
-_MOST_AGAIN = 50  # cycles at most that are run again
+CLOSING = 6
+"""Cycles at most to a state on another step."""
+LEFT = 1e-4
+"""Of the defect, above which a state is not found."""
 _FOLLOWED = 200  # cycles on other steps from a state, where none is found there
-_LEFT = 1e-4  # of the defect, above which a state is not found
-_SHARE = 0.1  # of a march's cycles that may be run again
-_AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 _FINEST = 16  # times finer than by the bounds
 _CLEAR = 0.5  # what is left of two changes, over both
 _NOTHING = 1e-3  # of an error that a step may make
@@ -55,16 +52,15 @@ def refined(
 
     ``once`` solves a model with the step it has; ``first`` is its answer, if there is one.
     """
-    answer = first if first is not None else once(model)
+    answer = first if first is not None else _balanced(model, once)
     while (error := answer.step_error) is not None and error > allowed(answer):
-        over = error / allowed(answer)
-        if of_the_error(model) == ORDER_TWO:
-            over = math.sqrt(over)
+        over, power = error / allowed(answer), power_of(model)
         two_phase = model.solve.scheme == "two-phase"
         if model.solve.step is not None or two_phase:
-            step = answer.model.step / answer.model.substeps / (1.1 * over)
-            other = "leave solve.scheme out" if two_phase else "none"
-            return _noted(answer, f"give a solve.step of at most {step:.2g} s, or {other}")
+            step = answer.model.step / answer.model.substeps
+            advice = smaller_step(step, over, order=power)
+            return _noted(answer, advice[:-4] + "leave solve.scheme out" if two_phase else advice)
+        over **= 1.0 / power
         finer = min(2 ** math.ceil(math.log2(over)), _FINEST // answer.model.finer)
         moved = at_corners.of_moved_flanks(answer.model, answer.model.step)
         if moved > allowed(answer):
@@ -82,6 +78,21 @@ def refined(
     return answer
 
 
+def _balanced(model: Model, once: Callable[[Model], SlideResult]) -> SlideResult:
+    """Solve with the step of the case; where none is given and powers do not balance, a finer one.
+
+    A contact that rings ever harder is met harder than the step was laid out for.
+    """
+    try:
+        return once(model)
+    except ConvergenceError as error:
+        missing = error.reached.get("power_residual", math.nan)
+        if model.solve.step is not None or not math.isfinite(missing):
+            raise
+        finer = 2 ** math.ceil(math.log2(missing / NOTED_OF_POWERS) / power_of(model))
+        return once(dataclasses.replace(model, finer=min(finer, _FINEST)))
+
+
 def _noted(answer: SlideResult, advice: str) -> SlideResult:
     error = answer.step_error or 0.0
     note = f"{NOTED} {error:.2g} in the ratio of {answer.ratio:.3g}: {advice}"
@@ -90,7 +101,12 @@ def _noted(answer: SlideResult, advice: str) -> SlideResult:
 
 def allowed(answer: SlideResult) -> float:
     """Return the error of a ratio that a step may make unannounced."""
-    return WANTED * max(abs(answer.ratio), _LEAST_RATIO)
+    return allowed_at(answer.ratio)
+
+
+def allowed_at(ratio: float) -> float:
+    """Return the error of a ratio that may go untold."""
+    return WANTED * max(abs(ratio), _LEAST_RATIO)
 
 
 def allowed_of(ratio: FloatArray) -> FloatArray:
@@ -126,7 +142,7 @@ def error_of_state(cycle: Cycle, model: Model) -> OfState:
 def _of_state(cycle: Cycle, model: Model) -> OfState:
     jacobian, slopes = map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
     here, part = _ratio(cycle), part_of_difference(model)
-    other, hidden = _closed_beside(cycle, jacobian, slopes, here, part)
+    other, hidden = closed_beside(cycle, jacobian, slopes, here, part)
     if other is None:
         other = _found_beside(cycle)
     if other is None:
@@ -138,8 +154,8 @@ def _from_there(cycle: Cycle) -> OfState:
     """Return the error by where a body goes from a state on other steps, with a note of that."""
     beside = "half" if cycle.body.model.meets_corners else "twice"
     lacks = f"no state that repeats itself was found on {beside} the step"
-    early = _friction_beside(cycle, _FOLLOWED // 2)
-    mean = 2.0 * _friction_beside(cycle, _FOLLOWED) - early
+    early = friction_beside(cycle, _FOLLOWED // 2)
+    mean = 2.0 * friction_beside(cycle, _FOLLOWED) - early
     error = abs(mean - _ratio(cycle)) * part_of_difference(cycle.body.model)
     if not math.isfinite(error):
         return OfState(None, (f"the error of the step is not known: {lacks}",))
@@ -147,79 +163,10 @@ def _from_there(cycle: Cycle) -> OfState:
     return OfState(error, (f"{lacks}: {by}, and the error may be greater",))
 
 
-def error_of_march(body: Integrator, table: Timetable, sums: np.void) -> float | None:
-    """Return the error of the ratio of a march, from where it ends; None where it is not found.
-
-    Parameters
-    ----------
-    body : Integrator
-        At its end; left as it is.
-    table : Timetable
-        Its steps.
-    sums : void
-        Those of its window.
-    """
-    error = _of_march(body, table, sums)
-    return None if error is None else error + at_corners.of_moved_flanks(body.model, table.step)
-
-
-def _of_march(body: Integrator, table: Timetable, sums: np.void) -> float | None:
-    ratio = float(sums["drive_force"] / sums["steps"])
-    model, step, steps = body.model, table.step, table.steps
-    state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
-    if model.solve.scheme == "two-phase":
-        return _of_two_phases(body, table)
-    cycles = steps * step * model.frequency
-    if not model.vibrates:
-        return _marched_again(model, step, state, springs, max(1, int(_SHARE * steps / 2.0)))
-    end = at_the_end(body, table)
-    unknowns = _unknowns(end)
-    if unknowns + _beside(model) * _CLOSING <= _SHARE * cycles:
-        found, part = np.zeros((unknowns + 1, unknowns)), part_of_difference(model)
-        if unknowns:
-            at_state(
-                end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums(), found, 0, on_twice.DIFFERENTIATE,
-            )  # fmt: skip
-        jacobian, slopes = found[:unknowns], found[unknowns]
-        there = end.copied()
-        one = _closed(there, jacobian)
-        if one is not None and abs(one - ratio) <= _AGREE:
-            other, hidden = _closed_beside(there, jacobian, slopes, one, part)
-            if other is not None:
-                return max(abs(other - one) * part, hidden)
-    again = int(_SHARE * cycles / (0.5 + _beside(model)))
-    return _cycles_again(end, min(max(1, again), _MOST_AGAIN))
-
-
-def at_the_end(body: Integrator, table: Timetable) -> Cycle:
-    """Return the map of a body over the cycle that follows its march."""
-    model, step = body.model, table.step
-    count = round(1.0 / (model.frequency * step))
-    if not model.meets_corners:
-        count = 2 * ((count + 1) // 2)
-    phase = model.frequency * (table.steps * step - model.start)
-    end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
-    put(end, step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
-    return end
-
-
-def _beside(model: Model) -> float:
-    """Return what a cycle and one on other steps beside it cost, in cycles."""
-    return 3.0 if model.meets_corners else 1.5
-
-
-def _cycles_again(start: Cycle, cycles: int) -> float | None:
-    """Return the error of the mean friction of so many cycles from a start."""
-    apart = abs(_friction_beside(start, cycles) - _friction(start.copied(), cycles))
-    error = apart * part_of_difference(start.body.model)
-    return error if math.isfinite(error) else None
-
-
-def _friction_beside(start: Cycle, cycles: int) -> float:
+def friction_beside(start: Cycle, cycles: int) -> float:
     """Return the mean friction of so many cycles on other steps, from where a body is."""
     if start.body.model.meets_corners:
-        return _friction(_on_half(start), cycles)
+        return friction_of(_on_half(start), cycles)
     kept = start.body.kept
     mean: float = friction_on_twice(
         kept["state"], start.springs, start.body.p, start.q, start.increments, start.rises,
@@ -228,7 +175,7 @@ def _friction_beside(start: Cycle, cycles: int) -> float:
     return mean
 
 
-def _friction(cycle: Cycle, cycles: int) -> float:
+def friction_of(cycle: Cycle, cycles: int) -> float:
     """Return the mean friction of so many cycles over mu F_N."""
     total = 0.0
     for _ in range(cycles):
@@ -244,49 +191,6 @@ def run_once(cycle: Cycle) -> None:
         body.kept["state"][0], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
         body.sums,
     )  # fmt: skip
-
-
-def _marched_again(
-    model: Model, step: float, state: np.ndarray, springs: FloatArray, steps: int
-) -> float | None:
-    """Return the error of a body that nothing shakes, from so many steps and half as many."""
-    means = []
-    for count, length in ((2 * ((steps + 1) // 2), step), ((steps + 1) // 2, 2.0 * step)):
-        cycle = Cycle(model, count, length)
-        put(cycle, step, state, springs)
-        run_once(cycle)
-        means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
-    error = abs(means[1] - means[0]) / of_the_error(model)
-    return error if math.isfinite(error) else None
-
-
-def _of_two_phases(body: Integrator, table: Timetable) -> float | None:
-    """Return the error of the two-phase scheme: its march goes on in steps twice as long too."""
-    model, step = body.model, table.step
-    # A body that rings on its drive tells of its mean friction in whole periods only; in as long a
-    # time before, it comes to where the longer steps have it.
-    time = _SHARE * table.steps * step / 2.0
-    for period in (1.0 / model.frequency if model.vibrates else 0.0, model.ring_period):
-        if 0.0 < period <= time:
-            time = math.floor(time / period) * period
-    count = max(1, round(0.5 * time / step))
-    end = model.frequency * (table.steps * step - model.start)
-    means = []
-    for longer in (1, 2):
-        again = integrator(model, longer * step)
-        again.kept["state"][:] = body.kept["state"]
-        again.kept["memory"][:] = body.kept["memory"]
-        for name in ("velocity_x", "velocity_y"):
-            again.state[name] *= longer
-        again.kept["memory"]["base_x"] *= longer
-        steps = 2 * count // longer
-        for stretch in range(2):
-            again.clear()
-            begin = end + stretch * steps * again.rate
-            again.march(begin, steps, np.empty((3, 1, 0)), record=False)
-        means.append(float(again.sums["friction_x"] / again.sums["steps"]))
-    error = abs(means[1] - means[0]) / ORDER_ONE
-    return error if math.isfinite(error) else None
 
 
 def _on_half(cycle: Cycle) -> Cycle:
@@ -309,17 +213,20 @@ def _found_beside(cycle: Cycle) -> float | None:
     return _ratio(cycle) + part * (_ratio(half) - _ratio(cycle))
 
 
-def _closed(cycle: Cycle, jacobian: FloatArray) -> float | None:
-    """Return the ratio of the state next to where a body is, which goes there; None if none is."""
+def closed(cycle: Cycle, jacobian: FloatArray) -> tuple[float, float]:
+    """Return the ratio of the state next to where a body is, which goes there, behind its defect.
+
+    None is there where the defect is above `LEFT`.
+    """
     body = cycle.body
     left, ratio = at_state(
         body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
-        body.kept["sums"], np.ascontiguousarray(jacobian), _CLOSING, on_twice.CLOSE_HERE,
+        body.kept["sums"], np.ascontiguousarray(jacobian), CLOSING, on_twice.CLOSE_HERE,
     )  # fmt: skip
-    return ratio if left <= _LEFT and math.isfinite(ratio) else None
+    return (left if math.isfinite(ratio) else math.inf), ratio
 
 
-def _closed_beside(
+def closed_beside(
     cycle: Cycle, jacobian: FloatArray, slopes: FloatArray, here: float, part: float
 ) -> tuple[float | None, float]:
     """Return the ratio of that state on other steps; the body stays where it is.
@@ -330,15 +237,18 @@ def _closed_beside(
     """
     if cycle.body.model.meets_corners:
         foreseen, hidden = _foreseen(cycle, jacobian, slopes, here, part)
-        return (_closed(_on_half(cycle), jacobian) if foreseen is None else foreseen), hidden
+        if foreseen is not None:
+            return foreseen, hidden
+        left, ratio = closed(_on_half(cycle), jacobian)
+        return (ratio if left <= LEFT else None), hidden
     kept = cycle.body.kept
     left, ratio = at_state(
         kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
-        kept["sums"], jacobian, _CLOSING, on_twice.CLOSE_ON_TWICE,
+        kept["sums"], jacobian, CLOSING, on_twice.CLOSE_ON_TWICE,
     )  # fmt: skip
     let_down = at_corners.ratio_let_down(cycle, jacobian, slopes)
     hidden = 0.0 if let_down is None else abs(let_down - here)
-    return (ratio if left <= _LEFT and math.isfinite(ratio) else None), hidden
+    return (ratio if left <= LEFT and math.isfinite(ratio) else None), hidden
 
 
 def _foreseen(
@@ -368,13 +278,6 @@ def _foreseen(
 def _ratio(cycle: Cycle) -> float:
     sums = cycle.body.sums
     return float(sums["drive_force"]) / float(sums["steps"])
-
-
-def _unknowns(cycle: Cycle) -> int:
-    room = np.empty(7 + cycle.springs.size)
-    state = cycle.body.kept["state"]
-    count: int = unknown_scales(state, cycle.springs, cycle.body.p, cycle.q, room)
-    return count
 
 
 def put(cycle: Cycle, step: float, state: np.ndarray, springs: FloatArray) -> None:

@@ -8,10 +8,11 @@ from asperity.arrays import FloatArray
 from asperity.friction.loaded import STIFFNESS
 from asperity.friction.springs import stored_in_springs
 from asperity.normal import elastic_energy
-from asperity.results.ledger import PowerLedger, PressedLedger, guard
-from asperity.results.settled import Standing
+from asperity.results.ledger import NOTED, PowerLedger, PressedLedger, guard
+from asperity.results.settled import Standing, smaller_step
 from asperity.slider.history import History, PressedHistory
 from asperity.slider.model import Model
+from asperity.slider.orders import power_of
 from asperity.slider.pressed import friction_limit
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import (
@@ -26,7 +27,6 @@ from asperity.slider.scaled import (
 from asperity.slider.space import IN_FLIGHT, normal_motion, remarks
 from asperity.slider.wear import wear_and_heat
 
-_SMALLER = "give a smaller solve.step"
 _FLIGHT = 1e-9  # of the energy
 _SI = dict.fromkeys(("drive_force", "friction", "deflection", "position", "velocity"), 1.0)
 
@@ -76,14 +76,6 @@ def pressed_energies(
     return mechanical + unit * pressed, elastic
 
 
-def _advice(model: Model, step: float) -> str:
-    """Return what step would do better than one in s, which a reader who gave none is told of."""
-    used = f"{step:.3g} s"
-    if model.solve.step is None:
-        return f"{_SMALLER} than {used}, which was taken as none is given"
-    return f"{_SMALLER} than {used}"
-
-
 def summarise(
     model: Model,
     p: Parameters,
@@ -123,12 +115,15 @@ def summarise(
     if model.normal is not None:
         normal = normal_motion(model, step, sums, ledger.friction, period, multiplier)
     if model.solve.scheme != "two-phase":
-        notes += guard(ledger, _advice(model, step), reached={"ratio": ratio})
+        given = model.solve.step is not None
+        over = max(ledger.residual / NOTED, 1.0)
+        advice = smaller_step(step, over, order=power_of(model), given=given)
+        notes += guard(ledger, advice, reached={"ratio": ratio})
     wear = None
     if normal is not None:
         notes += remarks(model, step, sums, normal)
         if normal.in_flight:
-            standing = Standing(False, IN_FLIGHT)
+            standing, step_error = Standing(False, IN_FLIGHT), None
         if model.wear is not None:
             slip = normal.wear_integral / normal.normal_mean if normal.normal_mean else 0.0
             mean = ledger.friction, slip

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, ClassVar
 
 from asperity.casefile.case import Case
@@ -83,13 +84,17 @@ class Comparison(Result):
             words = "number differs" if more == 1 else "numbers differ"
             remarks.append(f"{more} more {words}: --json")
         settled = self.settled or (None,) * len(self.cases)
+        # A head is as wide as its column, which a path would be broken in.
+        heads = [Path(case).name for case in self.cases]
+        if len(set(heads)) < len(heads):
+            heads = list(self.cases)
         cases = [
-            f"{case} {MARK}" if stays is False else case
-            for case, stays in zip(self.cases, settled, strict=True)
+            f"{head} {MARK}" if stays is False else head
+            for head, stays in zip(heads, settled, strict=True)
         ]
         alike = "They differ" if inputs else "They ask the same"
         return (
-            Table.of(("asked", *self.cases), inputs, title=alike),
+            Table.of(("asked", *heads), inputs, title=alike),
             Table.of(
                 (f"asperity {self.command}", "unit", *cases), results, remarks=remarks, left=2
             ),

@@ -11,7 +11,7 @@ from asperity.arrays import FloatArray
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
 from asperity.results import Result, quantity
-from asperity.results.settled import MARK, marked
+from asperity.results.settled import MARK, marked, smaller_step
 from asperity.results.table import Table
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
@@ -20,6 +20,7 @@ from asperity.slider.continuation import Walk
 from asperity.slider.cost import time_of_cycles
 from asperity.slider.march import march_key
 from asperity.slider.model import Model
+from asperity.slider.orders import power_of
 from asperity.slider.periodic import cycle_steps
 from asperity.slider.result import SlideResult, inputs
 from asperity.slider.step_error import NOTED, WANTED, allowed_of
@@ -54,6 +55,8 @@ class Branches(Result):
     multiplier, settled, step_error
         ndarray, shape (2, n), there and back; NaN where no state was found that repeats itself
         after 1, 2, 4 or 8 cycles. What is normal to the plane is NaN without ``[normal]``.
+    ratio_from_rest : ndarray, shape (n,)
+        Of a body from rest that comes to another state than that on the way there; NaN elsewhere.
     missing : int
         States that were not found.
     """
@@ -81,6 +84,9 @@ class Branches(Result):
     multiplier: FloatArray = quantity("", "", "growth of a disturbance over it", dims=_DIMS)
     settled: FloatArray = quantity("", "", "1 where the state stays, 0 where not", dims=_DIMS)
     step_error: FloatArray = quantity("", "", "error of the ratio from the step", dims=_DIMS)
+    ratio_from_rest: FloatArray = quantity(
+        "F/mu W", "", "ratio from rest, where it is another", dims=("value",)
+    )
     missing: int = quantity("", "", "states not found")
     seconds: float = quantity(
         "", "s", "time it took", key="seconds", only="json", shown=False, default=0.0
@@ -96,6 +102,13 @@ class Branches(Result):
         """Values at which the ways differ in states that both stay, in the axis's unit."""
         there, back = self.ratio
         found: FloatArray = self.value[self._both & (np.abs(there - back) > _APART)]
+        return found
+
+    @property
+    def beside(self) -> FloatArray:
+        """Values at which a body from rest comes to a third state, in the axis's unit."""
+        known = np.abs(self.ratio - self.ratio_from_rest) <= _APART
+        found: FloatArray = self.value[np.isfinite(self.ratio_from_rest) & ~known.any(axis=0)]
         return found
 
     @property
@@ -116,16 +129,28 @@ class Branches(Result):
 
     def to_json(self) -> dict[str, Any]:
         """What was found along the axis, None where nothing was."""
-        arrays = {
+        arrays: dict[str, list[Any]] = {
             entry.key: [[None if np.isnan(v) else v for v in way] for way in entry.value.tolist()]
             for entry in self.entries()
             if entry.label.dims == _DIMS and not np.isnan(entry.value).all()
         }
         ends = {"dims": ["way", self.axis.path], "unit": self.axis.unit, "ways": list(_WAYS)}
+        if self.beside.size:
+            rest = self.ratio_from_rest.tolist()
+            arrays["ratio_from_rest"] = [None if np.isnan(each) else each for each in rest]
         return {**ends, "values": self.value.tolist(), **arrays, **super().to_json()}
 
     def heading(self) -> str:
-        """Return where there are two states that stay."""
+        """Return where there are two states that stay, and where a body from rest has another."""
+        if not self.beside.size:
+            return self._of_the_ways()
+        return f"{self._of_the_ways()}; from rest another {self._between(self.beside)}"
+
+    def _between(self, values: FloatArray) -> str:
+        low, high = self.axis_text(values.min()), self.axis_text(values.max())
+        return f"at {low}" if low == high else f"between {low} and {high}"
+
+    def _of_the_ways(self) -> str:
         found, both = np.isfinite(self.ratio), self._both
         if not found.any():
             return "no stable periodic state found"
@@ -137,9 +162,7 @@ class Branches(Result):
             many = f", at the {both.sum()} of {both.size} values with {which}"
             where = "" if both.all() else many
             return f"the same states both ways{where}"
-        low, high = self.axis_text(self.two.min()), self.axis_text(self.two.max())
-        between = f"at {low}" if low == high else f"between {low} and {high}"
-        return f"two stable states {between}, by where the body comes from"
+        return f"two stable states {self._between(self.two)}, by where the body comes from"
 
     def axis_text(self, value: float) -> str:
         """Return a value of the axis with its unit."""
@@ -151,6 +174,8 @@ class Branches(Result):
             "ratio": self.ratio, "F/mu N": self.ratio_mean_load, "N_min (N)": self.normal_min,
             "open": self.open_share, "period": self.period, "growth": self.multiplier,
         }  # fmt: skip
+        if self.beside.size:
+            shown["from rest"] = np.stack([self.ratio_from_rest] * 2)
         shown = {name: values for name, values in shown.items() if not np.isnan(values).all()}
         unit = f" ({self.axis.unit})" if self.axis.unit else ""
         headings = [f"value{unit}", *shown]
@@ -222,7 +247,9 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         run.forecast(sum(time_of_cycles(body, _CYCLES) for body in bodies), f"{len(bodies)} states")
         for body in bodies[len(rows) :]:
             state = walk.to(body)
-            rows.append(np.array([_of(state, name) for name in names]))
+            settled = not isinstance(state, ConvergenceError) and state.settled
+            rest = walk.from_rest() if settled and len(rows) < len(models) else np.nan
+            rows.append(np.array([*(_of(state, name) for name in names), rest]))
             if not isinstance(state, ConvergenceError):
                 notes += [
                     note for note in state.notes if note not in notes and not note.startswith(NOTED)
@@ -237,20 +264,27 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         shared={path: value for path, value in inputs(models[0]).items() if path != axis.path},
         value=np.array(axis.shown, dtype=float),
         **numbers,
+        ratio_from_rest=there[:, -1],
         missing=int(np.isnan(numbers["ratio"]).sum()),
         seconds=time.perf_counter() - began,
-        notes=(*notes, *_of_the_step(numbers["ratio"], numbers["step_error"])),
+        notes=(*notes, *_of_the_step(models, numbers["ratio"], numbers["step_error"])),
     )
 
 
-def _of_the_step(ratio: FloatArray, error: FloatArray) -> tuple[str, ...]:
+def _of_the_step(models: list[Model], ratio: FloatArray, error: FloatArray) -> tuple[str, ...]:
     """Return a note on the states of which the step makes more of an error than it may."""
-    great = error > allowed_of(ratio)
+    over = error / allowed_of(ratio)
+    great = over > 1.0
     if not great.any():
         return ()
+    advice = "steps that are finer were tried"
+    if models[0].solve.step is not None:
+        steps = np.array([model.step / model.substeps for model in models])
+        does = steps / over ** (1.0 / power_of(models[0]))
+        advice = smaller_step(float(does[great].min()), 1.0)
     return (
         f"{NOTED} {error[great].max():.2g} in a ratio, and of more than {WANTED:g} of it in "
-        f"{great.sum()} of {ratio.size} states: give a smaller solve.step",
+        f"{great.sum()} of {ratio.size} states: {advice}",
     )
 
 

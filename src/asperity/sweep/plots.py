@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_MARKED = 40
+_ROOM = 0.04  # above the greatest value, over what is drawn
 _LABELS = {
     "ratio": r"mean drive force over $\mu F_N$",
     "torque_ratio": "mean torque over that without vibration",
@@ -76,6 +77,10 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
         panel.axhline(0.0, color=BLACK, linewidth=1.0)
     else:
         panel.set_ylim(bottom=0.0)
+    if "settled" in dataset:
+        # Marks at the greatest value are not cut by the edge.
+        low, high = panel.get_ylim()
+        panel.set_ylim(low, high + _ROOM * (high - low))
     return figure
 
 
@@ -107,9 +112,15 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
                     marker="x", color=BLACK, zorder=5,
                     label=None if told else "not settled",
                 )  # fmt: skip
+        rest = dataset.get("ratio_from_rest")
+        if variable == "ratio" and rest is not None and np.isfinite(rest).any():
+            panel.plot(
+                rest["value"].values, rest.values, linestyle="", marker="^", color=BLACK,
+                fillstyle="none", label="from rest",
+            )  # fmt: skip
         panel.set_ylabel(label)
         panel.margins(x=0.01)
-    legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2)
+    legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     every[-1].set_xlabel(f"{name} ({unit})" if unit else name)
     return figure
 
@@ -135,11 +146,9 @@ def _mark_unsettled(
         for column, out in zip(values.T, loose.T, strict=True)
     ]
     crosses[0].set_label("not settled")
+    # Beside it: in it a cross would be one more that has not settled.
     lines = panel.get_legend()
-    if lines is None:
-        legend(panel, handles=crosses[:1])
-    else:
-        _beside(panel, lines.get_title().get_text())
+    _beside(panel, "" if lines is None else lines.get_title().get_text())
 
 
 def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") -> None:

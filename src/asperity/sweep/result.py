@@ -128,10 +128,16 @@ class SweepResult(Result):
 
     @property
     def aperiodic(self) -> int:
-        """Number of points that were solved and are in no stable periodic state that is known."""
+        """Number of points that were solved and are in no stable periodic state that is known.
+
+        Marches that were asked for are none.
+        """
         if "period" not in self.arrays:
             return 0
-        unstable = ~(self.arrays["multiplier"] <= UNSTABLE)
+        growth = self.arrays["multiplier"]
+        unstable = ~(growth <= UNSTABLE)
+        if self.shared.get("solve.method") != "periodic":
+            unstable &= np.isfinite(growth)
         return int(np.count_nonzero(unstable & (self.status == SOLVED)))
 
     @property

@@ -38,7 +38,7 @@ def solve(increment: Increment, assumed: FloatArray) -> tuple[Trial, int]:
     raise ConvergenceError(
         f"the contact found no equilibrium in {evaluations} iterations: relative residual "
         f"{trial.residual:.2g} (wanted {problem.tolerance:.2g}), {active} of {problem.points} "
-        "points in contact; take a smaller step or a softer contact",
+        "points in contact; take a softer contact",
         reached={
             "residual": trial.residual,
             "iterations": float(evaluations),

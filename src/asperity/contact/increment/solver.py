@@ -205,7 +205,7 @@ class IncrementSolver:
             multiplier = problem.from_corners @ updated
         raise ConvergenceError(
             f"hard contact still has an overclosure after {_MOST_AUGMENTATIONS} augmentations: "
-            "change the contact stiffness, or take a smaller step",
+            "change the contact stiffness",
             reached={
                 "residual": residual,
                 "iterations": float(iterations),

@@ -20,6 +20,7 @@ from asperity.drive.reduced.reduction import reduction
 from asperity.drive.solve import prepare as prepare_drive
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.ledger import NOTED, REFUSED
+from asperity.results.settled import smaller_step
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import from_tree, to_tree
@@ -122,8 +123,10 @@ def _summarised(
     plain, every = strokes[_PLAIN], list(strokes.values())
     worst = max(each.closure for each in every)
     if worst > REFUSED:
+        given = problem.solve.step is not None
+        advice = smaller_step(system(problem, model).longest, worst / NOTED, given=given)
         raise ConvergenceError(
-            f"the powers of a stroke are off by {worst:.2g}: give a smaller solve.step",
+            f"the powers of a stroke are off by {worst:.2g}: {advice}",
             reached={"closure": worst},
         )
     _, shape = problem.vibrated

@@ -177,14 +177,15 @@ class March:
         at = float(self.states[0]["time"])
         if not np.isfinite(self.states[0]["torque"]) or not np.isfinite(rows["stored"]).all():
             raise ConvergenceError(
-                f"the march left the finite numbers before {at:g} s; give a smaller solve.step",
+                f"the march left the finite numbers before {at:g} s, in steps of up to "
+                f"{self.system.longest:.2g} s",
                 reached={"time_s": at},
             )
         residual = float(rows["residual"].max())
         if not residual <= SOLVED:
             raise ConvergenceError(
                 f"the equations of the mesh are left with {residual:.2g} of its forces at "
-                f"{at:.4g} s: give a smaller solve.step",
+                f"{at:.4g} s, in steps of up to {self.system.longest:.2g} s",
                 reached={"residual": residual, "time_s": at},
             )
         return rows

@@ -8,6 +8,7 @@ from asperity.drive.protocols.judgement import Judgement
 from asperity.drive.protocols.rest import Rest
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.warmed import warmth
+from asperity.results.settled import smaller_step
 
 # Of a tooth's lowest mode: below, its inertia adds an eighth to what it gives at most.
 _QUASI_STATIC = 1.0 / 3.0
@@ -34,9 +35,9 @@ def _what(problem: DriveProblem) -> str:
 
 def notes_of(
     problem: DriveProblem, model: MeshModel, judged: Judgement, rest: Rest,
-    off: StepError | None,
+    off: StepError | None, longest: float,
 ) -> tuple[str, ...]:  # fmt: skip
-    """Return what a reader of a drive's answer should know."""
+    """Return what a reader of a drive's answer should know; steps are up to ``longest``, s."""
     notes = list(model.reduction.notes)
     if problem.drive.protocol == "window":
         notes.append(
@@ -64,7 +65,7 @@ def notes_of(
             f"take {model.worm_torque:.4g} N m"
         )
     if off is not None and off.ratio > WANTED and judged.settled:
-        notes.append(_of_step(problem, off))
+        notes.append(_of_step(problem, off, longest))
     mode, frequency = model.tooth_mode, problem.vibrated[1].frequency
     if mode is not None and frequency > _QUASI_STATIC * mode:
         notes.append(
@@ -93,7 +94,7 @@ def notes_of(
     return (*notes, *warmth(problem))
 
 
-def _of_step(problem: DriveProblem, off: StepError) -> str:
+def _of_step(problem: DriveProblem, off: StepError, longest: float) -> str:
     """Return the line about a step that is too long, or a motion that is like no other."""
     if off.elsewhere is not None:
         most = "greater" if off.elsewhere > 1.0 else "less"
@@ -106,7 +107,9 @@ def _of_step(problem: DriveProblem, off: StepError) -> str:
     if not math.isfinite(off.ratio):
         found = "steps twice as long leave the finite numbers"
     if problem.solve.step is not None:
-        return f"{found}: give a smaller solve.step, or none to have it chosen"
+        if not math.isfinite(off.ratio):
+            return f"{found}: give no solve.step, to have it chosen"
+        return f"{found}: {smaller_step(longest, off.ratio / WANTED, order=1.0)}"
     return (
         f"{found}, or the motion parts from its like by itself within a block of cycles; its mean "
         "over three of them is what stays"

@@ -23,7 +23,8 @@ from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, CycleMeans, DriveLedger, DriveResult, HeldWheel
 from asperity.errors import ConvergenceError
-from asperity.results.ledger import guard
+from asperity.results.ledger import NOTED, guard
+from asperity.results.settled import smaller_step
 from asperity.runs import Run
 from asperity.runs.key import code_key, key
 
@@ -36,7 +37,6 @@ _TRIED = 0.5
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
 _LEAST_ACTUATOR = 1e-6  # of the power without vibration: less of it is told by no balance
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
-_ADVICE = "give a smaller solve.step"
 
 
 def solve_shaken(
@@ -209,7 +209,9 @@ def _summarise(
         damping=mean(last, "contact_damping") + mean(last, "shaft_damping"),
         stored=float(last["stored"][-1] - before) / time,
     )
-    guarded = guard(ledger, _ADVICE, reached={"torque_balance": judged.balance})
+    over = max(ledger.residual / NOTED, 1.0)
+    advice = smaller_step(moving.longest, over, given=problem.solve.step is not None)
+    guarded = guard(ledger, advice, reached={"torque_balance": judged.balance})
     torque = rest.torque
     driven, kind = bool(moving.speed), kind_of(problem)
     first = rows[: problem.drive.window]
@@ -265,7 +267,7 @@ def _summarise(
             cycle_torque=rows["torque"] / rows["time"],
             cycle_wheel=rows["wheel_torque"] / rows["time"],
         ),
-        notes=(*notes_of(problem, model, judged, rest, off), *guarded),
+        notes=(*notes_of(problem, model, judged, rest, off, moving.longest), *guarded),
         residual=residual,
         steps=march.steps,
         seconds=march.seconds,

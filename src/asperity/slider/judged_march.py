@@ -1,0 +1,85 @@
+"""The answer of a march that is at its end, judged by all that is known of it."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from asperity.results.settled import Standing
+from asperity.slider.chance import judged, standing_by_cycles
+from asperity.slider.integrators import Integrator
+from asperity.slider.longer import brought_home, needed, still_goes
+from asperity.slider.march_end import MarchEnd, end_of_march, without_ring
+from asperity.slider.model import Model
+from asperity.slider.result import SlideResult
+from asperity.slider.ringing import heard, ringing_notes, rings
+from asperity.slider.step_error import allowed_at
+from asperity.slider.summary import summarise
+from asperity.slider.timetable import WindowMeans, march_notes
+
+
+def judged_answer(
+    model: Model,
+    window: WindowMeans,
+    sums: np.void,
+    ends: tuple[tuple[float, float], tuple[float, float]],
+    body: Callable[[], Integrator],
+    *,
+    leaves: str = "",
+    notes: tuple[str, ...] = (),
+    **told: Any,
+) -> tuple[SlideResult, float | None]:
+    """Return the answer of a march that is at its end, judged by all that is known of it.
+
+    With the duration in s that would do, where it has not settled or its mean still goes further.
+
+    Parameters
+    ----------
+    model : Model
+        The body as the case has it.
+    window : WindowMeans
+        What it has come to.
+    sums : np.void
+        Over the whole window.
+    ends : tuple of 2 tuples
+        Energies where the window begins and ends, as `summarise` takes them.
+    body : callable
+        Gives the body at the end; called where its means agree.
+    leaves : str
+        What it lacks that is next to steady sliding which is unstable.
+    notes : tuple of str
+        Beside those of the march.
+    told
+        What else `summarise` takes.
+    """
+    table = window.table
+    wanders: tuple[str, ...] = ()
+    end = MarchEnd(None)
+    standing, steady, means = standing_by_cycles(window, body, sums)
+    if standing.settled and leaves:
+        standing = Standing(False, leaves)
+    standing = heard(standing, model, window.model.duration)
+    if standing.settled:
+        at_end = body()
+        standing, wanders = judged(standing, at_end, table, sums, means)
+        if standing.settled:
+            end = end_of_march(at_end, table, sums, window)
+    ratio = float(sums["drive_force"] / sums["steps"])
+    follows = True
+    if standing.settled and rings(model):
+        # Its mean goes nowhere.
+        still = without_ring(body(), table)
+        follows = still is None or abs(still - ratio) > allowed_at(ratio)
+        end = end._replace(ratio=None)
+    home = brought_home(window, ratio, end.ratio)
+    if home is not None and end.ratio is not None:
+        wanders += (still_goes(home, ratio, end.ratio),)
+    answer = summarise(
+        model, model.parameters(table.step), table.step, sums, *ends,
+        standing=standing,
+        step_error=end.error,
+        residual=window.residual, steps=table.steps, cycles=table.cycles, substeps=model.substeps,
+        notes=(*march_notes(steady), *ringing_notes(model, follows=follows), *wanders, *notes),
+        **told,
+    )  # fmt: skip
+    return answer, home if answer.settled else needed(window)

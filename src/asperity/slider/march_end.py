@@ -1,0 +1,194 @@
+"""What a march is next to at its end: the error that its step makes, and where its mean goes to.
+
+At its end it is next to a state that repeats itself, which is found in a few cycles, and from it
+the state on other steps. The mean of its window is not yet that of the state where it is still on
+its way, by a sideways drift say that fades within seconds. Where no state is next to it, some of
+its last cycles are marched again.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.slider import at_corners, on_twice
+from asperity.slider.cycle_map import Cycle
+from asperity.slider.from_rest import ratio_of
+from asperity.slider.integrators import Integrator, integrator
+from asperity.slider.model import Model
+from asperity.slider.on_twice import at_state
+from asperity.slider.orders import ORDER_ONE, of_the_error, part_of_difference
+from asperity.slider.shooting import CLOSE
+from asperity.slider.step_error import (
+    CLOSING,
+    LEFT,
+    allowed_at,
+    closed,
+    closed_beside,
+    friction_beside,
+    friction_of,
+    put,
+    run_once,
+)
+from asperity.slider.timetable import Timetable, WindowMeans
+from asperity.slider.unknowns import unknown_scales
+
+_MOST_AGAIN = 50  # cycles at most that are run again
+_SHARE = 0.1  # of a march's cycles that may be run again
+_AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
+
+
+class MarchEnd(NamedTuple):
+    """What is known of a march at its end.
+
+    Attributes
+    ----------
+    error : float or None
+        That the step makes in the ratio; None where it is not found.
+    ratio : float or None
+        Of the state that repeats itself next to it; None where none is found.
+    """
+
+    error: float | None
+    ratio: float | None = None
+
+
+def end_of_march(
+    body: Integrator, table: Timetable, sums: np.void, window: WindowMeans
+) -> MarchEnd:
+    """Return the error of the ratio of a march, and the ratio of the state next to its end.
+
+    Parameters
+    ----------
+    body : Integrator
+        At its end; left as it is.
+    table : Timetable
+        Its steps.
+    sums : void
+        Those of its window.
+    window : WindowMeans
+        What it has come to.
+    """
+    mean = float(sums["drive_force"] / sums["steps"])
+    drifts = max(window.residual, window.across) > allowed_at(mean)
+    error, ratio = _end_of(body, table, mean, drifts=drifts)
+    if error is not None:
+        error += at_corners.of_moved_flanks(body.model, table.step)
+    return MarchEnd(error, ratio)
+
+
+def _end_of(body: Integrator, table: Timetable, ratio: float, *, drifts: bool) -> MarchEnd:
+    model, step, steps = body.model, table.step, table.steps
+    state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
+    if model.solve.scheme == "two-phase":
+        return MarchEnd(_of_two_phases(body, table))
+    cycles = steps * step * model.frequency
+    if not model.vibrates:
+        again = max(1, int(_SHARE * steps / 2.0))
+        return MarchEnd(_marched_again(model, step, state, springs, again))
+    end, comes_to = at_the_end(body, table), None
+    unknowns = _unknowns(end)
+    cheap = unknowns + _beside(model) * CLOSING <= _SHARE * cycles
+    if cheap or drifts:
+        found, part = np.zeros((unknowns + 1, unknowns)), part_of_difference(model)
+        if unknowns:
+            at_state(
+                end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
+                end.body.no_sums(), found, 0, on_twice.DIFFERENTIATE,
+            )  # fmt: skip
+        jacobian, slopes = found[:unknowns], found[unknowns]
+        there = end.copied()
+        left, one = closed(there, jacobian)
+        if left <= LEFT and abs(one - ratio) <= _AGREE:
+            comes_to = one if left <= CLOSE else None
+            other, hidden = None, 0.0
+            if cheap:
+                other, hidden = closed_beside(there, jacobian, slopes, one, part)
+            if other is not None:
+                return MarchEnd(max(abs(other - one) * part, hidden), comes_to)
+    again = int(_SHARE * cycles / (0.5 + _beside(model)))
+    return MarchEnd(_cycles_again(end, min(max(1, again), _MOST_AGAIN)), comes_to)
+
+
+def without_ring(body: Integrator, table: Timetable) -> float | None:
+    """Return the ratio of the state that repeats itself near a march's end, which rings about it.
+
+    None where none is found.
+    """
+    there = at_the_end(body, table)
+    return ratio_of(there) if there.find(-1) else None
+
+
+def at_the_end(body: Integrator, table: Timetable) -> Cycle:
+    """Return the map of a body over the cycle that follows its march."""
+    model, step = body.model, table.step
+    count = round(1.0 / (model.frequency * step))
+    if not model.meets_corners:
+        count = 2 * ((count + 1) // 2)
+    phase = model.frequency * (table.steps * step - model.start)
+    end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
+    put(end, step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
+    return end
+
+
+def _beside(model: Model) -> float:
+    """Return what a cycle and one on other steps beside it cost, in cycles."""
+    return 3.0 if model.meets_corners else 1.5
+
+
+def _cycles_again(start: Cycle, cycles: int) -> float | None:
+    """Return the error of the mean friction of so many cycles from a start."""
+    apart = abs(friction_beside(start, cycles) - friction_of(start.copied(), cycles))
+    error = apart * part_of_difference(start.body.model)
+    return error if math.isfinite(error) else None
+
+
+def _unknowns(cycle: Cycle) -> int:
+    room = np.empty(7 + cycle.springs.size)
+    state = cycle.body.kept["state"]
+    count: int = unknown_scales(state, cycle.springs, cycle.body.p, cycle.q, room)
+    return count
+
+
+def _marched_again(
+    model: Model, step: float, state: np.ndarray, springs: FloatArray, steps: int
+) -> float | None:
+    """Return the error of a body that nothing shakes, from so many steps and half as many."""
+    means = []
+    for count, length in ((2 * ((steps + 1) // 2), step), ((steps + 1) // 2, 2.0 * step)):
+        cycle = Cycle(model, count, length)
+        put(cycle, step, state, springs)
+        run_once(cycle)
+        means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
+    error = abs(means[1] - means[0]) / of_the_error(model)
+    return error if math.isfinite(error) else None
+
+
+def _of_two_phases(body: Integrator, table: Timetable) -> float | None:
+    """Return the error of the two-phase scheme: its march goes on in steps twice as long too."""
+    model, step = body.model, table.step
+    # A body that rings on its drive tells of its mean friction in whole periods only; in as long a
+    # time before, it comes to where the longer steps have it.
+    time = _SHARE * table.steps * step / 2.0
+    for period in (1.0 / model.frequency if model.vibrates else 0.0, model.ring_period):
+        if 0.0 < period <= time:
+            time = math.floor(time / period) * period
+    count = max(1, round(0.5 * time / step))
+    end = model.frequency * (table.steps * step - model.start)
+    means = []
+    for longer in (1, 2):
+        again = integrator(model, longer * step)
+        again.kept["state"][:] = body.kept["state"]
+        again.kept["memory"][:] = body.kept["memory"]
+        for name in ("velocity_x", "velocity_y"):
+            again.state[name] *= longer
+        again.kept["memory"]["base_x"] *= longer
+        steps = 2 * count // longer
+        for stretch in range(2):
+            again.clear()
+            begin = end + stretch * steps * again.rate
+            again.march(begin, steps, np.empty((3, 1, 0)), record=False)
+        means.append(float(again.sums["friction_x"] / again.sums["steps"]))
+    error = abs(means[1] - means[0]) / ORDER_ONE
+    return error if math.isfinite(error) else None

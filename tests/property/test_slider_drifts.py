@@ -1,0 +1,116 @@
+"""Marches of bodies that drift sideways, by lot: the mean is held to its ratio, however small.
+
+A body that a fast vibration carries along has little friction left, and takes seconds to lose the
+way sideways that it began with. What its march calls settled is where one ten times as long ends,
+to 1e-3 of the ratio, or a note says where the mean goes and what duration would do.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.slider import TABLES, Model, solve, solve_many
+from asperity.slider.batch import fits_batch
+from asperity.slider.longer import STILL_GOES, lasting
+
+BAR = 1e-3
+
+
+def body(frequency, velocity, ratio, direction, load, mass, mu, limit, ring, damped):
+    """Return a body on a drive; frequencies in Hz, velocity in m/s, angles in degrees."""
+    stiffness = mass * (2.0 * math.pi * ring) ** 2
+    amplitude = ratio * velocity / (2.0 * math.pi * frequency)
+    settings = (
+        f"slider.drive_velocity={velocity!r} m/s", f"slider.normal_force={load!r} N",
+        f"slider.mass={mass!r} kg", f"slider.drive_stiffness={stiffness!r} N/m",
+        "slider.lateral=free", "friction.transfer=1",
+        f"slider.drive_damping={2.0 * damped * math.sqrt(stiffness * mass)!r} N s/m",
+        f"friction.mu={mu!r}", f"friction.max_deflection={limit * amplitude!r} m",
+        "friction.exponent=1", "friction.law=vector", "vibration.start=0 s",
+        f"vibration.frequency={frequency!r} Hz", f"vibration.velocity_ratio={ratio!r}",
+        f"vibration.direction={direction!r} deg", "solve.method=march",
+    )  # fmt: skip
+    case = read_case("table-4.4", TABLES, settings)
+    return Model.from_case(case.replace_values({"solve.step": None, "solve.duration": None}))
+
+
+SLOW = body(1600.0, 1e-3, 200.0, 120.0, 4.0, 2.0, 0.4, 0.4, 616.0, 0.07)
+
+
+def drawn(rng):
+    def log(low, high):
+        return math.exp(rng.uniform(math.log(low), math.log(high)))
+
+    low = rng.random() < 0.4
+    frequency = log(50.0, 400.0) if low else log(400.0, 4000.0)
+    return body(
+        frequency, log(1e-3, 3e-2), log(8.0, 60.0), rng.uniform(20.0, 160.0), log(1.0, 40.0),
+        log(0.2, 4.0), log(0.1, 0.5), log(0.02, 0.8), log(100.0, 1000.0), log(0.02, 0.3),
+    )  # fmt: skip
+
+
+def goes(answer):
+    """Return where a note says that a mean goes, and the duration in s that would do."""
+    said = [note for note in answer.notes if note.startswith(STILL_GOES)]
+    if not said:
+        return None
+    words = said[0].replace(":", "").split()
+    return float(words[words.index("about") + 1]), float(words[words.index("of", 17) + 1])
+
+
+def test_a_mean_that_still_goes_further_than_a_thousandth_of_its_ratio_says_where():
+    late = solve(lasting(SLOW, 8.0), history=False)
+    early = solve(lasting(SLOW, 0.8), history=False)
+    assert early.settled
+    assert early.ratio / late.ratio - 1.0 > 10.0 * BAR
+    comes_to, duration = goes(early)
+    assert comes_to == pytest.approx(late.ratio, rel=1e-4)
+    then = solve(lasting(SLOW, duration), history=False)
+    assert goes(then) is None
+    assert then.ratio == pytest.approx(late.ratio, rel=0.6 * BAR)
+    # No longer than needed: what fades leaves half the bar there.
+    assert then.ratio > late.ratio * (1.0 + 0.4 * BAR)
+
+
+def test_lanes_say_where_their_means_go_and_go_on_as_a_march_does():
+    undamped = body(1600.0, 1e-3, 200.0, 120.0, 4.0, 2.0, 0.4, 0.4, 616.0, 0.0)
+    short = lasting(undamped, 0.8)
+    assert fits_batch(short)
+    alone, together = solve(short, history=False), solve_many([short] * 2)
+    assert goes(alone) is not None
+    assert [each.notes for each in together] == [alone.notes] * 2
+    alone, together = solve(undamped, history=False), solve_many([undamped] * 2)
+    assert goes(alone) is None
+    assert [each.ratio for each in together] == [alone.ratio] * 2
+
+
+def untold(seed, members):
+    """Return the bodies that are further from where they go than they say."""
+    off, went = [], 0
+    for n in members:
+        model = drawn(np.random.default_rng((*seed, n)))
+        answer = solve(model, history=False)
+        spent = answer.steps * answer.model.step / answer.model.substeps
+        went += spent > 1.01 * model.usual_duration
+        if not answer.settled or goes(answer):
+            continue
+        late = solve(lasting(model, 10.0 * spent), history=False)
+        if abs(answer.ratio - late.ratio) > BAR * abs(late.ratio) + 2.0 * answer.step_error:
+            off.append((n, spent, answer.ratio, late.ratio))
+    return off, went
+
+
+def test_a_few_bodies_that_drift_are_where_a_longer_march_ends():
+    off, _ = untold((1,), range(2))
+    assert not off
+
+
+@pytest.mark.slow
+@pytest.mark.campaign(tried_by="test_a_few_bodies_that_drift_are_where_a_longer_march_ends")
+@pytest.mark.parametrize("part", range(5))
+def test_bodies_that_drift_are_where_longer_marches_end(part):
+    off, went = untold((2, part), range(20))
+    assert not off
+    assert went >= 2
