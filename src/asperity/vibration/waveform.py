@@ -102,10 +102,13 @@ def fill_increments(wave, first_cycles, cycles_per_step, increments):
     """Write the unit displacement's increments over consecutive steps into ``increments``."""
     last = displacement_at(wave, first_cycles)
     if wave.waveform == SINE and wave.ramp == 0.0:
-        # By far the most used: a loop of its own has no branch.
+        # By far the most used: loops of its own have no branch, and the one that does not call sin
+        # becomes vector instructions. So does NumPy's floor; Python's, an integer, would not.
         for n in range(increments.size):
             cycles = max(first_cycles + (n + 1) * cycles_per_step, 0.0) + wave.lead
-            here = math.sin(2.0 * math.pi * (cycles - math.floor(cycles)))
+            increments[n] = 2.0 * math.pi * (cycles - np.floor(cycles))
+        for n in range(increments.size):
+            here = math.sin(increments[n])
             increments[n] = here - last
             last = here
         return
