@@ -1,9 +1,7 @@
 """A gearset that runs warm: what its housing and gears grow by, as errors of how it is mounted."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple, Self
+from typing import NamedTuple, Protocol, Self
 
 from asperity.casefile import Case
 from asperity.errors import InputError
@@ -11,9 +9,6 @@ from asperity.flanks.parameters import Modification, Mount
 from asperity.gearset import Gearset
 from asperity.gearset.tolerancing.table import Tolerances
 from asperity.gearset.tolerancing.warmth import Warmth
-
-if TYPE_CHECKING:
-    from asperity.drive.problem import DriveProblem
 
 _MILLIMETRES, _MICRO = 1e3, 1e6
 
@@ -89,7 +84,19 @@ class Warmed(NamedTuple):
         )
 
 
-def warmth(problem: DriveProblem) -> Iterator[str]:
+class _Standing(Protocol):
+    """What stands warm or cold, such as a drive."""
+
+    @property
+    def warmed(self) -> Warmed | None:
+        """What warmth has added to it."""
+
+    @property
+    def warmer(self) -> Warmed | None:
+        """What warmth would add to it."""
+
+
+def warmth(problem: _Standing) -> Iterator[str]:
     """Yield whether the gearset is warm or cold here, where the case says how warm it runs."""
     if (warmed := problem.warmed) is not None:
         yield (
