@@ -1,9 +1,11 @@
-"""Functions that only borrow arrays are compiled without counts of who holds them.
+"""Arrays that a function only borrows are compiled without counts of who holds them.
 
 Numba counts for every function that an array goes through. One that gets its arrays as arguments,
-makes none and returns none has nothing to count for: who called it holds them. Without the counts
-there is less to compile, and the same is calculated. In kernels that Numba compiles where they are
-called all is counted, but for those marked by `asperity.kernels.uncounted`.
+makes none and returns none has nothing to count for: who called it holds them. One that makes some
+counts for these alone, and gives up at its end what it makes once; what it takes of both until then
+needs no counts either. Most of what is compiled of a function with large tuples of arrays are
+counts. Without them there is less to compile, and the same is calculated. In kernels that Numba
+compiles where they are called all is counted, but for those marked by `asperity.kernels.uncounted`.
 """
 
 from collections.abc import Callable, Iterator
@@ -44,11 +46,12 @@ def _uncounted(run: Callable[..., bool]) -> Callable[..., bool]:
 
 
 def _not_counting(context: Any) -> Any:
-    other = context.__dict__.get("not_counting")
-    if other is None:
+    # A copy of a context has what it knows too, of another one.
+    of, other = context.__dict__.get("not_counting", (None, None))
+    if of is not context:
         other = context.subtarget(enable_nrt=False)
         other.__dict__.pop("nrt", None)
-        context.not_counting = other
+        context.not_counting = context, other
     return other
 
 

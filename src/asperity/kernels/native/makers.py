@@ -27,7 +27,7 @@ _SHIPPED = Path(__file__).parent / "made"
 _EARLY: list[tuple[Path, subprocess.Popen[str]]] = []
 
 WORDS: list[str] = []
-"""The command line that this process was begun with; empty where it is none."""
+"""The command line that this process was begun with; empty where there is none."""
 
 
 def begin_for(words: Sequence[str]) -> None:
