@@ -112,7 +112,7 @@ def begun(tmp_path, monkeypatch):
         )
 
     monkeypatch.setattr(kept, "_begun", begin)
-    monkeypatch.setattr(kept, "likely", lambda asked: [])
+    monkeypatch.setattr(kept, "likely", lambda asked, words: [])
     return programs, begun
 
 
@@ -168,12 +168,24 @@ def test_what_is_waited_for_is_asked_for_first(entry, tmp_path, monkeypatch):
             return None
 
     others = [each for each in listed().entries[:3] if each is not entry]
-    monkeypatch.setattr(kept, "likely", lambda asked: others)
+    monkeypatch.setattr(kept, "likely", lambda asked, words: others)
     monkeypatch.setattr(kept, "most_makers", lambda: 0)
     makers = kept._Makers(tmp_path)
     makers._running, makers._deaths = [Told()], 1
     makers.make([entry])
     assert told == [[keys.key(each) for each in (entry, *others)]]
+
+
+def test_one_process_goes_on_to_what_is_called_next_and_the_others_to_the_dearest(entry, tmp_path):
+    others = [each for each in listed().entries if each is not entry][:9]
+    makers = kept._Makers(tmp_path)
+    makers._waited_for = [entry]
+    orders = makers._orders({keys.key(each): each for each in (entry, *others)}, 3)
+    dearest = sorted(others, key=lambda each: -each.seconds)
+    assert orders == [
+        [keys.key(each) for each in (entry, *order)] for order in (others, dearest, dearest)
+    ]
+    assert others != dearest
 
 
 @pytest.mark.parametrize("processes", [1, 2, 3, 20])
@@ -193,7 +205,7 @@ def test_of_all_each_process_makes_whole_rooms_first_and_helps_with_the_others(
             return None
 
     all_of_them = sorted(listed().entries, key=lambda each: -each.seconds)
-    monkeypatch.setattr(kept, "likely", lambda asked: [])
+    monkeypatch.setattr(kept, "likely", lambda asked, words: [])
     monkeypatch.setattr(kept, "most_makers", lambda: 0)
     makers = kept._Makers(tmp_path)
     makers._running, makers._deaths = [Told() for _ in range(processes)], 1

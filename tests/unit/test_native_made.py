@@ -74,6 +74,14 @@ def test_what_commands_call_together_is_likely_wanted_together():
     assert not {entry.number for entry in likely(listed().lines[line][:2])} - set(others)
 
 
+def test_the_command_and_its_case_say_what_is_likely_wanted():
+    # Drives of other models call alike kernels first, and the dearest of all later.
+    line = listed().lines["drive drive-thesis"]
+    told = likely(line[:1], ["drive", "drive-thesis"])
+    assert [entry.number for entry in told] == list(line[1:])
+    assert likely(line[:1], ["no such", "case"]) == likely(line[:1])
+
+
 PROGRAM = """
 import tempfile
 from pathlib import Path
@@ -259,6 +267,61 @@ def test_all_loops_over_pressed_lanes_are_of_vector_instructions():
     # Three before the window, five in it while some wait and five when none does; two that make the
     # increments in the plane, and three those up. With references counted there were fifteen.
     assert int(told) >= 3 + 5 + 5 + 2 + 3
+
+
+COUNTED = """
+import numba, numpy
+from asperity.kernels.building import lean
+from asperity.kernels.compiled import kernel
+from typing import NamedTuple
+class Pair(NamedTuple):
+    first: numpy.ndarray
+    second: numpy.ndarray
+def end(rows, n):
+    pair = Pair(rows[0], numpy.empty(n))
+    last = pair.second
+    for k in range(n):
+        part = numpy.empty(k + 1)
+        part[k] = pair.first[k]
+        last = part if k % 2 else pair.second
+        last[0] = part[k]
+    if n > 3:
+        return last
+    return pair.first
+lean.begin()
+end.__module__ = "__main__"
+own = kernel(end)
+made = lean.make(own, [["A", "<f8", 2, "C", True, True], ["q"]], "entry")
+from asperity.kernels.building import link, runtime
+import ctypes, os, tempfile
+with tempfile.TemporaryDirectory() as folder:
+    path = os.path.join(folder, "a.so")
+    open(path, "wb").write(link._linked([made.code, link.support()]))
+    library = ctypes.CDLL(path)
+    rows = numpy.arange(16.0).reshape(2, 8)
+    release = library.asperity_release
+    release.argtypes = [ctypes.c_void_p]
+    for n in (3, 4, 5, 6):
+        words = [0] + [0] * made.words[0] + [0, 0, 16, 8, rows.ctypes.data, 2, 8, 64, 8, n]
+        room = (ctypes.c_int64 * len(words))(*words)
+        status = library.entry(room)
+        held, value = room[1], ctypes.c_double.from_address(room[5]).value
+        print(n, status, ctypes.c_int64.from_address(held).value if held else None, value)
+        if held:
+            release(held)
+"""
+
+
+@pytest.mark.slow
+def test_what_is_made_in_a_loop_or_once_is_counted_and_what_is_lent_is_not():
+    told = [line.split() for line in told_by(COUNTED).splitlines()]
+    # What comes back is held once by who called: the array made once, or the last of the loop.
+    assert told == [
+        ["3", "0", "None", "0.0"],
+        ["4", "0", "1", "3.0"],
+        ["5", "0", "1", "4.0"],
+        ["6", "0", "1", "5.0"],
+    ]
 
 
 BORROWED = """

@@ -354,7 +354,7 @@ def run(arguments: list[str] | None = None) -> int:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")
     arguments = looking(sys.argv[1:] if arguments is None else arguments)
     if arguments:
-        makers.begin_for(arguments[0])
+        makers.begin_for(arguments)
     command: Any = built(app, arguments)
     as_written(command)
     # Left without a value, the option for help would load all of pydantic to convert none.

@@ -20,7 +20,7 @@ from numba.core.registry import cpu_target
 from numba.core.runtime import nrtdynmod, rtsys
 
 from asperity.kernels import compiled
-from asperity.kernels.building import borrowing, quicker, runtime
+from asperity.kernels.building import borrowing, plainer, quicker, runtime
 from asperity.kernels.building.specs import Spec, UnknownTypeError, numba_type, spec
 from asperity.kernels.native.target import PLAIN, Target
 
@@ -85,6 +85,7 @@ def begin() -> None:
     numba.config.DISABLE_JIT = False
     quicker.begin()
     borrowing.begin()
+    plainer.begin()
     context = cpu_target.target_context
     rtsys.initialize(context)
     context._internal_codegen = _Codegen("asperity")

@@ -50,8 +50,9 @@ def main() -> None:
     # Of what it tries in vain Numba makes coloured messages.
     os.environ["NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING"] = "1"
     without_settings()
-    # Numba makes millions of objects that stay; looking through them is a tenth of the time.
-    gc.set_threshold(50_000, 20, 20)
+    # Numba makes millions of objects that stay; looking through them is a tenth of the time, and
+    # most entries are made before it begins.
+    gc.set_threshold(1_000_000, 20, 20)
     folder, processes = Path(sys.argv[1]), int(sys.argv[2])
     wanted = _Wanted()
     threading.Thread(target=wanted.listen, daemon=True).start()

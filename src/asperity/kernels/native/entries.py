@@ -8,6 +8,7 @@ import dataclasses
 import functools
 import hashlib
 import json
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -154,25 +155,33 @@ def _seconds(entries: Iterable[Entry]) -> float:
     return sum(entry.seconds for entry in entries)
 
 
-def likely(asked: Iterable[int]) -> list[Entry]:
-    """Return what a process that has asked for some entries most likely asks for next.
+def likely(asked: Iterable[int], words: Sequence[str] = ()) -> list[Entry]:
+    """Return what a process that has asked for some entries most likely asks for next, in order.
 
-    Those come first that are called by more of the commands that call all that were asked for;
-    among equals the dearest.
+    It is what half of the commands call that call all that were asked for. Where some of them are
+    of the same command and case, or else of the same command, those alone count.
 
     Parameters
     ----------
     asked : iterable of int
         Numbers of entries; they are not among what is returned.
+    words : sequence of str
+        The process's command line, where it has one.
     """
     held, known = listed(), set(asked)
-    alike = [numbers for numbers in held.lines.values() if known.issubset(numbers)]
-    share = dict.fromkeys((number for numbers in alike for number in numbers), 0.0)
-    for numbers in alike:
-        for number in numbers:
-            share[number] += 1.0 / len(alike)
-    found = [held.entries[number] for number in share if share[number] >= 0.5]
-    return sorted(
-        (entry for entry in found if entry.number not in known),
-        key=lambda entry: (-round(share[entry.number], 1), -entry.seconds),
-    )
+    alike = {line: called for line, called in held.lines.items() if known.issubset(called)}
+    for count in (2, 1):
+        first = list(words[:count])
+        nearer = [called for line, called in alike.items() if first == line.split()[:count]]
+        if first and nearer:
+            break
+    else:
+        nearer = list(alike.values())
+    counts = Counter(number for called in nearer for number in called)
+    # By the longest one, which is of most kinds of steps.
+    order = [number for called in sorted(nearer, key=len, reverse=True) for number in called]
+    return [
+        held.entries[number]
+        for number in dict.fromkeys(order)
+        if number not in known and 2 * counts[number] >= len(nearer)
+    ]

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity.kernels import folder as kernel_folder
-from asperity.kernels.native import keys, load, table
+from asperity.kernels.native import keys, load, makers, table
 from asperity.kernels.native.entries import Entry, likely, listed, shared_out
 from asperity.kernels.native.makers import MADE_HERE as _MADE_HERE
 from asperity.kernels.native.makers import begun as _begun
@@ -239,7 +239,7 @@ class _Makers:
                 self._begins = False
 
     def _tell(self) -> None:
-        wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED)])
+        wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED, makers.WORDS)])
         missing = {keys.key(entry): entry for entry in wanted}
         for key in list(missing):
             if key in self._lost or (self._kernels / key).exists():
@@ -259,7 +259,12 @@ class _Makers:
     def _orders(self, missing: dict[str, Entry], count: int) -> list[list[str]]:
         """Return what each process makes in turn; it passes by what another is at."""
         if count == 0 or len(self._waited_for) <= count:
-            return [list(missing)] * count
+            # One goes on to what is called next, the others to the dearest, which takes longest.
+            waited_for = {keys.key(entry) for entry in self._waited_for}
+            dearest = sorted(
+                missing, key=lambda key: (key not in waited_for, -missing[key].seconds)
+            )
+            return [list(missing), *[dearest] * (count - 1)][:count]
         # All of them are waited for: each begins with rooms of its own, and helps from the end.
         orders = []
         for share in shared_out(missing.values(), count):

@@ -9,6 +9,7 @@ import contextlib
 import os
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
 from asperity.files.folders import cache_root
@@ -25,21 +26,25 @@ _SHIPPED = Path(__file__).parent / "made"
 
 _EARLY: list[tuple[Path, subprocess.Popen[str]]] = []
 
+WORDS: list[str] = []
+"""The command line that this process was begun with; empty where there is none."""
 
-def begin_for(command: str) -> None:
+
+def begin_for(words: Sequence[str]) -> None:
     """Begin them for a command that mostly calls kernels, where none is kept or ships.
 
     Parameters
     ----------
-    command : str
-        The first word of a command line.
+    words : sequence of str
+        The command line; it is noted.
     """
+    WORDS[:] = words
     if not _is_wanted() or _is_any_kept():
         return
     from asperity.kernels.folder import kernels as kernel_folder
     from asperity.kernels.native.entries import listed
 
-    asked = [numbers for line, numbers in listed().lines.items() if line.split()[0] == command]
+    asked = [numbers for line, numbers in listed().lines.items() if line.split()[0] == words[0]]
     if 2 * sum(map(bool, asked)) <= len(asked) or (kernels := kernel_folder()) is None:
         return
     with contextlib.suppress(OSError, ValueError):
