@@ -316,7 +316,7 @@ if __name__ == "__main__":
         "roots_fillet": of_command("roots", "drive-screw", picture="roots_fillet"),
         "wear_flank": of_command("wear", "drive-screw", "drive.phases=12", picture="wear_flank"),
         "wear": of_command(
-            "wear", "drive-screw", "drive.phases=4", "modification.tip_relief=30 um",
+            "wear", "drive-screw", "drive.phases=2", "modification.tip_relief=30 um",
             picture="wear", depth="120 um",
         ),
         "shafts": of_command("shafts", "actuator-shafts"),
