@@ -13,6 +13,7 @@ from _common import finish, on_one_core
 from asperity.casefile import read_case
 from asperity.slider.batch import solve_many
 from asperity.slider.march import march
+from asperity.slider.march_end import MarchEnd
 from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.tables import TABLES
@@ -66,7 +67,7 @@ def without_estimate(function):
     """Return the same call where a march's error is not asked for."""
 
     def call():
-        with mock.patch("asperity.slider.march.error_of_march", return_value=None):
+        with mock.patch("asperity.slider.judged_march.end_of_march", return_value=MarchEnd(None)):
             return function()
 
     return call

@@ -176,15 +176,21 @@ def test_what_is_waited_for_is_asked_for_first(entry, tmp_path, monkeypatch):
     assert told == [[keys.key(each) for each in (entry, *others)]]
 
 
-def test_one_process_goes_on_to_what_is_called_next_and_the_others_to_the_dearest(entry, tmp_path):
+@pytest.mark.parametrize("begin", [False, True])
+def test_one_process_goes_on_to_what_is_called_next_and_the_others_to_the_dearest(
+    begin, entry, tmp_path
+):
     others = [each for each in listed().entries if each is not entry][:9]
     makers = kept._Makers(tmp_path)
     makers._waited_for = [entry]
-    orders = makers._orders({keys.key(each): each for each in (entry, *others)}, 3)
+    orders = makers._orders({keys.key(each): each for each in (entry, *others)}, 3, begin)
     dearest = sorted(others, key=lambda each: -each.seconds)
-    assert orders == [
-        [keys.key(each) for each in (entry, *order)] for order in (others, dearest, dearest)
-    ]
+    # Later all of them are at something, and whoever is ready first takes what is waited for.
+    first = [entry] if not begin else []
+    assert orders[0] == [keys.key(each) for each in (entry, *others)]
+    for order in orders[1:]:
+        assert order[: len(first) + 1] == [keys.key(each) for each in (*first, dearest[0])]
+        assert sorted(order) == sorted(orders[0])
     assert others != dearest
 
 

@@ -246,24 +246,24 @@ class _Makers:
                 del missing[key]
         most = most_makers()
         count = min(max(most - self._deaths, 1), len(missing))
+        begin = not self._running
         if self._begins and self._deaths <= most:
             try:
                 while len(self._running) < count:
                     self._running.append(_Maker(_begun(self._kernels)))
             except (OSError, ValueError):
                 self._begins = False
-        orders = self._orders(missing, len(self._running))
+        orders = self._orders(missing, len(self._running), begin)
         for each, order in zip(self._running, orders, strict=True):
             each.ask(" ".join(order) + "\n")
 
-    def _orders(self, missing: dict[str, Entry], count: int) -> list[list[str]]:
+    def _orders(self, missing: dict[str, Entry], count: int, begin: bool) -> list[list[str]]:
         """Return what each process makes in turn; it passes by what another is at."""
         if count == 0 or len(self._waited_for) <= count:
             # One goes on to what is called next, the others to the dearest, which takes longest.
-            waited_for = {keys.key(entry) for entry in self._waited_for}
-            dearest = sorted(
-                missing, key=lambda key: (key not in waited_for, -missing[key].seconds)
-            )
+            # What is waited for is everybody's, but not where they begin: the one has it at once.
+            first = set() if begin else {keys.key(entry) for entry in self._waited_for}
+            dearest = sorted(missing, key=lambda key: (key not in first, -missing[key].seconds))
             return [list(missing), *[dearest] * (count - 1)][:count]
         # All of them are waited for: each begins with rooms of its own, and helps from the end.
         orders = []
