@@ -1,5 +1,7 @@
 """What a drive lacks is asked for at once."""
 
+import functools
+
 import pytest
 
 from asperity.casefile import read_case
@@ -57,9 +59,9 @@ def lacking(ask, case):
 @pytest.mark.parametrize(
     ("ask", "settings", "count"),
     [
-        (locking.prepare, (), 6),
-        (locking.prepare, ("shaft.diameter=20 mm",), 6),
-        (locking.prepare, ("drive.friction=iso14521", "drive.flanks=driving"), 4),
+        (locking.prepare, SHAKEN, 6),
+        (locking.prepare, (*SHAKEN, "shaft.diameter=20 mm"), 6),
+        (locking.prepare, (*SHAKEN, "drive.friction=iso14521", "drive.flanks=driving"), 4),
         (directions.prepare, (), 5),
         (prepare, SHAKEN, 5),
         (prepare, (*SHAKEN, "drive.protocol=held-wheel"), 6),
@@ -84,9 +86,11 @@ def test_all_that_is_missing_is_named_at_once_and_each_of_it_is_needed(
             ask(read(tmp_path, [*given, *others]))
 
 
-def test_a_drive_at_rest_lacks_friction_alone(tmp_path):
+@pytest.mark.parametrize("ask", [functools.partial(prepare, static=True), locking.prepare])
+def test_a_drive_at_rest_lacks_friction_alone(tmp_path, ask):
     with pytest.raises(InputError, match=r"\[friction\] is missing"):
-        prepare(read(tmp_path, ROUND), static=True)
+        ask(read(tmp_path, ROUND))
+    ask(read(tmp_path, [*ROUND, *MENDS["[friction]"].split()]))
 
 
 def test_a_case_of_something_else_is_no_drive():
