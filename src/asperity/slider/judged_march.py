@@ -9,11 +9,10 @@ from asperity.results.settled import Standing
 from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.integrators import Integrator
 from asperity.slider.longer import brought_home, needed, still_goes
-from asperity.slider.march_end import MarchEnd, end_of_march, without_ring
+from asperity.slider.march_end import MarchEnd, end_of_march, rings_unheard
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import heard, ringing_notes, rings
-from asperity.slider.step_error import allowed_at
 from asperity.slider.summary import summarise
 from asperity.slider.timetable import WindowMeans, march_notes
 
@@ -68,8 +67,7 @@ def judged_answer(
     follows = True
     if standing.settled and rings(model):
         # Its mean goes nowhere.
-        still = without_ring(body(), table)
-        follows = still is None or abs(still - ratio) > allowed_at(ratio)
+        follows = not rings_unheard(body(), table, ratio)
         end = end._replace(ratio=None)
     home = brought_home(window, ratio, end.ratio)
     if home is not None and end.ratio is not None:

@@ -32,10 +32,11 @@ from asperity.slider.step_error import (
     run_once,
 )
 from asperity.slider.timetable import Timetable, WindowMeans
-from asperity.slider.unknowns import unknown_scales
+from asperity.slider.unknowns import most_unknowns, read_unknowns, unknown_scales
 
 _MOST_AGAIN = 50  # cycles at most that are run again
 _SHARE = 0.1  # of a march's cycles that may be run again
+_RING = 0.1  # of a state's scales, that a ring is looked at as
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 
 
@@ -111,13 +112,29 @@ def _end_of(body: Integrator, table: Timetable, ratio: float, *, drifts: bool) -
     return MarchEnd(_cycles_again(end, min(max(1, again), _MOST_AGAIN)), comes_to)
 
 
-def without_ring(body: Integrator, table: Timetable) -> float | None:
-    """Return the ratio of the state that repeats itself near a march's end, which rings about it.
+def rings_unheard(body: Integrator, table: Timetable, ratio: float) -> bool:
+    """Whether the ratio of a march that rings at its end does not follow the ring.
 
-    None where none is found.
+    It is that of the state that repeats itself there, which the ring is about; and would be with a
+    ring of a tenth of the state's scales, if what it does goes by its square.
     """
     there = at_the_end(body, table)
-    return ratio_of(there) if there.find(-1) else None
+    count = _unknowns(there)
+    at_end = _read(there)
+    if not there.find(-1):
+        return False
+    scales = np.empty(at_end.size)
+    unknown_scales(there.body.kept["state"], there.springs, there.body.p, there.q, scales)
+    ring = float((np.abs(at_end - _read(there))[:count] / scales[:count]).max(initial=0.0))
+    off = abs(ratio_of(there) - ratio)
+    return off * max(_RING / ring, 1.0) ** 2 <= allowed_at(ratio) if ring > 0.0 else False
+
+
+def _read(cycle: Cycle) -> FloatArray:
+    unknowns = np.zeros(most_unknowns(cycle.springs))
+    state = cycle.body.kept["state"][0]
+    read_unknowns(state, cycle.springs, cycle.body.p, cycle.q, unknowns)
+    return unknowns
 
 
 def at_the_end(body: Integrator, table: Timetable) -> Cycle:
