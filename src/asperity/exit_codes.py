@@ -7,5 +7,6 @@ NOT_DONE = 3  #: An iteration did not converge, an instrument did not answer, a 
 STILL_ON = 4  #: An output of a rig may be on: nobody read back that it is off.
 INTERRUPTED = 130  #: Ctrl-C, as shells say it (128 and the number of the signal).
 BROKEN_PIPE = 141  #: Who read the output has seen enough, as shells say it.
+TERMINATED = 143  #: SIGTERM, likewise, where other processes computed for it.
 
 NO_LIBRARY = 3  #: Of a build alone: no library of kernels can be made here, as its last line says.

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.errors import AsperityError, InputError
+from asperity.errors import AsperityError, ConvergenceError, InputError
 from asperity.friction import Friction
-from asperity.slider import TABLES, Model, Slider, Solve, Stopped, solve, solve_many
+from asperity.slider import TABLES, Model, Slider, Solve, Stopped, batch, solve, solve_many
 from asperity.slider.batch import fits_batch
 from asperity.slider.batch_kernels import BLOCK
 from asperity.slider.batch_rows import WIDTH
@@ -309,3 +309,15 @@ def test_pressed_bodies_that_a_batch_cannot_take_are_solved_alone_in_their_place
         models += other
     models.append(body())
     assert_all_same(models)
+
+
+def test_a_lane_whose_powers_do_not_balance_is_marched_alone_where_no_step_is_given(monkeypatch):
+    monkeypatch.setattr(batch, "march", lambda model, **options: "marched")
+    stop = np.zeros(1, np.bool_)
+    left_out = Model.from_case(read_case("table-4.3", TABLES, []))
+    given = Model.from_case(read_case("table-4.3", TABLES, ["solve.step=1 us"]))
+    missing = ConvergenceError("they do not balance", reached={"power_residual": 0.017})
+    other = ConvergenceError("it is thrown")
+    assert batch._refined(left_out, missing, stop) == "marched"
+    assert batch._refined(given, missing, stop) is missing
+    assert batch._refined(left_out, other, stop) is other

@@ -78,7 +78,9 @@ def test_a_drive_that_shakes_by_itself_is_what_its_ratios_refer_to(way, step):
     assert any("shakes by itself" in note for note in one.notes)
     # A step that was given is kept, and what it makes wrong told.
     assert (one.step_error > 1e-3) == (step is not None)
-    assert any("give a solve.step of at most" in note for note in one.notes) == (step is not None)
+    assert any("give none, or a smaller solve.step" in note for note in one.notes) == (
+        step is not None
+    )
 
 
 def test_a_drive_that_shakes_by_itself_for_a_short_while_and_in_a_step_that_is_given():

@@ -10,8 +10,8 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider import solve
-from asperity.slider.fading import apart, mean_left, quarters_in_time
-from asperity.slider.longer import advice, lasting, needed
+from asperity.slider.fading import apart, mean_left, quarters_in_time, windows_in_time
+from asperity.slider.longer import advice, brought_home, lasting, needed
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.ringing import friction_on_ring, rung_out
 from asperity.slider.tables import TABLES
@@ -216,3 +216,27 @@ def test_friction_that_is_shaken_damps_a_slow_motion_by_the_slope_of_its_mean():
     across = "vibration.direction=90 deg", "friction.transfer=1"
     little = damping(*across, "vibration.velocity_ratio=0.1")
     assert little == pytest.approx(0.005, rel=0.03)
+
+
+@pytest.mark.parametrize("direction", [0, 180])
+@pytest.mark.parametrize("ratio", [0.95, 1.05])
+def test_where_a_shaken_body_rests_for_a_moment_its_friction_has_a_slope(ratio, direction):
+    shaken = f"vibration.direction={direction} deg", f"vibration.velocity_ratio={ratio}"
+    slope = friction_on_ring(Model.from_case(read_case("table-4.3", TABLES, (*HEAVY, *shaken))))
+    assert 0.0 <= slope < math.inf
+
+
+@pytest.mark.parametrize("windows", [0.3, 1.0, 40.0])
+def test_halves_tell_how_many_windows_the_time_constant_is(windows):
+    half = [mean_left(0.5 / windows) * math.exp(-0.5 * n / windows) for n in range(2)]
+    left = mean_left(1.0 / windows)
+    assert windows_in_time(half[0] - half[1], left) == pytest.approx(windows, rel=1e-9)
+    assert windows_in_time(half[1] - half[0], left) is None
+    assert windows_in_time(1e-30, left) > 1e20
+
+
+@pytest.mark.parametrize(("change", "told"), [(1e-3, True), (1e-9, False), (1e-30, False)])
+def test_a_mean_that_hardly_moves_is_promised_no_duration(change, told):
+    body = Model.from_case(read_case("table-4.3", TABLES, ["friction.exponent=1"]))
+    window = WindowMeans(body, Timetable(body), change, [0.1] * 4, broke=True)
+    assert (brought_home(window, 0.1, 0.11) is not None) == told

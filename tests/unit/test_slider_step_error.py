@@ -213,6 +213,9 @@ def test_a_smaller_step_is_named_and_one_that_was_left_out_is_not_blamed(order, 
     given = smaller_step(1e-6, 4.0, order=order)
     assert given == f"give a solve.step of at most {step} s, or none"
     assert smaller_step(1e-6, 4.0, order=order, given=False) == f"a solve.step of {step} s may do"
+    unsure = smaller_step(1e-6, 4.0, order=order, sure=False)
+    assert unsure == f"give none, or a smaller solve.step: {step} s may do"
+    assert smaller_step(1e-6, 4.0, order=order, instead="this").endswith(" s, or this")
 
 
 def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch):

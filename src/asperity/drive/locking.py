@@ -217,7 +217,7 @@ def _at_rest(problem: DriveProblem, reduced: Reduction, share: float, slip: floa
         creep_over=none,
         creep_limit=none,
         settled_over=np.zeros(0, np.int8),
-        notes=(*reduced.notes, *(() if share < 1.0 else (_DRIVES,)), _NOT_SHAKEN),
+        notes=(*reduced.notes, _NOT_SHAKEN if share < 1.0 else _DRIVES),
     )
 
 

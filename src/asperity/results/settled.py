@@ -49,8 +49,16 @@ def error_of_step() -> Any:
     return quantity("", "", "error of the ratio from the step", default=None)
 
 
-def smaller_step(step: float, over: float, *, order: float = 2.0, given: bool = True) -> str:
-    """Say what step would do in place of one that makes too great an error.
+def smaller_step(
+    step: float,
+    over: float,
+    *,
+    order: float = 2.0,
+    given: bool = True,
+    sure: bool = True,
+    instead: str = "none",
+) -> str:
+    """Return what step would do in place of one that makes too great an error, as advice.
 
     Parameters
     ----------
@@ -62,11 +70,22 @@ def smaller_step(step: float, over: float, *, order: float = 2.0, given: bool = 
         What power of the step the error goes with.
     given : bool
         Whether the case says the step: it is not to blame else.
+    sure : bool
+        Whether that is known of the error; what is left of powers may go by another power of it.
+    instead : str
+        What else may be given, or left out.
+
+    Returns
+    -------
+    str
+        A part of a sentence.
     """
     does = step / (1.1 * over ** (1.0 / order))
-    if given:
-        return f"give a solve.step of at most {does:.2g} s, or none"
-    return f"a solve.step of {does:.2g} s may do"
+    if not given:
+        return f"a solve.step of {does:.2g} s may do"
+    if not sure:
+        return f"give {instead}, or a smaller solve.step: {does:.2g} s may do"
+    return f"give a solve.step of at most {does:.2g} s, or {instead}"
 
 
 def marked(values: Sequence[Any], loose: Sequence[bool]) -> list[Any]:

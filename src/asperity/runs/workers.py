@@ -12,14 +12,13 @@ from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.connection import Connection
 from typing import Any
 
+from asperity import exit_codes
 from asperity.errors import StorageError
 
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 # Seconds between two times that what is done meanwhile is done.
 _PAUSE = 1.0
-# What a shell makes the exit code of a process that a signal ended.
-_BY_SIGNAL = 128
 
 
 @dataclasses.dataclass(frozen=True)
@@ -151,7 +150,7 @@ def _tidily_terminated() -> Iterator[None]:
         return
 
     def leave(_number: int, _frame: object) -> None:
-        raise SystemExit(_BY_SIGNAL + number)
+        raise SystemExit(exit_codes.TERMINATED)
 
     signal.signal(number, leave)
     try:

@@ -35,7 +35,7 @@ from asperity.slider.scaled import (
     Parameters,
 )
 from asperity.slider.slide import solve
-from asperity.slider.step_error import refined
+from asperity.slider.step_error import power_missing, refined
 from asperity.slider.summary import energies, pressed_energies
 from asperity.slider.timetable import Timetable, WindowMeans, pull_across
 from asperity.vibration.waveform import displacement_at
@@ -157,10 +157,12 @@ def _refined(
     model: Model, answer: SlideResult | AsperityError, stop: np.ndarray
 ) -> SlideResult | AsperityError:
     """Return the answer of a body that settled if it may, by a step that makes no great error."""
-    if isinstance(answer, AsperityError):
+    if isinstance(answer, AsperityError) and power_missing(model, answer) is None:
         return answer
     once = functools.partial(march_once, history=False, stop=stop)
     try:
+        if isinstance(answer, AsperityError):
+            return march(model, history=False, stop=stop)
         still_goes = any(note.startswith(STILL_GOES) for note in answer.notes)
         if (still_goes or not answer.settled) and model.solve.duration is None:
             return march(model, history=False, stop=stop)

@@ -66,8 +66,7 @@ def windows_in_time(change: float, left: float) -> float | None:
     """
     if left == 0.0 or not 0.0 < change / left < 2.0:
         return None
-    share = change / left
-    return -0.5 / math.log((2.0 - share) / (2.0 + share))
+    return 0.25 / math.atanh(0.5 * change / left)
 
 
 def steadily(means: Sequence[float]) -> bool:

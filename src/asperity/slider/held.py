@@ -190,8 +190,8 @@ class HeldBody:
             taken += len(shares) * length
             if not all(map(math.isfinite, state[0].item())):
                 raise ConvergenceError(
-                    "the march under a constant pull left the finite numbers; give a smaller "
-                    "solve.step",
+                    "the march under a constant pull left the finite numbers: look at the masses, "
+                    "stiffnesses and friction of the case, or give a smaller solve.step",
                     reached={"pull": pull},
                 )
             position = taken * p.drive - float(state[0]["stretch"])

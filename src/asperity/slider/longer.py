@@ -205,7 +205,8 @@ def _fading(of: WindowMeans) -> float | None:
 def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> float | None:
     r"""Return the duration in s whose mean ratio is where it comes to, to 1e-3 of it.
 
-    None where it is there, or is not seen to go there: the halves of the window tell in what time.
+    None where it is there, or is not seen to go there: the halves of the window tell in what time,
+    of up to a thousand windows.
 
     Parameters
     ----------
@@ -220,7 +221,7 @@ def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> f
         return None
     left, untold = comes_to - ratio, allowed_at(comes_to)
     windows = windows_in_time(window.change, left)
-    if abs(left) <= untold or windows is None:
+    if abs(left) <= untold or windows is None or windows > _MOST_TIMES:
         return None
     model = window.model
     span = window.table.window * window.table.step

@@ -10,6 +10,7 @@ import math
 
 import numpy as np
 
+from asperity.arrays import FloatArray
 from asperity.results.settled import Standing
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
@@ -92,11 +93,17 @@ def friction_on_ring(model: Model) -> float:
     shaken = model.peak_velocity * np.cos(turn)
     sideways = model.friction.transfer * across * shaken
     early, late = (
-        float(np.mean(flat / np.hypot(flat, sideways)))
-        for flat in (share * velocity + along * shaken for share in (1.0 - _BESIDE, 1.0 + _BESIDE))
+        float(np.mean(_along(share * velocity + along * shaken, sideways)))
+        for share in (1.0 - _BESIDE, 1.0 + _BESIDE)
     )
     slope = (late - early) / (2.0 * _BESIDE * velocity)
     return model.full_friction * slope + (model.friction.viscous_damping or 0.0)
+
+
+def _along(flat: FloatArray, sideways: FloatArray) -> FloatArray:
+    """Part of Coulomb's friction along the drive, at slips; none where a body rests."""
+    slip = np.hypot(flat, sideways)
+    return np.divide(flat, slip, out=np.zeros_like(slip), where=slip > 0.0)
 
 
 def rung_out(model: Model, *, with_friction: bool = False) -> float:

@@ -58,8 +58,8 @@ def refined(
         two_phase = model.solve.scheme == "two-phase"
         if model.solve.step is not None or two_phase:
             step = answer.model.step / answer.model.substeps
-            advice = smaller_step(step, over, order=power)
-            return _noted(answer, advice[:-4] + "leave solve.scheme out" if two_phase else advice)
+            instead = "leave solve.scheme out" if two_phase else "none"
+            return _noted(answer, smaller_step(step, over, order=power, instead=instead))
         over **= 1.0 / power
         finer = min(2 ** math.ceil(math.log2(over)), _FINEST // answer.model.finer)
         moved = at_corners.of_moved_flanks(answer.model, answer.model.step)
@@ -86,11 +86,18 @@ def _balanced(model: Model, once: Callable[[Model], SlideResult]) -> SlideResult
     try:
         return once(model)
     except ConvergenceError as error:
-        missing = error.reached.get("power_residual", math.nan)
-        if model.solve.step is not None or not math.isfinite(missing):
+        if (missing := power_missing(model, error)) is None:
             raise
         finer = 2 ** math.ceil(math.log2(missing / NOTED_OF_POWERS) / power_of(model))
         return once(dataclasses.replace(model, finer=min(finer, _FINEST)))
+
+
+def power_missing(model: Model, error: AsperityError) -> float | None:
+    """Share of the powers that was missing; None where finer steps are not tried for that."""
+    if model.solve.step is not None or not isinstance(error, ConvergenceError):
+        return None
+    missing = error.reached.get("power_residual", math.nan)
+    return missing if math.isfinite(missing) else None
 
 
 def _noted(answer: SlideResult, advice: str) -> SlideResult:

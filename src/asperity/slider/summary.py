@@ -117,7 +117,7 @@ def summarise(
     if model.solve.scheme != "two-phase":
         given = model.solve.step is not None
         over = max(ledger.residual / NOTED, 1.0)
-        advice = smaller_step(step, over, order=power_of(model), given=given)
+        advice = smaller_step(step, over, order=power_of(model), given=given, sure=False)
         notes += guard(ledger, advice, reached={"ratio": ratio})
     wear = None
     if normal is not None:

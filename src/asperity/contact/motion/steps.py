@@ -257,6 +257,7 @@ def _refuse_overshoot(before: IncrementResult, after: IncrementResult) -> None:
     if most > 0.0:
         raise ConvergenceError(
             f"the explicit two-phase scheme bends asperities to {most:.3g} times "
-            "their limit, since they slip too far in a step; give solve.scheme 'exponential'",
+            "their limit, since they slip too far in a step; give solve.scheme 'exponential', "
+            "or a smaller solve.step",
             reached={"residual": after.residual, "active": float(after.active)},
         )

@@ -124,7 +124,9 @@ def _summarised(
     worst = max(each.closure for each in every)
     if worst > REFUSED:
         given = problem.solve.step is not None
-        advice = smaller_step(system(problem, model).longest, worst / NOTED, given=given)
+        advice = smaller_step(
+            system(problem, model).longest, worst / NOTED, given=given, sure=False
+        )
         raise ConvergenceError(
             f"the powers of a stroke are off by {worst:.2g}: {advice}",
             reached={"closure": worst},

@@ -109,7 +109,7 @@ def _of_step(problem: DriveProblem, off: StepError, longest: float) -> str:
     if problem.solve.step is not None:
         if not math.isfinite(off.ratio):
             return f"{found}: give no solve.step, to have it chosen"
-        return f"{found}: {smaller_step(longest, off.ratio / WANTED, order=1.0)}"
+        return f"{found}: {smaller_step(longest, off.ratio / WANTED, order=1.0, sure=False)}"
     return (
         f"{found}, or the motion parts from its like by itself within a block of cycles; its mean "
         "over three of them is what stays"

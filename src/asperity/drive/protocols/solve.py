@@ -210,7 +210,7 @@ def _summarise(
         stored=float(last["stored"][-1] - before) / time,
     )
     over = max(ledger.residual / NOTED, 1.0)
-    advice = smaller_step(moving.longest, over, given=problem.solve.step is not None)
+    advice = smaller_step(moving.longest, over, given=problem.solve.step is not None, sure=False)
     guarded = guard(ledger, advice, reached={"torque_balance": judged.balance})
     torque = rest.torque
     driven, kind = bool(moving.speed), kind_of(problem)

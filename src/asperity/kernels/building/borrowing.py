@@ -3,9 +3,10 @@
 Numba counts for every function that an array goes through. One that gets its arrays as arguments,
 makes none and returns none has nothing to count for: who called it holds them. One that makes some
 counts for these alone, and gives up at its end what it makes once; what it takes of both until then
-needs no counts either. Most of what is compiled of a function with large tuples of arrays are
-counts. Without them there is less to compile, and the same is calculated. In kernels that Numba
-compiles where they are called all is counted, but for those marked by `asperity.kernels.uncounted`.
+needs no counts either. What raises would not give up what it has made; no kernel does. Most of what
+is compiled of a function with large tuples of arrays are counts. Without them there is less to
+compile, and the same is calculated. In kernels that Numba compiles where they are called all is
+counted, but for those marked by `asperity.kernels.uncounted`.
 """
 
 from collections.abc import Callable, Iterator
@@ -21,6 +22,8 @@ _TAKEN_APART = frozenset(
     ["getattr", "getitem", "static_getitem", "build_tuple", "exhaust_iter", "cast", "phi"]
 )
 """What makes arrays of arrays that somebody holds: members, views, tuples."""
+_ITEMS = frozenset(["getitem", "static_getitem"])
+_KEEPS = (types.Array, types.BaseTuple, types.Record)
 
 
 def begin() -> None:
@@ -152,6 +155,8 @@ def _is_taken(value: Any, holds: Callable[[str], bool], typed: Any) -> bool:
         return False
     if value.op == "call":
         return isinstance(typed[value.func.name], types.NamedTupleClass)
+    if value.op in _ITEMS and not isinstance(typed[value.value.name], _KEEPS):
+        return False  # of a list, say, which may let it go
     # By an array it gathers into one of its own.
     gathers = value.op == "getitem" and holds(value.index.name)
     return value.op in _TAKEN_APART and not gathers
