@@ -259,6 +259,15 @@ def test_it_ends_after_so_many_turns():
 
 
 @pytest.mark.slow
+def test_a_wheel_worn_by_nothing_bears_as_the_new_one():
+    found = solve.answer(solve.prepare(case("drive.phases=2"), revolutions="1e-4"), Run())
+    assert found.depth_max < 1e-5
+    assert found.pressure_left == pytest.approx(1.0, abs=1e-5)
+    assert found.transmission_error == pytest.approx(found.transmission_error_new, rel=1e-5)
+    assert found.efficiency == pytest.approx(found.efficiency_new, rel=1e-7)
+
+
+@pytest.mark.slow
 def test_a_wheel_worn_at_few_phases_bears_alike_at_all_of_them_however_short_the_last_step():
     """Worn at once at its phases, each step left waves: 226 to 298 MPa by where one looked."""
     read = case("drive.phases=4", "operation.output_torque=14 N m")

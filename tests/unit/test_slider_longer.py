@@ -232,10 +232,10 @@ def test_halves_tell_how_many_windows_the_time_constant_is(windows):
     left = mean_left(1.0 / windows)
     assert windows_in_time(half[0] - half[1], left) == pytest.approx(windows, rel=1e-9)
     assert windows_in_time(half[1] - half[0], left) is None
-    assert windows_in_time(1e-30, left) > 1e20
+    assert windows_in_time(2.4e-4 * left, left) is None
 
 
-@pytest.mark.parametrize(("change", "told"), [(1e-3, True), (1e-9, False), (1e-30, False)])
+@pytest.mark.parametrize(("change", "told"), [(1e-3, True), (2e-6, False), (1e-30, False)])
 def test_a_mean_that_hardly_moves_is_promised_no_duration(change, told):
     body = Model.from_case(read_case("table-4.3", TABLES, ["friction.exponent=1"]))
     window = WindowMeans(body, Timetable(body), change, [0.1] * 4, broke=True)

@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 
 _FADES = 0.98  # what is left of a change after a quarter of the window, if it fades at all
+_LEAST_FADING = 5e-4  # of the way from half to half, in a time constant of 500 windows
 _ROUNDING = 1e-5  # of mu F_N: smaller changes are not looked at
 
 
@@ -55,7 +56,7 @@ def mean_left(windows: float) -> float:
 
 
 def windows_in_time(change: float, left: float) -> float | None:
-    """Return how many windows the time constant is of what is left; None where it does not fade.
+    """Return how many windows the time constant is of what is left; None where it hardly fades.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ def windows_in_time(change: float, left: float) -> float | None:
     left : float
         From the mean of the window to where it goes.
     """
-    if left == 0.0 or not 0.0 < change / left < 2.0:
+    if left == 0.0 or not _LEAST_FADING < change / left < 2.0:
         return None
     return 0.25 / math.atanh(0.5 * change / left)
 

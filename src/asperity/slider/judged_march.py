@@ -8,7 +8,7 @@ import numpy as np
 from asperity.results.settled import Standing
 from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.integrators import Integrator
-from asperity.slider.longer import brought_home, needed, still_goes
+from asperity.slider.longer import brought_home, far_from_home, needed, still_goes
 from asperity.slider.march_end import MarchEnd, end_of_march, rings_unheard
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
@@ -69,9 +69,13 @@ def judged_answer(
         # Its mean goes nowhere.
         follows = not rings_unheard(body(), table, ratio)
         end = end._replace(ratio=None)
-    home = brought_home(window, ratio, end.ratio)
-    if home is not None and end.ratio is not None:
-        wanders += (still_goes(home, ratio, end.ratio),)
+    comes_to = end.ratio
+    home = brought_home(window, ratio, comes_to)
+    is_far = far_from_home(window, ratio, comes_to)
+    if comes_to is not None and is_far:
+        standing, end = Standing(False, still_goes(ratio, comes_to)), MarchEnd(None)
+    elif comes_to is not None and home is not None:
+        wanders += (still_goes(ratio, comes_to, home),)
     answer = summarise(
         model, model.parameters(table.step), table.step, sums, *ends,
         standing=standing,
@@ -80,4 +84,4 @@ def judged_answer(
         notes=(*march_notes(steady), *ringing_notes(model, follows=follows), *wanders, *notes),
         **told,
     )  # fmt: skip
-    return answer, home if answer.settled else needed(window)
+    return answer, home if is_far or answer.settled else needed(window)

@@ -43,10 +43,12 @@ from asperity.slider.timetable import (
 _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
 _MOST_TIMES = 1e3  # what has been marched, that a body is told to be marched for
+_MOVES = 0.02  # of the way to where a mean goes, between the halves of a window
+_FAR_OFF = 5.0  # times what may go untold, that a mean may be off by which has settled
 _NEXT, _MOST_TRIED = 1.02, 400
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
-STILL_GOES = "the mean still goes on as it fades"
-"""How the note on a mean begins that has settled and is not yet where it goes to."""
+STILL_GOES = "the halves of the window agree, but the mean still goes on as it fades"
+"""How it begins what is said of a mean that is not yet where it goes to."""
 
 M = TypeVar("M", bound=Model)
 A = TypeVar("A", bound=SlideResult)
@@ -203,10 +205,10 @@ def _fading(of: WindowMeans) -> float | None:
 
 
 def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> float | None:
-    r"""Return the duration in s whose mean ratio is where it comes to, to 1e-3 of it.
+    """Return the duration in s whose mean ratio is where it goes to, to 1e-3 of it.
 
-    None where it is there, or is not seen to go there: the halves of the window tell in what time,
-    of up to a thousand windows.
+    None where it is there, or is not seen to fade: the halves of the window tell in what time, of
+    up to 500 windows.
 
     Parameters
     ----------
@@ -215,13 +217,13 @@ def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> f
     ratio : float
         Its mean.
     comes_to : float or None
-        The ratio of the state next to its end.
+        The ratio of the state next to its end, of which there may be none.
     """
     if comes_to is None:
         return None
     left, untold = comes_to - ratio, allowed_at(comes_to)
     windows = windows_in_time(window.change, left)
-    if abs(left) <= untold or windows is None or windows > _MOST_TIMES:
+    if abs(left) <= untold or windows is None:
         return None
     model = window.model
     span = window.table.window * window.table.step
@@ -232,12 +234,28 @@ def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> f
     return model.duration + max(model.window - span, 0.0) + fades
 
 
-def still_goes(duration: float, ratio: float, comes_to: float) -> str:
-    """Say how far a mean still goes, and the duration in s in which it has."""
-    return (
-        f"{STILL_GOES}, from a ratio of {ratio:.5g} to about {comes_to:.5g}: "
-        f"a solve.duration of {upward(duration):.3g} s would do"
-    )
+def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> bool:
+    """Whether a mean ratio is further than 5e-3 of it from where it goes to: it has not settled.
+
+    That which rings may change the other way from half to half. One that moves by nothing of the
+    way is in a state of its own, such as one of several cycles. Parameters are those of
+    `brought_home`.
+    """
+    if comes_to is None or abs(comes_to - ratio) <= _FAR_OFF * allowed_at(comes_to):
+        return False
+    left = comes_to - ratio
+    moves = abs(window.change) > _MOVES * abs(left)
+    return moves or windows_in_time(window.change, left) is not None
+
+
+def still_goes(ratio: float, comes_to: float, duration: float | None = None) -> str:
+    """Say how far a mean still goes, and the duration in s in which it has where that is given."""
+    said = f"{STILL_GOES}, from a ratio of {ratio:.5g} to about {comes_to:.5g}"
+    return said if duration is None else f"{said}: {_does(duration)}"
+
+
+def _does(duration: float) -> str:
+    return f"a solve.duration of {upward(duration):.3g} s would do"
 
 
 def advice(duration: float | None, model: Model, instead: str | None = "periodic") -> str:
@@ -255,4 +273,4 @@ def advice(duration: float | None, model: Model, instead: str | None = "periodic
     friction = model.friction
     falls = (friction.static_mu or 0.0) > friction.mu and model.slider.drive_stiffness is not None
     unless = "; a body whose friction falls with the speed may never settle" if falls else ""
-    return f"a solve.duration of {upward(duration):.3g} s would do, by the means{unless}"
+    return f"{_does(duration)}, by the means{unless}"

@@ -26,6 +26,7 @@ class Loaded:
     pressure_worm_tip: float  #: At the worm's tip edge, Pa
     pressure_wheel_tip: float  #: At the wheel's tip edge, Pa
     pressure_face_end: float  #: At the ends of the face, Pa
+    pressure_mean: float  #: Normal force over the area that bears, Pa
     force_worm_tip: float  #: Largest force there, N
     force_wheel_tip: float  #: N
     force_face_end: float  #: N
@@ -84,6 +85,7 @@ def loaded_of(model: StaticModel) -> Loaded:
         pressure_worm_tip=float(peaks[WORM_TIP]),
         pressure_wheel_tip=float(peaks[WHEEL_TIP]),
         pressure_face_end=float(peaks[FACE_END]),
+        pressure_mean=float(seen.mean),
         force_worm_tip=float(forces[WORM_TIP]),
         force_wheel_tip=float(forces[WHEEL_TIP]),
         force_face_end=float(forces[FACE_END]),

@@ -212,8 +212,8 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
         depth_standard=None if asked.standard is None else _MICRO * asked.standard * turns,
         volume=_MILLI3 * float(depth @ area),
         friction_work=new.friction * now.work,
-        pressure_mean_new=float(columns["pressure_course"][0]) / _MEGA,
-        pressure_mean=float(columns["pressure_course"][-1]) / _MEGA,
+        pressure_mean_new=fresh.pressure_mean / _MEGA,
+        pressure_mean=worn.pressure_mean / _MEGA,
         flow_pressure=None if (flow := problem.flow_pressure) is None else flow / _MEGA,
         transmission_error_new=fresh.transmission_error,
         transmission_error=worn.transmission_error,
@@ -227,8 +227,8 @@ def answer(asked: Wearing, run: Run) -> WheelWorn:
         faces=grid_faces(),
         notes=(
             *ended,
-            "all teeth wear alike, the worm does not; pressures of the course are those of the "
-            "first strips of patches",
+            "all teeth wear alike, the worm does not; new and worn are told at the same phases, "
+            "each step of the course at phases of its own, by the first strips of patches",
             *_to_and_fro(columns, problem.drive.phases),
             *warmth(problem),
             *rigid_parts(problem),
