@@ -262,7 +262,7 @@ def test_it_ends_after_so_many_turns():
 def test_a_wheel_worn_by_nothing_bears_as_the_new_one():
     found = solve.answer(solve.prepare(case("drive.phases=2"), revolutions="1e-4"), Run())
     assert found.depth_max < 1e-5
-    assert found.pressure_left == pytest.approx(1.0, abs=1e-5)
+    assert found.pressure_left == pytest.approx(1.0, abs=1e-4)
     assert found.transmission_error == pytest.approx(found.transmission_error_new, rel=1e-5)
     assert found.efficiency == pytest.approx(found.efficiency_new, rel=1e-7)
 
