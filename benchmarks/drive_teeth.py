@@ -177,7 +177,7 @@ def main():
     q[:, 2] -= model.sweeps[0].deflection[0]
     forces, step, residual = marched(model, q, v, mesh)
     touched = [k for k in range(mesh.teeth) if mesh.candidates.counts[k, 0]]
-    numbers = sorted(int(mesh.gathered[k].tooth) for k in touched)[:3]
+    numbers = sorted(int(mesh.gathered["tooth"][k]) for k in touched)[:3]
     slow, increment = incremented(model, mesh, q[: WARM // 4 + 1 + SLOW], numbers)
     off = np.abs(slow[:, 2] + forces[: len(slow), 3]).max() / np.abs(forces[:, 3]).max()
     report = {
