@@ -13,7 +13,7 @@ from asperity.slider import solve
 from asperity.slider.fading import apart, mean_left, quarters_in_time, windows_in_time
 from asperity.slider.longer import advice, brought_home, lasting, needed
 from asperity.slider.model import WINDOW_SHARE, Model
-from asperity.slider.ringing import friction_on_ring, rung_out
+from asperity.slider.ringing import friction_on_ring, rung_out, upward
 from asperity.slider.tables import TABLES
 from asperity.slider.timetable import Timetable, WindowMeans
 
@@ -240,3 +240,10 @@ def test_a_mean_that_hardly_moves_is_promised_no_duration(change, told):
     body = Model.from_case(read_case("table-4.3", TABLES, ["friction.exponent=1"]))
     window = WindowMeans(body, Timetable(body), change, [0.1] * 4, broke=True)
     assert (brought_home(window, 0.1, 0.11) is not None) == told
+
+
+@pytest.mark.parametrize(("duration", "told"), [
+    (0.0123, 0.013), (0.98, 0.98), (0.981, 0.99), (1.01, 1.1), (123.0, 130.0), (4.0e-5, 4.0e-5),
+])  # fmt: skip
+def test_durations_are_told_in_two_digits_rounded_up(duration, told):
+    assert upward(duration * (1.0 - 1e-12)) == pytest.approx(told, rel=1e-9)

@@ -191,6 +191,13 @@ def test_samples_of_a_sine_are_the_sine(tmp_path):
     assert displacement(sampled, cycles) == pytest.approx(np.sin(2.0 * math.pi * cycles), abs=1e-6)
 
 
+def test_a_period_of_samples_has_no_mean_and_its_ends_are_counted_once(tmp_path):
+    phase = np.linspace(0.0, 2.0 * np.pi, 401)
+    write_samples(tmp_path / "wave.csv", np.exp(np.cos(phase)) + 0.3 * np.sin(2.0 * phase))
+    shape = Vibration(waveform="sampled", samples="wave.csv", velocity_ratio=1.0).shape(tmp_path)
+    assert abs(shape.table[:-1].mean()) < 1e-12
+
+
 def test_the_scale_and_the_mean_of_samples_do_not_matter(tmp_path):
     wave = np.sin(np.linspace(0.0, 2.0 * math.pi, 40, endpoint=False)) ** 3
     shapes = []
