@@ -237,7 +237,7 @@ def test_a_stop_that_somebody_asks_for_switches_off_and_does_not_latch(begun, ri
 
 @pytest.mark.slow
 def test_a_stop_is_told_as_one_where_its_silence_is_heard_first(begun, rig, tmp_path, monkeypatch):
-    look = Interlock.look
+    check = Interlock.check_samples
 
     def heard_first(self, counts, interval, expected, *, settled):
         if expected.frequency:
@@ -246,9 +246,9 @@ def test_a_stop_is_told_as_one_where_its_silence_is_heard_first(begun, rig, tmp_
             raise InstrumentError(
                 "no vibration is found where 250 Hz is asked for", kind="vibration"
             )
-        look(self, counts, interval, expected, settled=settled)
+        check(self, counts, interval, expected, settled=settled)
 
-    monkeypatch.setattr(Interlock, "look", heard_first)
+    monkeypatch.setattr(Interlock, "check_samples", heard_first)
     procedure = begun()
     assert procedure.ended() == 130, procedure.said
     (line,) = lines_of(tmp_path / "run", "interrupted")
@@ -555,7 +555,7 @@ def test_what_takes_its_time_between_two_files_is_no_hang_and_a_hang_is(dials, t
         hdf5._join, hdf5.compressed = slowly(hdf5._join), slowly(hdf5.compressed)
         packer.compressed = hdf5.compressed
         if hangs:
-            Logger.keep = slowly(Logger.keep, 4 * PATIENCE)
+            Logger.flush = slowly(Logger.flush, 4 * PATIENCE)
 
     rig = StandingRig(case)
     dials.turn(patience=PATIENCE)
