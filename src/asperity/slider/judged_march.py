@@ -30,8 +30,6 @@ def judged_answer(
 ) -> tuple[SlideResult, float | None]:
     """Return the answer of a march that is at its end, judged by all that is known of it.
 
-    With the duration in s that would do, where it has not settled or its mean still goes further.
-
     Parameters
     ----------
     model : Model
@@ -50,6 +48,13 @@ def judged_answer(
         Beside those of the march.
     told
         What else `summarise` takes.
+
+    Returns
+    -------
+    SlideResult
+        The answer.
+    float or None
+        That duration, s; None where nothing is missing, or no duration is foreseen.
     """
     table = window.table
     wanders: tuple[str, ...] = ()

@@ -221,9 +221,9 @@ def _found_beside(cycle: Cycle) -> float | None:
 
 
 def closed(cycle: Cycle, jacobian: FloatArray) -> tuple[float, float]:
-    """Return the ratio of the state next to where a body is, which goes there, behind its defect.
+    """Return the defect and the ratio of the state next to where a body is, which goes there.
 
-    None is there where the defect is above `LEFT`.
+    There is no such state where the defect is above `LEFT`.
     """
     body = cycle.body
     left, ratio = at_state(
