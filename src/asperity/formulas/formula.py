@@ -15,6 +15,7 @@ from asperity.formulas.masks import (
     Invalid,
     Mask,
     Masked,
+    by_value,
     check,
     common_shape,
     current_mask,
@@ -30,8 +31,6 @@ P = ParamSpec("P")
 
 _FLOAT = np.dtype(np.float64)
 
-# What a number or a word is known by.
-_BY_VALUE = frozenset([float, str, type(None)])
 _MOST_KNOWN = 200
 
 # Within `masking` NumPy is silent already.
@@ -223,11 +222,12 @@ class _Made:
 
     def known(self, given: dict[str, Any], system: str) -> Any:
         """Return `evaluate` of numbers and words, remembered: beside arrays they come again."""
-        values = tuple(given.values())
-        # A zero of either sign is the same by value, and not to a body.
-        if not all(type(one) in _BY_VALUE and (one or one is None) for one in values):
+        values = given.values()
+        kinds = [*map(type, values)]
+        if not all(map(by_value, kinds)):
             return self.evaluate(given, (), system)
-        key = system, *given, *values
+        # A zero of either sign is the same by value, and not to a body.
+        key = system, *given, *kinds, *(one or repr(one) for one in values)
         found = self._known.get(key)
         if found is None:
             found = self.evaluate(given, (), system)

@@ -38,7 +38,14 @@ class Masked(NamedTuple):
 
 
 _FEW = 50
-_BY_VALUE = (float, int, str, bool, type(None), np.float64)
+_BY_VALUE = frozenset([float, int, str, bool, type(None), np.float64])
+
+
+@functools.cache
+def by_value(kind: type) -> bool:
+    """Whether what is of a kind is known by its value, or never changes and equals itself alone."""
+    made = getattr(kind, "__dataclass_params__", None)
+    return kind in _BY_VALUE or (made is not None and made.frozen and not made.eq)
 
 
 class Seen(NamedTuple):
@@ -142,6 +149,18 @@ class Mask:
         other = Mask()
         other.reason, other.legend = self.reason[where], self.legend
         return other
+
+    def stacked(self, count: int) -> "Mask":
+        """Return one of as many rows of the elements, which knows what is known here."""
+        other = Mask()
+        other.reason = np.repeat(self.reason[None], count, axis=0)
+        other.legend, other._seen, other._kept = dict(self.legend), self._seen, self._kept
+        return other
+
+    def refuse_as(self, other: "Mask") -> None:
+        """Give what any row of another has no answer for its reason here."""
+        for code, sentence in other.legend.items():
+            self.refuse((other.reason == code).any(axis=0), sentence)
 
     def refuse(self, where: npt.ArrayLike, sentence: str) -> None:
         """Give a reason where there is none yet; what holds for all is always remembered."""

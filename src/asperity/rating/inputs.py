@@ -177,6 +177,10 @@ class Inputs:
         """Return what the formulas start from in each of the `loads`."""
         return tuple(map(self._loaded, self.loads))
 
+    def at_once(self) -> "Inputs":
+        """Return the same of all parts of the duty cycle: a row for each, of what they differ in."""
+        return self._loaded(Part(*map(_column, zip(*self.duty, strict=True))))
+
     def each(self) -> "tuple[Inputs, ...]":
         """Return the same for each part of the duty cycle by itself, however many there are."""
         return tuple(map(self._loaded, self.duty))
@@ -317,6 +321,15 @@ class Inputs:
             part.hours * (part.speed / speed) * (part.torque / torque) ** exponent
             for part in self.loads
         )
+
+
+def _column(values: tuple[Any, ...]) -> Any:
+    """Return what all parts have, or a row for each part, for arrays of variants to go beside."""
+    first = values[0]
+    if all(one is first or (np.ndim(one) == np.ndim(first) == 0 and one == first) for one in values):
+        return first
+    rows = np.stack(np.broadcast_arrays(*values))
+    return rows if rows.ndim > 1 else rows[:, None]
 
 
 def face_width_that_carries(

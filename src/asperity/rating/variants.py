@@ -115,6 +115,7 @@ def variants(
     standards: Sequence[str] = STANDARDS,
     *,
     capacity: bool = True,
+    loads: bool = True,
     folder: Path | None = None,
     **values: npt.ArrayLike,
 ) -> Variants:
@@ -128,6 +129,9 @@ def variants(
         Which to apply.
     capacity : bool
         Whether stresses and safeties by ISO/TR 14521 are wanted beside the efficiency.
+    loads : bool
+        Whether forces, root stress, powers and the sump by AGMA 6034 are wanted beside its friction,
+        efficiency and torque.
     folder : path, optional
         Where a relative file name among the options starts.
     **values : array_like
@@ -159,7 +163,7 @@ def variants(
     for name in wanted:
         mask = impossible.copy()
         try:
-            numbers = _calculate(name, inputs, mask, capacity, tables)
+            numbers = _calculate(name, inputs, mask, tables, capacity=capacity, loads=loads)
         except InputError as error:
             if len(wanted) == 1:
                 raise
@@ -171,7 +175,7 @@ def variants(
 
 
 def _calculate(
-    name: str, inputs: Inputs, mask: Mask, capacity: bool, tables: Tables | None
+    name: str, inputs: Inputs, mask: Mask, tables: Tables | None, *, capacity: bool, loads: bool
 ) -> Values:
     """Return the numbers of a standard, block by block."""
     found: Values = {}
@@ -188,7 +192,7 @@ def _calculate(
             elif name == "bs721" and tables is not None:
                 numbers = rated_bs721(here, tables)[0]
             else:
-                numbers = rated_agma6034(here)
+                numbers = rated_agma6034(here, loads=loads)
         # What leads to the numbers of a duty cycle would take more room than the numbers.
         numbers = {key: one for key, one in numbers.items() if not key.startswith("part_")}
         if start is None:

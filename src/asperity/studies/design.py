@@ -243,6 +243,7 @@ class Space:
             self.options,
             self._standards,
             capacity=any(path.startswith("iso14521.") for path in self.least),
+            loads=False,
             folder=self.folder,
             **self.values(points),
         )

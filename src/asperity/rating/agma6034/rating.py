@@ -44,21 +44,25 @@ def rate(inputs: Inputs) -> Rating:
     )
 
 
-def rated(inputs: Inputs) -> Values:
+def rated(inputs: Inputs, *, loads: bool = True) -> Values:
     """Return friction, efficiency, loads and heat by the keys of a rating.
 
     Of a duty cycle the safety is the least and the sump's temperature the highest of its parts;
-    everything else is that under the rated torque.
+    everything else is that under the rated torque. Without ``loads`` it is friction, efficiency and
+    the torque alone.
     """
     inputs.gearset.wheel_material.require_covered("AGMA 6034")
-    v = _rated(inputs)
+    v = _rated(inputs, loads)
     # A part under the rated load has what is known of that.
-    parts = [dict(v) if _is_alike(part, inputs) else _rated(part) for part in inputs.parted()]
+    parts = [
+        dict(v) if _is_alike(part, inputs) else _rated(part, loads) for part in inputs.parted()
+    ]
     if parts:
         for place, own in enumerate(() if inputs.together else parts, 1):
             v |= {f"part_{place}.{key}": value for key, value in own.items()}
         v["safety_torque"] = _least(inputs, parts)
-        v["t_s_degC"] = inputs.greatest(own["t_s_degC"] for own in parts)
+        if loads:
+            v["t_s_degC"] = inputs.greatest(own["t_s_degC"] for own in parts)
     return v
 
 
@@ -82,7 +86,7 @@ def _least(inputs: Inputs, parts: list[Values]) -> Real:
     return inputs.least(kept or safeties)
 
 
-def _rated(inputs: Inputs) -> Values:
+def _rated(inputs: Inputs, loads: bool) -> Values:
     casting = inputs.gearset.wheel_material.agma6034
     if casting is None:
         raise InputError(
@@ -119,6 +123,14 @@ def _rated(inputs: Inputs) -> Values:
         inputs.operation.application_factor if factor is None else factor
     ) * inputs.output_torque
     v["safety_torque"] = strength.safety(v["allowable_torque_Nm"], torque)
+    if loads:
+        _forces(inputs, v, torque)
+        _heat(inputs, v)
+    return v
+
+
+def _forces(inputs: Inputs, v: Values, torque: Real) -> None:
+    teeth = v["mu"], inputs.lead_angle, inputs.pressure_angle
     v["W_G_N"] = 2000.0 * torque / inputs.wheel_mean_diameter
     v["W_W_N"] = forces.worm_tangential_load(v["W_G_N"], *teeth)
     v["bending_stress_MPa"] = forces.bending_stress(
@@ -128,8 +140,6 @@ def _rated(inputs: Inputs) -> Values:
         v["F_e_mm"],
         forces.lewis_form_factor(inputs.pressure_angle),
     )
-    _heat(inputs, v)
-    return v
 
 
 def _heat(inputs: Inputs, v: Values) -> None:

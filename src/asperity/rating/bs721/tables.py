@@ -139,7 +139,7 @@ class Stresses:
         return rows[outer][inner]
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Tables:
     r"""All tables of BS 721 that the formulas need.
 

@@ -212,25 +212,37 @@ def parts_of(inputs: Inputs, v: Values) -> tuple[Values, ...]:
     v : Values
         ``p_m_star`` and ``E_red_MPa``, which are those of all parts.
     """
-    if not inputs.together:
-        return _parts_of(inputs, v)
-    outer = current_mask()
-    if outer is None:
-        return _parts_of(inputs, v)
-    with masking((len(inputs.duty),)) as own:
-        found = _parts_of(inputs, v)
-    for sentence in own.legend.values():
-        outer.refuse(True, sentence)
-    return found
+    outer, count = current_mask(), len(inputs.duty)
+    if outer is None or count < 2:
+        return _parts_of(inputs, inputs.parted(), v)
+    if inputs.together:
+        with masking((count,)) as own:
+            found = _parts_of(inputs, inputs.parted(), v)
+        for sentence in own.legend.values():
+            outer.refuse(True, sentence)
+        return found
+    if outer.reason.ndim != 1:
+        return _parts_of(inputs, inputs.parted(), v)
+    # Formulas take about as long for a few rows of variants as for one.
+    with masking(outer.stacked(count)) as own:
+        (rows,) = _parts_of(inputs, (inputs.at_once(),), v)
+    outer.refuse_as(own)
+    return tuple({key: _row(value, place) for key, value in rows.items()} for place in range(count))
 
 
-def _parts_of(inputs: Inputs, v: Values) -> tuple[Values, ...]:
-    parted = inputs.parted()
+def _row(value: Real, place: int) -> Real:
+    if np.ndim(value) < 2:
+        return value
+    row = value[place]
+    return row if row.size > 1 else row[0]
+
+
+def _parts_of(inputs: Inputs, parted: tuple[Inputs, ...], v: Values) -> tuple[Values, ...]:
     spectrum = inputs.operation.spectrum
     if spectrum is not None and spectrum.oil == "mean" and len(inputs.duty) > 1:
-        hours = inputs.total(part.life for part in parted)
-        sumps = (part.life * sump_of(part) for part in parted)
-        mean = inputs.total(sumps) / hours
+        loads = inputs.parted()
+        hours = inputs.total(part.life for part in loads)
+        mean = inputs.total(part.life * sump_of(part) for part in loads) / hours
         parted = tuple(dataclasses.replace(part, sump=mean) for part in parted)
     found: list[Values] = []
     # A film and a friction that were found at the same speed are those of the part too.
