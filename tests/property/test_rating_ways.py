@@ -17,6 +17,7 @@ import pytest
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.rating import Operation, RatingOptions, rate, variants
+from asperity.rating.spectrum import Spectrum
 from asperity.rating.workbook import write_rating
 
 FILE = Path(__file__).parents[1] / "unit" / "test_workbook.py"
@@ -121,6 +122,7 @@ def _tried(seeds, folder):
         for other in other_macro(gears):
             same(mine, safeties(rate(*tables(other, run, options))), seed, "macro")
         _by_parts(gears, run, options, rng, seed)
+        _by_variants_of_a_duty(gears, run, options, random.Random(f"duty {seed}"), seed)
         valve = rate(*tables(gears, {**run, "service": "valve"}, options))
         said = {**run, "service": "valve", "through_travel_torque": run["output_torque"] / 3.0}
         same(safeties(valve), safeties(rate(*tables(gears, said, options))), seed, "service")
@@ -142,6 +144,40 @@ def _by_variants(gears, run, options, mine, rng, seed):
     many = variants(*tables(gears, run, options), worm_speed=speeds)
     for path, value in mine.items():
         assert many[path][0] == pytest.approx(value, rel=1e-9), (seed, "variants", path)
+
+
+def _by_variants_of_a_duty(gears, run, options, rng, seed):
+    """Hold parts that go through the formulas in rows to gearsets that are rated alone."""
+    steps = [
+        {
+            "duration": 3600.0 * math.exp(rng.uniform(0.0, 9.0)),
+            "output_torque": run["output_torque"] * rng.uniform(0.2, 1.0),
+            "worm_speed": rng.choice([None, run["worm_speed"] * rng.uniform(0.5, 2.0)]),
+            "starts_per_hour": rng.choice([None, rng.uniform(0.0, 60.0)]),
+            "drives": rng.choice(["worm", "worm", "worm", "load"]),
+        }
+        for _ in range(rng.randint(2, 5))
+    ]  # fmt: skip
+    spectrum = Spectrum(step=steps, oil_temperature=rng.choice(["mean", "each"]), units="SI")
+    gearset, _, option = tables(gears, run, options)
+    operation = Operation(**run, spectrum=spectrum, units="SI")
+    roughness = gears["worm_roughness"] * np.array([1.0, 1.7])
+    many = variants(gearset, operation, option, worm_roughness=roughness)
+    torques = variants(
+        gearset, operation, option, ("agma6034",), worm_roughness=roughness, loads=False
+    ) if "agma6034.safety_torque" in many else many  # fmt: skip
+    assert torques is many or "agma6034.t_s_degC" not in torques
+    for place, rough in enumerate(roughness):
+        try:
+            alone = safeties(
+                rate(gearset.model_copy(update={"worm_roughness": rough}), operation, option)
+            )
+        except InputError:
+            continue
+        for path, value in alone.items():
+            assert many[path][place] == pytest.approx(value, rel=1e-9), (seed, "duty", path)
+        if "agma6034.safety_torque" in alone:
+            assert torques["agma6034.safety_torque"][place] == many["agma6034.safety_torque"][place]
 
 
 def _by_parts(gears, run, options, rng, seed):

@@ -109,14 +109,11 @@ class Mask:
         return known[1]
 
     def seen(self, array: FloatArray) -> Seen | None:
-        """Return what is known of an array of the mask's shape, looked at once.
-
-        None where it is of another shape, or has NaN for which there is no reason yet.
-        """
+        """Return what is known of an array, looked at once; None where NaN has no reason yet."""
         known = self._seen.get(id(array))
         if known is not None:
             return known
-        if array.shape != self.reason.shape or not array.size:
+        if not array.size:
             return None
         if array.size <= _FEW:
             # Python looks through few numbers in less time than NumPy takes to begin.
@@ -126,7 +123,7 @@ class Mask:
         lowest, holes = float(array.min()), None
         if math.isnan(lowest):
             holes = np.isnan(array)
-            if np.any(self.reason[holes] == 0) or holes.all():
+            if holes.shape != self.reason.shape or np.any(self.reason[holes] == 0) or holes.all():
                 return None
             lowest, highest = float(np.fmin.reduce(array, None)), float(np.fmax.reduce(array, None))
         else:
@@ -299,18 +296,21 @@ def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     """
     if not arrays:
         return ()
-    several = iter(arrays.values())
-    first: tuple[int, ...] = np.shape(next(several))
-    if all(type(array) is np.ndarray and array.shape == first for array in several):
-        return first
-    different: set[tuple[int, ...]] = {
+    found = tuple(
         array.shape if type(array) is np.ndarray else np.shape(array) for array in arrays.values()
-    }
-    if len(different) == 1:
-        return different.pop()
-    shapes = {name: np.shape(array) for name, array in arrays.items()}
+    )
+    first: tuple[int, ...] = found[0]
+    if found.count(first) == len(found):
+        return first
     try:
-        return np.broadcast_shapes(*shapes.values())
+        return _together(found)
     except ValueError:
-        listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-        raise InputError(f"the shapes {listed} do not go together; make them equal") from None
+        pass
+    shapes = {name: np.shape(array) for name, array in arrays.items()}
+    listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
+    raise InputError(f"the shapes {listed} do not go together; make them equal")
+
+
+@functools.lru_cache
+def _together(shapes: tuple[tuple[int, ...], ...]) -> tuple[int, ...]:
+    return np.broadcast_shapes(*shapes)

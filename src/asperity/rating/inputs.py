@@ -178,7 +178,7 @@ class Inputs:
         return tuple(map(self._loaded, self.loads))
 
     def at_once(self) -> "Inputs":
-        """Return the same of all parts of the duty cycle: a row for each, of what they differ in."""
+        """Return the same of all parts of the duty cycle, in rows what they differ in."""
         return self._loaded(Part(*map(_column, zip(*self.duty, strict=True))))
 
     def each(self) -> "tuple[Inputs, ...]":
@@ -326,7 +326,9 @@ class Inputs:
 def _column(values: tuple[Any, ...]) -> Any:
     """Return what all parts have, or a row for each part, for arrays of variants to go beside."""
     first = values[0]
-    if all(one is first or (np.ndim(one) == np.ndim(first) == 0 and one == first) for one in values):
+    if all(
+        one is first or (np.ndim(one) == np.ndim(first) == 0 and one == first) for one in values
+    ):
         return first
     rows = np.stack(np.broadcast_arrays(*values))
     return rows if rows.ndim > 1 else rows[:, None]

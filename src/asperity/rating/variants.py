@@ -130,8 +130,8 @@ def variants(
     capacity : bool
         Whether stresses and safeties by ISO/TR 14521 are wanted beside the efficiency.
     loads : bool
-        Whether forces, root stress, powers and the sump by AGMA 6034 are wanted beside its friction,
-        efficiency and torque.
+        Whether forces, root stress, powers and the sump by AGMA 6034 are wanted beside its
+        friction, efficiency and torque.
     folder : path, optional
         Where a relative file name among the options starts.
     **values : array_like
