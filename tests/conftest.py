@@ -152,8 +152,13 @@ def _outside_the_share(items: list[pytest.Item], share: float) -> set[pytest.Ite
 
 
 @pytest.fixture
-def plain_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let kernels that are not in the list be plain Python: few calls take less than compiling."""
+def plain_kernels(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let kernels that are not in the list be plain Python: few calls take less than compiling.
+
+    In slow tests, which call them many times, they are compiled.
+    """
+    if request.node.get_closest_marker("slow"):
+        return
     from mutants import plain
 
     monkeypatch.setattr(compiled._Lazy, "_dispatcher", property(plain.plainly))
