@@ -11,6 +11,7 @@ from asperity.friction.coulomb import mean_share, project
 from asperity.friction.dahl import (
     OVERSHOOT_BOUND,
     SERIES_BOUND,
+    advance,
     inverse_root,
     relaxation,
     relaxation_gain,
@@ -68,6 +69,20 @@ def test_only_split_tells_the_two_slip_parts_apart():
     joined = update(deflection, together, NOTHING, 1.0, 1.0, SPLIT)[0]
     assert math.dist(apart, joined) > 0.01
     assert tangents[0] != tangents[1]
+
+
+@pytest.mark.parametrize("law", LAWS.values())
+@pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
+def test_with_its_tangents_the_update_goes_where_it_goes_without_to_the_last_bit(exponent, law):
+    random = np.random.default_rng(6)
+    for _ in range(20):
+        s, slip = random.uniform(-0.7, 0.7, 2), random.standard_normal(4)
+        new, share, _ = update(
+            tuple(7.0 * s), *map(tuple, 7.0 * slip.reshape(2, 2)), 7.0, exponent, law
+        )
+        wanted = advance(*(7.0 * s / 7.0), *(7.0 * slip / 7.0), exponent, law)
+        assert share == wanted
+        assert new == tuple(7.0 * np.array(wanted))
 
 
 @pytest.mark.slow
