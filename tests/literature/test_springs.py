@@ -80,7 +80,9 @@ def test_the_first_loading_is_dahl_s_law_of_the_contact_s_exponent(law):
         s = np.zeros(len(heights))
         slip = 2.0 / 100
         shares = pulled(s, slip, np.full(100, reference), heights, weights)
-        expected = [advance(0.0, 0.0, slip * n, 0.0, 0.0, 0.0, DAHL[law], VECTOR)[0] for n in range(101)]
+        expected = [
+            advance(0.0, 0.0, slip * n, 0.0, 0.0, 0.0, DAHL[law], VECTOR)[0] for n in range(101)
+        ]
         errors.append(np.abs(shares - expected[1:]).max())
     if law == "linear":
         assert max(errors) < 1e-14
