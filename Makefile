@@ -9,7 +9,8 @@ INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-versi
 # On all cores, what pip does on one: half of the time it takes. Some packages hold files that are
 # no Python to this version; pip is silent about them too. The tests of the packages, a third of
 # all of it, nobody imports; of the tools' packages little is, and Python compiles that as it goes.
-BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 -x '/tests/' .venv/lib || true
+SELDOM := tests|dask|distributed|ezdxf|pip|playwright|pymeasure|pyvista|setuptools|trimesh|vtkmodules
+BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 -x '/($(SELDOM))/' .venv/lib || true
 PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder --durations 25 --durations-min 5
 # Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.
 SHARE ?= 1
@@ -26,24 +27,19 @@ run: .venv/.runtime  ## reproduce the thesis: claims, figures and tables into ou
 # One worker more than cores, since many of these wait for processes, servers and browsers.
 test slow: export PYTEST_XDIST_AUTO_NUM_WORKERS = $(shell $(PYTHON) -c 'import os; print(os.cpu_count() + 1)')
 
-test: KERNELS = $(BIN)/python tests/warm.py &
-slow: KERNELS = $(BIN)/python tests/warm.py --slow &
+slow: WHICH = --slow
 
-# Tests as bytecode, which every worker would make by itself, all at the same time: one half of them
-# beside the other.
-test slow: TESTS = for half in tests/unit 'tests/[!u]*/'; do \
-  $(BIN)/python -m pytest --collect-only -qq $$half >/dev/null & done;
-
-test: .venv/.dev  ## prove what the package states, in a few minutes
+test: .venv/.test  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
 
-slow: .venv/.dev  ## prove the rest of it
+slow: .venv/.test  ## prove the rest of it
 	$(BIN)/python -m pytest -m slow --share $(SHARE) --part $(PART) $(PYTEST_OPTIONS)
 
 lint: .venv/.dev  ## look at format, style and docstrings
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/python docs/docstrings.py
+	$(BIN)/python -m pytest -q tests/unit/test_public_docstrings.py
 
 types: .venv/.dev  ## check the types
 	$(BIN)/mypy
@@ -87,8 +83,16 @@ clean:  ## remove everything that was made
 	@$(BYTES)
 	@touch $@
 
-# Kernels are compiled, if they are to be, on the core that pip leaves free. The package itself is
-# there already, and not built anew: of its own metadata are the packages that come to it.
+# Kernels are compiled on the core that pip leaves free, from when Numba is there.
+.venv/.test: pyproject.toml constraints.txt | .venv/bin/python
+	test -e .venv/.runtime || $(INSTALL) numba
+	@$(BYTES)
+	PYTHONPATH=src $(BIN)/python tests/warm.py $(WHICH) & \
+	  $(INSTALL) -e '.[test]' && { $(BYTES); $(BIN)/python tests/bytecode.py; wait; }
+	@touch .venv/.runtime $@
+
+# The package itself is there already, and not built anew: of its own metadata are the packages that
+# come to it.
 .venv/.dev: .venv/.runtime
-	$(KERNELS) $(INSTALL) 'asperity[dev]' && { $(TESTS) wait; }
+	$(INSTALL) 'asperity[dev]'
 	@touch $@

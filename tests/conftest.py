@@ -152,13 +152,24 @@ def _outside_the_share(items: list[pytest.Item], share: float) -> set[pytest.Ite
 
 
 @pytest.fixture
-def plain_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let kernels that are not in the list be plain Python: few calls take less than compiling."""
+def plain_kernels(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch
+) -> Generator[None]:
+    """Let kernels that are not in the list be plain Python: few calls take less than compiling.
+
+    In slow tests, which call them many times, they are compiled. What Python refuses is infinite to
+    NumPy's numbers as to a kernel: an exponent below zero, of nothing, is given as `np.float64`.
+    """
+    if request.node.get_closest_marker("slow"):
+        yield
+        return
     from mutants import plain
 
     monkeypatch.setattr(compiled._Lazy, "_dispatcher", property(plain.plainly))
     for name, make in plain.makers().items():
         monkeypatch.setattr(np, name, make)
+    with np.errstate(divide="ignore"):
+        yield
 
 
 def pytest_report_header() -> list[str]:

@@ -18,6 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from apparatus import kept
 from asperity.kernels.compiled import kernel
 
 DAHL, LUGRE, COULOMB, SPRINGS = range(4)
@@ -643,6 +644,15 @@ def steps_for(p, frequency, wave):
     return math.ceil(max(needed))
 
 
+def _followed(p, step, way, speed, rise_speed, rise, before, pause, cycles, window, deepest):
+    if p.model in (DAHL, LUGRE):
+        return follow(p, step, speed, rise_speed, rise, before, pause, cycles, window)
+    heights, weights = feet(p, deepest) if p.model == SPRINGS else np.zeros((2, 0))
+    return follow_feet(
+        p, step, way, rise_speed, rise, before, pause, cycles, window, heights, weights
+    )
+
+
 def once(model, p, wave, steps, cycles, window):
     vibration = model.vibration
     frequency = vibration.frequency
@@ -650,18 +660,11 @@ def once(model, p, wave, steps, cycles, window):
     cycle = cycle_of(wave, lead, frequency, steps)
     pause = vibration.start
     before = math.ceil(pause * frequency * steps)
-    if p.model in (DAHL, LUGRE):
-        found = follow(
-            p, cycle.step, cycle.speed, cycle.rise_speed, cycle.rise, before, pause, cycles, window
-        )
-    else:
-        heights = weights = np.zeros(0)
-        if p.model == SPRINGS:
-            heights, weights = feet(p, model.deepest * p.length)
-        found = follow_feet(
-            p, cycle.step, cycle.way, cycle.rise_speed, cycle.rise, before, pause, cycles, window,
-            heights, weights,
-        )  # fmt: skip
+    deepest = model.deepest * p.length if p.model == SPRINGS else 0.0
+    found = kept.answer(
+        __file__, _followed, p, cycle.step, cycle.way, cycle.speed, cycle.rise_speed, cycle.rise,
+        before, pause, cycles, window, deepest,
+    )  # fmt: skip
     return found[0] / p.full, found[1] / p.load
 
 

@@ -8,6 +8,7 @@ import math
 
 import numpy as np
 
+from apparatus import kept, plain_drive
 from apparatus.drives import POINTS, deflection
 from apparatus.plain_drive import COULOMB, DAHL, LUGRE, SINE, SQUARE, TRIANGLE, Plain, march
 
@@ -156,6 +157,14 @@ def plain(drive):
     return model, np.array([turn, shift, roll, *sliding]), torque
 
 
+def _marched(model, start, cycles, per_cycle, judged):
+    """Means over the last of the cycles, and of the torque over each third of those."""
+    means = np.zeros((cycles, 9))
+    march(model, start, cycles, per_cycle, means)
+    blocks = means[-judged:].reshape(3, -1, 9)[:, :, 0].mean(axis=1)
+    return [*means[-judged:].mean(axis=0), *blocks]
+
+
 def solved(drive, cycles, judged):
     """Return the means of the last ``judged`` of so many cycles, and what settles it.
 
@@ -164,12 +173,11 @@ def solved(drive, cycles, judged):
     allowed, ``off``.
     """
     model, start, torque = plain(drive)
-    means = np.zeros((cycles, 9))
     # A step for a share of the asperities' own time too.
     step = min(_PER_STEP, 1.0 / (2000 * drive["frequency"]))
-    march(model, start, cycles, math.ceil(1.0 / (drive["frequency"] * step)), means)
-    last = means[-judged:].mean(axis=0)
-    blocks = means[-judged:].reshape(3, -1, 9)[:, :, 0].mean(axis=1) / torque
+    per_cycle = math.ceil(1.0 / (drive["frequency"] * step))
+    found = kept.answer(plain_drive.__file__, _marched, model, start, cycles, per_cycle, judged)
+    last, blocks = np.array(found[:9]), np.array(found[9:]) / torque
     power = torque * drive["speed"]
     turned = RATIO * last[8] / drive["speed"] - 1.0
     off = max(np.ptp(blocks), abs(last[1] / drive["load"] - 1.0), abs(turned)) / 5e-3

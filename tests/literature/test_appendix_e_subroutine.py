@@ -12,6 +12,8 @@ import pytest
 from asperity.drive.deck.appendix_e import appendix_e
 from asperity.thesis.drive.appendix_e import Subroutine, friction_of_path
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 STUB = "      implicit real*8(a-h,o-z)\n      parameter (nprecd=2)\n"
 DRIVER = """\
       SUBROUTINE DRIVE(N,DGAM,PRESS,PROPS,STATEV,TAU,DDTDDG,DDTDDP,

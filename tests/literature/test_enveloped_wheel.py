@@ -22,6 +22,8 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 IDENTICAL = Hob()
 OVERSIZE = Hob(oversize=1.12, tilt="2 deg")
 HOBS = pytest.mark.parametrize("hob", [IDENTICAL, OVERSIZE], ids=["identical", "12 %, 2 deg"])

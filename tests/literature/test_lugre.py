@@ -18,6 +18,8 @@ from asperity.friction.lugre import stribeck_share
 from asperity.slider import TABLES, Model, Slider, Solve, solve
 from asperity.slider.march import March
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 CANUDAS = {
     "model": "lugre",
     "mu": 0.1,

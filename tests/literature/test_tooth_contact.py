@@ -79,6 +79,7 @@ def tilted():
     return analysed(TILTED)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("flank", ["ZI", "ZA", "ZN"])
 @pytest.mark.parametrize("side", [1, -1])
 def test_identical_hob_every_point_touches_when_it_was_cut(flank, side):

@@ -286,6 +286,7 @@ def test_every_form_names_its_source_and_how_far_it_can_be_trusted():
     assert cf.master_curve_approximated.source.confidence == "from memory"
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_an_asperity_after_dahl_loses_more_and_has_no_end_at_the_critical_velocity():
     # The table of the prototype for exponent 1, whose reduction over the swing reaches on for ever:
     # the package's update with its stiffness kept, at the same rigid drive.

@@ -38,20 +38,30 @@ def pytest_configure():
 
 
 def makers():
-    """What makes the arrays that a kernel makes for itself, by NumPy's names."""
+    """What makes arrays, by NumPy's names: in a kernel such that fields are read by their names."""
     return {name: _making(getattr(np, name)) for name in ("empty", "zeros")}
 
 
 def _making(made):
     @functools.wraps(made)
     def make(*arguments, **options):
-        return _with_attributes(made(*arguments, **options))
+        array = made(*arguments, **options)
+        return _with_attributes(array) if _inside else array
 
     return make
 
 
+# How many kernels are being run: what they call is told from what calls them.
+_inside = 0
+
+
 def _called(self, *arguments):
-    return self._function(*[_with_attributes(one) for one in arguments])
+    global _inside
+    _inside += 1
+    try:
+        return self._function(*[_with_attributes(one) for one in arguments])
+    finally:
+        _inside -= 1
 
 
 def plainly(kernel):

@@ -122,6 +122,7 @@ def linear_step(block, motion, state):
     return end
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_eigenvalues_in_steps_are_those_of_the_steps_that_are_taken():
     block = problem("block.modes=10", "block.damping_ratio=0.01")
     (motion,) = Stability(block).motions

@@ -14,6 +14,8 @@ from asperity.contact.increment.tangents import factored
 from asperity.contact.motion.rest import rest_under_load
 from asperity.contact.motion.steps import Stepper
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 SMALL = ("block.elements=[4,3,3]", "block.element=hex8", "vibration.start=0 s")
 MARCHES = {
     "along": ("block-longitudinal",),

@@ -26,6 +26,8 @@ from asperity.friction import SPLIT, UNSPLIT, VECTOR
 from asperity.friction.two_phase import phases
 from asperity.mesh import box
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 LIMIT = 7e-8
 FACE = contact_surface(box([4e-3, 3e-3, 1e-3], [4, 3, 1], 1), "bottom")
 STIFF = NormalLaw("linear", 4e14)

@@ -12,6 +12,8 @@ from asperity.contact.motion import mechanism as motion
 from asperity.contact.motion.works import potential
 from asperity.errors import InputError
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 
 def swing(steps, *, alpha, period=1.0, spring=None, damping=0.0):
     """March one mass on a spring for a period from a displacement of one.

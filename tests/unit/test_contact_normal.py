@@ -24,6 +24,7 @@ LAWS = {
 }
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("name", LAWS)
 def test_pressure_is_never_negative_grows_and_has_the_slope_it_says(name):
     law, multiplier = LAWS[name]
@@ -79,6 +80,7 @@ def test_the_hard_law_bears_its_multiplier_without_overclosure():
     assert pressure(-3e5 / STIFF * 1.001, 3e5, law) == (0.0, 0.0)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("give", [1e12, 4e14, 1e17])
 def test_an_augmented_overclosure_meets_its_aim(name, give):

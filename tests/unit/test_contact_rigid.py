@@ -9,6 +9,8 @@ from asperity.flanks.worm.distance import distances
 from asperity.flanks.worm.helicoid import Helicoid
 from asperity.gearset import Geometry
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 WORM = Helicoid.worm(
     Geometry.of(starts=4, wheel_teeth=60, axial_module=2.15380, diameter_factor=8.4), "ZI"
 )

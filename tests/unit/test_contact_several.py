@@ -6,6 +6,8 @@ import pytest
 from asperity.contact.candidates.records import Candidates
 from asperity.contact.candidates.several import add_response
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 NODES = 6
 FACES = np.array([[0, 1, 4, 3], [1, 2, 5, 4]])
 

@@ -20,6 +20,8 @@ from asperity.friction import KEEPS, VECTOR, Friction, advance_loaded
 from asperity.slider import Model, Slider
 from asperity.slider.dahl_files import dahl_files
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 COMPILER = shutil.which("cc") or shutil.which("gcc")
 OCTAVE = shutil.which("octave-cli") or shutil.which("octave")
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC"]

@@ -56,6 +56,7 @@ def drawn_steps(count, seed):
         yield law, more, dt, loads, ways
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_in_ten_thousand_steps_of_any_size_asperities_and_teeth_make_no_energy():
     slow = steps = 0
     for law, more, dt, loads, ways in drawn_steps(300, 5):
@@ -80,6 +81,7 @@ def test_in_ten_thousand_steps_of_any_size_asperities_and_teeth_make_no_energy()
     assert slow > 0.8 * steps > 8000
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_of_rigid_teeth_a_step_is_that_of_the_friction_room_s_law():
     for law, _, dt, loads, ways in drawn_steps(60, 6):
         s, share, before = (0.0, 0.0), 1.0, 1.0

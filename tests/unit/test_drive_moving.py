@@ -10,6 +10,8 @@ from asperity.drive.elastic.near import _travelled
 from asperity.drive.motion.kernels import move
 from asperity.vibration.waveform import NO_TABLE, SINE, Wave
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 FREE = {"turn": "turns", "shift": "shifts", "roll": "rolls"}
 FREQUENCY, SPEED = 20e3, 150.0
 SHAKES = {

@@ -8,6 +8,8 @@ import pytest
 
 from asperity.drive.teeth.placing import Stand, place_worm, sliding, to_space
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 # Axes of a worm that lies askew over its wheel, as its mounting may have it.
 TILT = 0.02
 STAND = Stand(

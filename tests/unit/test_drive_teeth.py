@@ -379,6 +379,7 @@ def test_by_the_standard_s_friction_they_go_with_the_speed_as_those_reduced(way)
     assert teeth.ledger.friction > 0.0
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_asperities_keep_their_stiffness_as_the_friction_of_teeth_changes():
     model = model_of("drive.flanks=driving")
     given = model.teeth.laws.interface.friction
@@ -436,6 +437,7 @@ def test_a_step_that_no_tooth_can_be_solved_for_ends_in_one_line(monkeypatch):
         march.stretches(1, 1e-6)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_a_small_matrix_is_inverted_and_one_without_inverse_refused():
     matrix = np.random.default_rng(3).normal(size=(7, 7))
     matrix[0, 0] = 0.0

@@ -20,6 +20,8 @@ from asperity.flanks.worm.helicoid import Helicoid
 from asperity.flanks.worm.types import TYPES
 from asperity.gearset import Geometry
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 GEOMETRY = Geometry.of(starts=4, wheel_teeth=60, axial_module=2.15380, diameter_factor=8.4)
 RELIEF = Modification(tip_relief="20 um", tip_relief_start=0.2, lead_correction="0.05 deg")
 BOTH = Modification(tip_relief="20 um", root_relief="30 um", root_relief_start=0.2)

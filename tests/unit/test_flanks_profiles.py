@@ -10,6 +10,8 @@ from asperity.flanks.parameters import Disc
 from asperity.flanks.worm.profiles import axial, tabulate
 from asperity.flanks.worm.types import TYPES, profile
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 NUMBERS = {
     "pitch_radius": 9.046,
     "lead_angle": 0.444419,

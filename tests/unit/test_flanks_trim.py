@@ -8,6 +8,8 @@ from asperity.flanks.wheel.cutting.trim import base_break, first_psi, next_break
 from asperity.flanks.worm.curve import curve, width
 from asperity.flanks.worm.setting import Pair
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 
 def _pair(flank, starts=1, diameter_factor=10.0):
     return Pair.of(of_module_2(starts, 40, diameter_factor, flank=flank))

@@ -14,6 +14,8 @@ from asperity.flanks.wheel.interference import interference
 from asperity.flanks.worm.setting import Pair
 from asperity.gearset import Gearset
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 
 def _small(teeth=17):
     gearset = of_module_2(1, teeth, 10, "14.5 deg")

@@ -182,6 +182,7 @@ def test_more_speed_never_means_less_friction(law):
     assert np.all(np.diff(law(speeds)) >= 0.0)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_the_law_takes_numbers_and_arrays(law):
     speeds = np.array([[1e-4, 5e-4], [-1e-3, 0.02]])
     forces = law(speeds)
@@ -197,6 +198,7 @@ def test_a_velocity_that_is_not_finite_is_refused(law, velocity):
         law(velocity)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_a_larger_model_can_march_with_the_law(law):
     # m X'' = k_d (v_d t - X) - F(X'), by hand: the body of Table 4.3 long after the start.
     stretch, velocity, h = 5.5 / 96068.0, 0.5e-3, 2e-5
@@ -488,6 +490,7 @@ def test_far_beyond_the_vibration_viscous_friction_adds_to_full_friction(with_lu
     assert law(-5.0) == pytest.approx(-5.5 - 500.0, rel=1e-6)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("name", ["law", "with_lugre"])
 def test_the_slope_of_the_law_is_its_derivative(request, name):
     arguments = request.getfixturevalue(name).arguments

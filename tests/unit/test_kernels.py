@@ -225,6 +225,7 @@ def test_what_python_calls_returns_numbers():
                 assert not any(isinstance(part, ast.Tuple) for part in node.value.elts), name
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @given(st.integers(0, 2**32 - 1), st.integers(1, 40), st.integers(0, 40))
 def test_a_product_is_that_of_numpy(seed, rows, columns):
     rng = np.random.default_rng(seed)
@@ -233,6 +234,7 @@ def test_a_product_is_that_of_numpy(seed, rows, columns):
     assert np.abs(out - x @ a).max(initial=0.0) <= 1e-14 * rows * np.abs(x).max() * 10.0
 
 
+@pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("shape", [(0,), (5,), (3, 4)])
 def test_a_copy_is_that_of_the_original(shape):
     source, target = np.random.default_rng(1).normal(size=shape), np.full(shape, np.nan)

@@ -15,6 +15,8 @@ from asperity.slider import FrictionMap, HomogenisedLaw, pieces
 from asperity.slider import cycle_mean_law as hl
 from asperity.slider.law_files import WRITERS
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 COMPILER = shutil.which("cc") or shutil.which("gcc")
 STRICT = ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", "-O2", "-shared", "-fPIC"]
 compiled = pytest.mark.skipif(COMPILER is None, reason="there is no C compiler here")

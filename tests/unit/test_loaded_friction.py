@@ -10,6 +10,8 @@ from asperity.friction.loaded import DEFLECTION, KEEPS, STIFFNESS, advance_loade
 from asperity.friction.loaded_tangent import update_loaded
 from asperity.kernels.compiled import kernel
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 EXPONENTS = [0.0, 1 / 3, 0.5, 1.0, 1.5, 2.0]
 # Differences of squares of numbers of order one, added up over a path.
 ROUNDING = 1e-13
@@ -46,7 +48,7 @@ def random_path(random, steps=40):
 @pytest.mark.parametrize("exponent", EXPONENTS)
 def test_at_a_constant_load_the_update_is_that_without_one_to_the_last_bit(exponent, law, keeps):
     random = np.random.default_rng(1)
-    for _ in range(300):
+    for _ in range(100):
         s = random.uniform(-0.7, 0.7, 2)
         slip = 10.0 ** random.uniform(-4, 1) * random.standard_normal(4)
         wanted = advance(*s, *slip, exponent, law)
@@ -65,7 +67,7 @@ def test_loads_deflections_and_slips_four_times_as_large_make_four_times_the_fri
     exponent, law
 ):
     random = np.random.default_rng(4)
-    limits, slips = random_path(random, 300)
+    limits, slips = random_path(random, 100)
     for first, last, slip in zip(limits, limits[1:], 0.1 * slips, strict=False):
         s = first * random.uniform(-0.7, 0.7, 2)
         wanted = advance_loaded(*s, *slip, first, last, exponent, law, STIFFNESS)
@@ -94,7 +96,7 @@ def test_where_the_load_falls_below_the_deflection_the_asperity_slips_back(start
     assert found == pytest.approx((0.3, -0.4, 0.3, -0.4), rel=1e-15)
     lost = friction_loss(*s, *found[:2], 0.0, 0.0, 2.0, 0.5, STIFFNESS)
     assert lost == pytest.approx(0.5 * (start**2 - 0.5**2))
-    again = advance_loaded(*found[:2], 0, 0, 0, 0, 0.5, 2.0, 1.0, LAWS["vector"], STIFFNESS)
+    again = advance_loaded(*found[:2], 0.0, 0.0, 0.0, 0.0, 0.5, 2.0, 1.0, LAWS["vector"], STIFFNESS)
     assert again == pytest.approx(found, rel=1e-15)
 
 
@@ -112,7 +114,7 @@ def test_a_contact_that_opens_forgets_and_lands_straight(law, exponent, keeps):
 
 def test_no_slip_and_no_fall_of_the_load_moves_nothing():
     for law in LAWS.values():
-        found = advance_loaded(0.5, -0.2, 0, 0, 0, 0, 1.0, 1.7, 1.0, law, STIFFNESS)
+        found = advance_loaded(0.5, -0.2, 0.0, 0.0, 0.0, 0.0, 1.0, 1.7, 1.0, law, STIFFNESS)
         assert found == pytest.approx((0.5, -0.2, 0.5, -0.2), rel=1e-15)
 
 
@@ -159,7 +161,7 @@ def tangents(s, varied, limit_0, exponent, law, keeps):
 def test_the_tangents_by_slip_and_load_are_the_differences(law, exponent, keeps):
     random = np.random.default_rng(3)
     smooth = 0
-    for _ in range(100):
+    for _ in range(50):
         limit_0, limit_1 = random.uniform(0.2, 2.0, 2)
         size, angle = limit_0 * random.random(), random.uniform(-np.pi, np.pi)
         s = size * np.array([np.cos(angle), np.sin(angle)])
@@ -171,7 +173,7 @@ def test_the_tangents_by_slip_and_load_are_the_differences(law, exponent, keeps)
             continue  # a kink between the points has no derivative
         smooth += 1
         assert tangents(*point) == pytest.approx(found, abs=1e-5)
-    assert smooth > 90
+    assert smooth > 45
 
 
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
@@ -189,7 +191,7 @@ def test_at_the_limit_and_a_load_that_stays_the_tangent_by_load_is_that_of_a_ris
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_the_update_with_tangents_goes_where_the_plain_one_goes(law, keeps):
     random = np.random.default_rng(4)
-    for n in range(300):
+    for n in range(100):
         s, slip = random.uniform(-0.7, 0.7, 2), random.standard_normal(4)
         loads = random.uniform(0.0, 2.0, 2) if n % 10 else (1.0, 0.0)
         exponent = EXPONENTS[n % 6]
@@ -205,7 +207,7 @@ def test_the_update_with_tangents_goes_where_the_plain_one_goes(law, keeps):
 @pytest.mark.parametrize("exponent", EXPONENTS)
 def test_a_turn_of_the_frame_turns_the_friction_under_a_changing_load(exponent):
     random = np.random.default_rng(5)
-    for _ in range(300):
+    for _ in range(100):
         s, slip = random.uniform(-0.7, 0.7, 2), random.standard_normal(2)
         loads, angle = random.uniform(0.1, 2.0, 2), random.uniform(-np.pi, np.pi)
         c, sine = np.cos(angle), np.sin(angle)

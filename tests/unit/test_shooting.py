@@ -14,6 +14,8 @@ from asperity.slider.scaled import SPRINGS
 from asperity.slider.shooting import ACCEPTED
 from asperity.vibration import Vibration
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 LAWS = ["split", "unsplit", "vector"]
 RIGID = {"slider.drive_stiffness": None, "slider.drive_damping": None}
 

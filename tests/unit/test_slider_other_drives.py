@@ -9,6 +9,8 @@ from asperity.slider import Model, Slider, Solve
 from asperity.slider.integrators import integrator
 from asperity.slider.other_drives import carried, damped, in_longer_steps
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 MASS, SPRING, STEP = 0.5, 96068.0, 2e-6
 
 

@@ -100,20 +100,17 @@ def model_of(*settings, name):
 def foreseen_beside(cycle):
     """The ratio that is foreseen on half the step, or None, and that of the cycle."""
     here, part = step_error._ratio(cycle), orders.part_of_difference(cycle.body.model)
-    return step_error._foreseen(cycle, cycle.jacobian, cycle.slopes, here, part)[0], here
+    jacobian, slopes = map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
+    return step_error._foreseen(cycle, jacobian, slopes, here, part)[0], here
 
 
 @pytest.mark.parametrize(
     ("name", "settings"),
     [
         ("table-4.3", ("friction.contact_damping=20 N s/m", "friction.model=lugre")),
-        # On an empty cache ten seconds of compiling: no command asks that kernel of such a body.
-        pytest.param("normal-pin", (), marks=pytest.mark.slow),
+        ("normal-pin", ()),
         # The wave normal to the plane has its corners elsewhere, which steps miss by a little.
-        pytest.param(
-            "normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg"),
-            marks=pytest.mark.slow,
-        ),
+        ("normal-pin", ("vibration.normal_phase=0.6 rad", "vibration.elevation=80 deg")),
     ],
 )  # fmt: skip
 def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):

@@ -5,6 +5,8 @@ from asperity.friction.two_phase import phases
 from asperity.thesis.contents import FIGURES
 from asperity.thesis.sliding.schemes import increment
 
+pytestmark = pytest.mark.usefixtures("plain_kernels")
+
 
 def test_every_figure_asked_for_is_there():
     assert list(FIGURES) == [
