@@ -19,6 +19,7 @@ from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import (
     FARTHEST,
+    WHEN_SETTLED,
     faded_after,
     ringing_time,
     rings_on_drive,
@@ -101,7 +102,7 @@ def until_settled(model: Model, marching: Marching[A], instead: str | None = "pe
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:
             return answer
-        until = "when it had settled" if answer.settled else "and has not settled"
+        until = WHEN_SETTLED if answer.settled else "and has not settled"
         note = f"solve.duration is left out: the march went on to {marched:.3g} s, {until}"
         return dataclasses.replace(answer, notes=(note, *answer.notes))
 
