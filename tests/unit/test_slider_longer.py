@@ -80,7 +80,9 @@ def come_to(means, residual, duration, *settings):
 
 def test_asperities_that_are_bent_back_in_every_cycle_fade_and_have_no_tail():
     means = [0.5 - 0.4 * 0.3**quarter for quarter in range(4)]
-    bent = "friction.exponent=2", "slider.drive_damping=400 N s/m"
+    bent = (
+        "friction.exponent=2", "slider.drive_damping=400 N s/m", "friction.max_deflection=10 um",
+    )  # fmt: skip
     on, back, across = (
         needed(come_to(means, 0.17, 0.1, *bent, f"vibration.velocity_ratio={ratio}", *more))
         for ratio, more in (
@@ -247,3 +249,29 @@ def test_a_mean_that_hardly_moves_is_promised_no_duration(change, told):
 ])  # fmt: skip
 def test_durations_are_told_in_two_digits_rounded_up(duration, told):
     assert upward(duration * (1.0 - 1e-12)) == pytest.approx(told, rel=1e-9)
+
+
+def test_a_drive_that_is_stretched_by_a_body_at_rest_is_not_foreseen_to_be_so_for_long():
+    """Its means rise evenly, as what hardly fades; friction holds no more than itself."""
+    body = Model.from_case(read_case("table-4.3", TABLES, ["vibration.start=0 s"]))
+    stretched = body.full_friction / (body.slider.drive_stiffness * body.slider.drive_velocity)
+    settings = ("vibration.velocity_ratio=0.5", f"solve.duration={0.7 * stretched!r} s")
+    early = Model.from_case(read_case("table-4.3", TABLES, ["vibration.start=0 s", *settings]))
+    answer = solve(early, history=False)
+    assert not answer.settled
+    (said,) = [note for note in answer.notes if "would do, by the means" in note]
+    does = float(said.split()[3])
+    assert does < 1.5 * (early.usual_duration + stretched)
+    assert solve(lasting(early, does), history=False).settled
+
+
+def test_asperities_with_a_tail_are_foreseen_as_long_as_their_law_takes():
+    """While the drive is being stretched the means change by more than a tail would."""
+    tail = "friction.exponent=2", "slider.drive_damping=400 N s/m", "vibration.start=0 s"
+    settings = *tail, "vibration.velocity_ratio=0.9", "solve.duration=0.3 s"
+    early = Model.from_case(read_case("table-4.3", TABLES, settings))
+    answer = solve(early, history=False)
+    (said,) = [note for note in answer.notes if "would do, by the means" in note]
+    does = float(said.split()[3])
+    assert does < 2.0
+    assert solve(lasting(early, does), history=False).settled

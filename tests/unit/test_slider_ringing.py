@@ -1,5 +1,6 @@
 """Marches whose window does not show what still changes: ringing, a ring of the drive, a drift."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -12,8 +13,9 @@ from asperity.slider import TABLES, Model, cycle_map, solve, static
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import from_rest
 from asperity.slider.held import Creep
+from asperity.slider.march import March
 from asperity.slider.periodic import cycle_steps, settle
-from asperity.slider.ringing import UNHEARD, faded_after, ringing_time, rings
+from asperity.slider.ringing import UNHEARD, as_it_rings, faded_after, ringing_time, rings
 from asperity.slider.timetable import FAR
 
 
@@ -270,3 +272,30 @@ def test_where_a_period_begins_to_double_a_disturbance_lasts():
     assert told.settled_by.endswith("but a disturbance lasts, and the ratio follows it")
     assert any(note.startswith("of this periodic state a disturbance lasts") for note in told.notes)
     assert told.ratio == pytest.approx(answers[18.3].ratio, abs=2e-3)
+
+
+def test_what_rings_on_is_not_told_to_have_settled_when_it_went_on():
+    path = "vibration.velocity_ratio=6", "normal.damping_ratio=0", "solve.method=march"
+    answer = solve(Model.from_case(read_case("normal-pin", TABLES, path)), history=False)
+    went = "solve.duration is left out: the march went on to 12.8 s, when it had settled"
+    steady = dataclasses.replace(answer, settled=True, notes=(went,))
+    told = as_it_rings(steady)
+    assert not told.settled
+    assert told.notes == (went.replace("it had settled", "its means were steady"),)
+
+
+def test_a_long_march_goes_on_with_a_word_and_names_the_damping_that_is_lacking():
+    settings = "solve.method=march", "normal.damping_ratio=0", "solve.step=5 ns"
+    model = Model.from_case(read_case("normal-pin", TABLES, settings))
+    told = []
+    march = March(model, run=Run(notify=told.append))
+    march.go_on(4.0 * march.duration)
+    (said,) = told
+    assert f"{march.table.steps:.3g} steps are tried" in said
+    assert "give a normal.damping_ratio" in said
+    silent = []
+    damped = "solve.method=march", "solve.step=5 ns"
+    damped = Model.from_case(read_case("normal-pin", TABLES, damped))
+    march = March(damped, run=Run(notify=silent.append))
+    march.go_on(4.0 * march.duration)
+    assert not silent

@@ -19,6 +19,7 @@ from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import (
     FARTHEST,
+    WHEN_SETTLED,
     faded_after,
     ringing_time,
     rings_on_drive,
@@ -101,7 +102,7 @@ def until_settled(model: Model, marching: Marching[A], instead: str | None = "pe
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:
             return answer
-        until = "when it had settled" if answer.settled else "and has not settled"
+        until = WHEN_SETTLED if answer.settled else "and has not settled"
         note = f"solve.duration is left out: the march went on to {marched:.3g} s, {until}"
         return dataclasses.replace(answer, notes=(note, *answer.notes))
 
@@ -148,9 +149,10 @@ def needed(window: WindowMeans) -> float | None:
             return None
     if (far := still_to_bend(model, table, residual)) > FAR:
         times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)
-        if times > _MOST_TIMES:
+        bent = min(model.start + (model.duration - model.start) * times, _bent(model))
+        if bent > _MOST_TIMES * model.duration:
             return None
-        least.append(model.start + (model.duration - model.start) * times)
+        least.append(bent)
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
     longest = max(
@@ -168,6 +170,19 @@ def _loading(model: Model) -> float:
     return _SPARE * held / (slider.drive_stiffness * slider.drive_velocity)
 
 
+def _bent(model: Model) -> float:
+    r"""Time in which asperities with an exponent above 1 come near their limit, s.
+
+    A deflection that lacks :math:`w` of the limit :math:`s_{max}` comes nearer by
+    :math:`dw/dx = -w^i/s_{max}` over the way :math:`x` of the drive, once that is stretched.
+    """
+    slider, friction = model.slider, model.friction
+    bends = friction.deflection_limit(slider.normal_force) / slider.drive_velocity
+    left = math.pow(_LEFT * FAR, friction.exponent - 1.0)
+    whole = model.window / (1.0 - 0.5 * WINDOW_SHARE)
+    return model.start + _loading(model) + whole + bends / ((friction.exponent - 1.0) * left)
+
+
 def _fading(of: WindowMeans) -> float | None:
     r"""Duration in which the change of the means fades, s; None where it does not.
 
@@ -178,6 +193,11 @@ def _fading(of: WindowMeans) -> float | None:
     if quarters is None:
         return None
     window = of.table.window * of.table.step
+    friction = model.friction
+    most = (friction.static_mu or friction.mu) / friction.mu - of.quarters[-1]
+    left = 0.5 * (of.quarters[3] - of.quarters[1]) * quarters
+    if left > most > 0.0 and still_loads(model, of.table, of.residual):
+        return None  # it seems to go beyond what friction holds: a drive that is stretched at rest
     tau = 0.25 * window * quarters
     begin = model.duration - window
     change = of.residual / apart(window / tau)

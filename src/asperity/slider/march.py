@@ -15,7 +15,9 @@ from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
+from asperity.runs.run import duration as in_words
 from asperity.runs.tree import Tree
+from asperity.slider.cost import estimate
 from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
 from asperity.slider.integrators import integrator
@@ -23,7 +25,7 @@ from asperity.slider.judged_march import judged_answer
 from asperity.slider.longer import lasting, until_settled
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
-from asperity.slider.ringing import as_it_rings
+from asperity.slider.ringing import as_it_rings, ringing_time
 from asperity.slider.scaled import Parameters
 from asperity.slider.steady import (
     fading_rate,
@@ -44,6 +46,7 @@ from asperity.slider.timetable import (
 from asperity.vibration.waveform import AT_REST
 
 _RECORDS = 4000
+_LONG = 5.0  # s, by the estimate, that a march goes on for without a word
 _SPARE = 1.2  # times what is foreseen
 # Of the window, times that disturbances of steady sliding fade in half of it for the rest to tell
 # anything; and of mu F_N, from which on friction swings.
@@ -153,6 +156,13 @@ class March:
         """Take a later end, s."""
         self._timed = lasting(self.model, duration)
         self.table = Timetable(self._timed)
+        seconds = estimate(self._timed)
+        if math.isinf(ringing_time(self.model)) and seconds > _LONG:
+            self._run.notify(
+                f"nothing damps the contact, which may never settle: {self.table.steps:.3g} steps "
+                f"are tried, which take about {in_words(seconds)}; give a normal.damping_ratio, "
+                "or a solve.duration"
+            )
         self._start, self._first_half, self._quarters = None, None, []
 
     def to_the_end(self) -> tuple[SlideResult, float | None]:

@@ -29,6 +29,8 @@ from asperity.slider.summary import history_of, summarise
 _LEAST_STEPS = 256
 _REST_STEPS = 64
 _MOST_STEPS = 1e6
+GROWS = "but a disturbance grows"
+"""What is said of a state that is unstable."""
 DOUBLED = 4  # cycles that are tried always; 8 where a state over those has a doubled one beside it
 _LEAST_WAY = 1e-10  # of the deflection limit, that a drive goes in a cycle
 _OF_MANY = (
@@ -170,7 +172,13 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
     if other is None or other.state is not None:
         return answer
     standing = f"{answer.settled_by}, but a body from rest stays at a ratio of {other.ratio:.5g}"
-    return dataclasses.replace(answer, settled=False, settled_by=standing, step_error=None)
+    return dataclasses.replace(
+        answer,
+        settled=False,
+        settled_by=standing,
+        step_error=None,
+        ratio_from_rest=other.ratio,
+    )
 
 
 def answer_of(
@@ -214,9 +222,9 @@ def standing_of(cycle: Cycle, growth: float) -> Standing:
     cycles = "every cycle" if cycle.period == 1 else f"every {cycle.period} cycles"
     repeats = f"the state repeats itself {cycles} to {ACCEPTED:g}"
     if growth > UNSTABLE:
-        return Standing(False, f"{repeats}, but a disturbance grows {growth:.3g} times")
+        return Standing(False, f"{repeats}, {GROWS} {growth:.3g} times")
     if cycle.grows_slowly(growth):
-        return Standing(False, f"{repeats}, but a disturbance grows {growth:.7g} times")
+        return Standing(False, f"{repeats}, {GROWS} {growth:.7g} times")
     if cycle.one_of_many(growth):
         if cycle.q is not None:
             rings = ringing_time(cycle.body.model) * cycle.body.model.frequency

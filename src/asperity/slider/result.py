@@ -50,6 +50,9 @@ class SlideResult(Result):
         What shows it, or what is missing.
     step_error : float or None
         Estimated error of the ratio that the time step makes; None where it is not estimated.
+    ratio_from_rest : float or None
+        Where a march from rest settles, or stays, beside a periodic state that a body from rest
+        does not come to; None where none is shown that has not settled for that.
     residual : float
         How far from an answer it may be. ``march``: change of the mean drive force from the first
         to the second half of the window over :math:`\mu F_N` (steadiness), above 1e-3 also where a
@@ -162,6 +165,9 @@ class SlideResult(Result):
     settled: bool = whether_settled()
     settled_by: str = by_what()
     step_error: float | None = error_of_step()
+    ratio_from_rest: float | None = quantity(
+        "", "", "ratio that a march from rest comes to", default=None, optional=True
+    )
     residual: float = quantity("", "", "residual of the method")
 
     @property

@@ -36,6 +36,8 @@ UNHEARD = (
     "little or nothing damps the contact: it rings as the vibration began, but the ratio does not "
     "follow that: it is the same in the state next to it without a ring"
 )
+WHEN_SETTLED, WHEN_STEADY = "when it had settled", "when its means were steady"
+"""How a note ends on a march that went on by itself; the latter of one that rings."""
 OF_MANY = "the state is one of many: nothing damps the contact, and the ratio follows its ringing"
 
 
@@ -235,4 +237,5 @@ def as_it_rings(answer: SlideResult) -> SlideResult:
     if not (answer.settled and rings(answer.model)) or UNHEARD in answer.notes:
         return answer
     by = f"{answer.settled_by}, but {lasting_ring(answer.model)}"
-    return dataclasses.replace(answer, settled=False, settled_by=by, step_error=None)
+    notes = tuple(note.replace(WHEN_SETTLED, WHEN_STEADY) for note in answer.notes)
+    return dataclasses.replace(answer, settled=False, settled_by=by, step_error=None, notes=notes)

@@ -13,7 +13,7 @@ from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
 from asperity.slider.march import march
 from asperity.slider.model import Model
-from asperity.slider.periodic import AperiodicError, none_stable, solve_periodic
+from asperity.slider.periodic import GROWS, AperiodicError, none_stable, solve_periodic
 from asperity.slider.result import SlideResult
 from asperity.slider.timetable import Timetable
 
@@ -27,7 +27,8 @@ def solve(
 ) -> SlideResult:
     """Solve a sliding body by the method its case names.
 
-    A body for which no periodic state is found is marched, and its answer says so.
+    A body for which no periodic state is found is marched, and its answer says so; one whose state
+    is unstable is marched too, and its answer says where that settles.
 
     Parameters
     ----------
@@ -55,9 +56,11 @@ def solve(
     _check_method(model)
     if model.solve.method == "periodic":
         try:
-            return solve_periodic(model, history=history, rested=True)
+            found = solve_periodic(model, history=history, rested=True)
         except AperiodicError as error:
             none = error
+        else:
+            return beside_march(found, stop=stop, run=run)
         answer = march(_to_march(model, none), history=history, stop=stop, run=run)
         left = none.reached.get("residual", math.nan)
         note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
@@ -78,6 +81,34 @@ def solve(
     return march(model, history=history, stop=stop, run=run)
 
 
+def beside_march(
+    answer: SlideResult,
+    *,
+    stop: npt.NDArray[np.int64] | None = None,
+    run: Run | None = None,
+) -> SlideResult:
+    """Return a periodic state; of one that is unstable, with where a march from rest settles."""
+    if answer.settled or GROWS not in answer.settled_by:
+        return answer
+    try:
+        rest = march(_to_march(answer.model), history=False, stop=stop, run=run)
+    except (ConvergenceError, InputError):
+        return answer
+    if not rest.settled:
+        note = (
+            f"a march from rest has not settled, at a ratio of {rest.ratio:.5g}: see solve.method "
+            "'march'"
+        )
+        return dataclasses.replace(answer, notes=(*answer.notes, note))
+    settles = f"a march from rest settles at a ratio of {rest.ratio:.5g}"
+    return dataclasses.replace(
+        answer,
+        settled_by=f"{answer.settled_by}; {settles}",
+        ratio_from_rest=rest.ratio,
+        notes=(*answer.notes, f"{settles}: solve.method 'march' shows it"),
+    )
+
+
 def _check_method(model: Model) -> None:
     if model.solve.method == "settled":
         raise InputError(
@@ -86,14 +117,14 @@ def _check_method(model: Model) -> None:
         )
 
 
-def _to_march(model: Model, error: ConvergenceError) -> Model:
-    """Return a model without a periodic state as one to march; raises if it cannot be."""
+def _to_march(model: Model, error: ConvergenceError | None = None) -> Model:
+    """Return a model as one to march; raises an error, or why not, if it cannot be."""
     plain = model.solve.model_copy(update={"method": "march"})
     marched = dataclasses.replace(model, solve=plain)
     try:
         Timetable(marched)
-    except InputError:
-        raise error from None
+    except InputError as why:
+        raise error or why from None
     return marched
 
 

@@ -3,9 +3,15 @@
 import dataclasses
 from collections.abc import Sequence
 
+import numpy as np
+
+from asperity.arrays import FloatArray
+
 POINT = "point"  # the dimension of values that change together
 
 Value = float | str
+
+_DECADE = 10.0
 
 
 @dataclasses.dataclass(frozen=True)
@@ -78,3 +84,12 @@ def spanned(axes: Sequence[Axis]) -> tuple[tuple[int, ...], tuple[int, ...]]:
             shared[axis.along] = place
         runs.append(place)
     return tuple(shape), tuple(runs)
+
+
+def by_factors(values: FloatArray) -> bool:
+    """Whether numbers, in any order, go over a decade in factors more even than their steps."""
+    given = np.unique(values)
+    if given.size < 3 or not 0.0 < _DECADE * given[0] <= given[-1] * (1.0 + 1e-9):
+        return False
+    steps, factors = np.diff(given), np.diff(np.log(given))
+    return bool(factors.max() / factors.min() < steps.max() / steps.min())

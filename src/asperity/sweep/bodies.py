@@ -29,8 +29,9 @@ class Bodies(Subject):
     title = "Sliding body over a grid"
     heading = "mean drive force over mu F_N"
     shown = "ratio"
-    # Of a body that is pressed.
+    # Of a body that is pressed, but for the first: where a state does not stay.
     beside: ClassVar[Mapping[str, str]] = {
+        "ratio_from_rest": "from rest",
         "ratio_mean_load": "F/mu N",
         "open_share": "open",
         "period": "period",

@@ -23,6 +23,7 @@ from asperity.slider.model import Model
 from asperity.slider.orders import power_of
 from asperity.slider.periodic import cycle_steps
 from asperity.slider.result import SlideResult, inputs
+from asperity.slider.slide import beside_march
 from asperity.slider.step_error import NOTED, WANTED, allowed_of
 from asperity.sweep.axes import parse_axes
 from asperity.sweep.axis import Axis
@@ -247,8 +248,7 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         run.forecast(sum(time_of_cycles(body, _CYCLES) for body in bodies), f"{len(bodies)} states")
         for body in bodies[len(rows) :]:
             state = walk.to(body)
-            settled = not isinstance(state, ConvergenceError) and state.settled
-            rest = walk.from_rest() if settled and len(rows) < len(models) else np.nan
+            rest = _from_rest(walk, state) if len(rows) < len(models) else np.nan
             rows.append(np.array([*(_of(state, name) for name in names), rest]))
             if not isinstance(state, ConvergenceError):
                 notes += [
@@ -271,6 +271,19 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
     )
 
 
+def _from_rest(walk: Walk, state: SlideResult | ConvergenceError) -> float:
+    """Return the ratio of a body from rest, if it comes to another state than the last; NaN else.
+
+    Where the last is unstable that of its march, if it settles.
+    """
+    if isinstance(state, ConvergenceError):
+        return np.nan
+    if state.settled:
+        return walk.from_rest()
+    rest = beside_march(state).ratio_from_rest
+    return np.nan if rest is None else rest
+
+
 def _of_the_step(models: list[Model], ratio: FloatArray, error: FloatArray) -> tuple[str, ...]:
     """Return a note on the states of which the step makes more of an error than it may."""
     over = error / allowed_of(ratio)
@@ -280,7 +293,7 @@ def _of_the_step(models: list[Model], ratio: FloatArray, error: FloatArray) -> t
     advice = "steps that are finer were tried"
     if models[0].solve.step is not None:
         steps = np.array([model.step / model.substeps for model in models])
-        does = steps / over ** (1.0 / power_of(models[0]))
+        does = steps / np.where(great, over, 1.0) ** (1.0 / power_of(models[0]))
         advice = smaller_step(float(does[great].min()), 1.0)
     return (
         f"{NOTED} {error[great].max():.2g} in a ratio, and of more than {WANTED:g} of it in "

@@ -9,7 +9,7 @@ from asperity.rating.demands import DEMANDS
 from asperity.rating.standing import NAMES
 from asperity.results.figures import BLACK, BLUE, COLOURS, DASHES, VERMILION, axes_grid, legend
 from asperity.results.panels import MARKERS
-from asperity.sweep.axis import POINT
+from asperity.sweep.axis import POINT, by_factors
 from asperity.sweep.maps import axis_label, balances, plane, plot_map, resonances, ticks
 from asperity.sweep.result import MOST_AXES
 
@@ -66,6 +66,7 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
         _many_lines(panel, along, curves, across)
     if "settled" in dataset:
         _mark_unsettled(panel, along, dataset, ratio)
+    _scale(panel, along)
     if drives:
         panel.set_title(balances(dataset).replace("; ", ";\n"), loc="left", fontsize=10.0)
         if across is None and _is_numeric(along):
@@ -120,9 +121,16 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
             )  # fmt: skip
         panel.set_ylabel(label)
         panel.margins(x=0.01)
+        _scale(panel, dataset["value"])
     legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     every[-1].set_xlabel(f"{name} ({unit})" if unit else name)
     return figure
+
+
+def _scale(panel: "Axes", along: "xr.DataArray") -> None:
+    """Have factors as far apart as each other, where values go by factors."""
+    if _is_numeric(along) and along.name != POINT and by_factors(along.values):
+        panel.set_xscale("log")
 
 
 def _beside(panel: "Axes", title: str) -> None:
@@ -133,7 +141,7 @@ def _beside(panel: "Axes", title: str) -> None:
 def _mark_unsettled(
     panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset", ratio: "xr.DataArray"
 ) -> None:
-    """Cross out what has not settled, and say so."""
+    """Cross out what has not settled, and say so; beside it where a march from rest settles."""
     order = (along.name, ...)
     loose = ~(dataset["settled"].transpose(*order).values.reshape(along.size, -1) > 0.0)
     values = ratio.transpose(*order).values.reshape(along.size, -1)
@@ -146,6 +154,15 @@ def _mark_unsettled(
         for column, out in zip(values.T, loose.T, strict=True)
     ]
     crosses[0].set_label("not settled")
+    if "ratio_from_rest" in dataset:
+        rest = dataset["ratio_from_rest"].transpose(*order).values.reshape(along.size, -1)
+        marks = [
+            panel.plot(
+                places, column, linestyle="", marker="^", color=BLACK, fillstyle="none", zorder=5
+            )[0]
+            for column in rest.T
+        ]
+        marks[0].set_label("from rest")
     # Beside it: in it a cross would be one more that has not settled.
     lines = panel.get_legend()
     _beside(panel, "" if lines is None else lines.get_title().get_text())
@@ -183,12 +200,13 @@ def _many_lines(
 ) -> None:
     import matplotlib as mpl
     from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
+    from matplotlib.colors import LogNorm, Normalize
 
     shades = mpl.colormaps["viridis"]
     places = np.arange(curves.shape[1])
     numbers = across.values if _is_numeric(across) else places
-    scale = Normalize(float(numbers.min()), float(numbers.max()))
+    even = LogNorm if _is_numeric(across) and by_factors(across.values) else Normalize
+    scale = even(float(numbers.min()), float(numbers.max()))
     for place in places:
         _line(panel, axis, curves[:, place], color=shades(scale(numbers[place])))
     bar = panel.figure.colorbar(ScalarMappable(scale, shades), ax=panel, label=_label(across))
@@ -259,6 +277,7 @@ def plot_along(dataset: "xr.Dataset") -> "Figure":
     lower.set_ylabel("efficiency (%)")
     lower.set_xlabel(axis_label(axis))
     for panel in (upper, lower):
+        _scale(panel, axis)
         if panel.lines[1:]:
             legend(panel, loc="upper left", bbox_to_anchor=(1.0, 1.0))
         if not numeric:

@@ -1,0 +1,74 @@
+"""Pictures of sweeps: scales."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from asperity.sweep.axis import by_factors
+from asperity.sweep.plots import plot_along, plot_branches, plot_sweep
+
+FACTORS = (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)
+
+
+@pytest.mark.parametrize(
+    ("values", "found"),
+    [
+        (FACTORS, True),
+        (FACTORS[::-1], True),
+        ((1.0, 2.0, 5.0, 10.0), True),
+        (np.geomspace(0.1, 1.0, 4), True),
+        ((*range(1, 10), *range(10, 101, 10)), True),
+        (np.linspace(1.0, 1000.0, 12), False),
+        ((1.0, 5.5, 10.0), False),
+        (np.geomspace(1.0, 9.0, 6), False),  # less than a decade
+        ((0.0, 1.0, 10.0, 100.0), False),
+        ((-1.0, -10.0, -100.0), False),
+        ((1.0, 1000.0), False),  # nobody knows how two are spread
+        ((1.0, 1.0, 1000.0), False),
+    ],
+)
+def test_values_go_by_factors_or_by_steps(values, found):
+    assert by_factors(np.array(values, dtype=float)) is found
+
+
+def swept(values, others=(1.0,), name="frequency"):
+    """A sweep's dataset of ratios by hand."""
+    attributes = {"units": "Hz", "long_name": name}
+    return xr.Dataset(
+        {"ratio": ((name, "mass"), np.ones((len(values), len(others))))},
+        {
+            name: (name, np.array(values), attributes),
+            "mass": ("mass", np.array(others), {"units": "kg", "long_name": "mass"}),
+        },
+    )
+
+
+@pytest.mark.parametrize(("values", "scale"), [(FACTORS, "log"), (range(7), "linear")])
+def test_what_goes_by_factors_has_a_scale_of_factors(values, scale):
+    (panel, *_) = plot_sweep(swept(values)).axes
+    assert panel.get_xscale() == scale
+
+
+def test_so_have_the_colours_of_many_lines():
+    (_, bar) = plot_sweep(swept(np.arange(1.0, 12.0), np.geomspace(1.0, 1e3, 10))).axes
+    assert bar.get_yscale() == "log"
+    (_, bar) = plot_sweep(swept(np.arange(1.0, 12.0), np.arange(1.0, 11.0))).axes
+    assert bar.get_yscale() == "linear"
+
+
+def test_but_rows_of_a_table_of_points_have_places():
+    (panel, *_) = plot_sweep(swept(FACTORS, name="point")).axes
+    assert panel.get_xscale() == "linear"
+
+
+def test_so_have_branches_and_safeties():
+    both = np.ones((2, len(FACTORS)))
+    names = ("ratio", "penetration_swing", "open_share", "settled")
+    ways = xr.Dataset(
+        dict.fromkeys(names, (("way", "value"), both)),
+        {"way": ["there", "back"], "value": np.array(FACTORS)},
+        {"axis": "vibration.frequency", "axis_unit": "Hz"},
+    )
+    assert {panel.get_xscale() for panel in plot_branches(ways).axes} == {"log"}
+    gears = swept(FACTORS).isel(mass=0).rename(ratio="margin")
+    assert {panel.get_xscale() for panel in plot_along(gears).axes} == {"log"}
