@@ -215,6 +215,22 @@ def test_a_growth_over_many_cycles_is_that_of_one_so_many_times(name):
     assert cycle._growth_over(4) == pytest.approx(found.multiplier(), rel=1e-3)
 
 
+def test_a_push_fades_as_a_drive_has_it_that_is_damped_beyond_ringing():
+    """Coulomb friction that never reverses is a load: m x'' + c x' + k x is constant."""
+    mass, damping, stiffness, frequency = 1e-3, 200.0, 1e4, 1e3
+    slider = Slider(
+        drive_velocity=0.5e-3, normal_force=50.0, mass=mass, drive_stiffness=stiffness,
+        drive_damping=damping, units="SI"
+    )  # fmt: skip
+    shaken = Vibration(frequency=frequency, velocity_ratio=0.2, units="SI")
+    friction = Friction(model="coulomb", mu=0.1, units="SI")
+    cycle = Cycle(Model(slider, friction, shaken, Solve(method="periodic")), 100, 1e-5)
+    assert cycle.find(0)
+    rate = (damping - math.sqrt(damping**2 - 4.0 * stiffness * mass)) / (2.0 * mass)
+    a_cycle, _ = cycle._of_pushes(1e-3, 1.1)
+    assert a_cycle == pytest.approx(math.exp(-rate / frequency), rel=1e-6)
+
+
 def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_state_that_stays():
     answer = solve_periodic(falling(stribeck_velocity=1e-3, static_mu=0.2), history=False)
     assert not answer.settled
