@@ -100,6 +100,16 @@ def test_its_friction_and_powers_are_those_of_a_cycle():
     assert homogenised.ledger.residual < 2e-3
 
 
+def test_what_a_heavy_body_takes_to_go_faster_is_in_its_balance():
+    settings = "slider.mass=50 kg", "vibration.velocity_ratio=20", "solve.duration=0.15 s"
+    answer = solve(body("table-4.3", "solve.method=homogenised", *settings))
+    late = answer.history.time >= 0.1425
+    speed = answer.history.velocity[late, 0]
+    gained = 0.5 * 50.0 * (speed[-1] ** 2 - speed[0] ** 2) / 7.5e-3
+    assert gained > 0.1 * answer.ledger.vibration
+    assert answer.ledger.residual < 2e-4
+
+
 def test_a_body_that_is_free_does_not_drift_sideways_in_any_of_its_states():
     # A march with the law has no drift to wait for: each of its states is one that lasts.
     answer = solve(body("table-4.4", "solve.method=homogenised", "vibration.direction=30 deg"))
