@@ -110,6 +110,17 @@ def test_what_a_heavy_body_takes_to_go_faster_is_in_its_balance():
     assert answer.ledger.residual < 2e-4
 
 
+def test_of_a_pressed_body_that_still_gets_faster_no_state_s_multiplier_is_told(monkeypatch):
+    # A coarse law does.
+    monkeypatch.setattr(hl, "_POINTS_BELOW", 8)
+    monkeypatch.setattr(hl, "_POINTS_ABOVE", 8)
+    for duration, is_told in (("0.3 s", False), ("1 s", True)):
+        settings = "solve.method=homogenised", f"solve.duration={duration}"
+        normal = solve(body("normal-pin", *settings), history=False).normal
+        assert (normal.multiplier is not None) == is_told
+        assert normal.period == (1 if is_told else None)
+
+
 def test_a_body_that_is_free_does_not_drift_sideways_in_any_of_its_states():
     # A march with the law has no drift to wait for: each of its states is one that lasts.
     answer = solve(body("table-4.4", "solve.method=homogenised", "vibration.direction=30 deg"))
