@@ -111,11 +111,13 @@ def test_what_a_heavy_body_takes_to_go_faster_is_in_its_balance():
 
 
 def test_of_a_pressed_body_that_still_gets_faster_no_state_s_multiplier_is_told(monkeypatch):
-    # A coarse law does.
-    monkeypatch.setattr(hl, "_POINTS_BELOW", 8)
-    monkeypatch.setattr(hl, "_POINTS_ABOVE", 8)
-    for duration, is_told in (("0.3 s", False), ("1 s", True)):
-        settings = "solve.method=homogenised", f"solve.duration={duration}"
+    # A coarse law does, and one for both.
+    for name, few in {"_POINTS_BELOW": 8, "_POINTS_ABOVE": 8, "_LOWEST": 3e-3}.items():
+        monkeypatch.setattr(hl, name, few)
+    law = homogenise(body("normal-pin"))
+    monkeypatch.setattr(homogenised, "homogenise", lambda model: law)
+    for duration, is_told in (("0.1 s", False), ("0.6 s", True)):
+        settings = "solve.method=homogenised", "vibration.start=2 ms", f"solve.duration={duration}"
         normal = solve(body("normal-pin", *settings), history=False).normal
         assert (normal.multiplier is not None) == is_told
         assert normal.period == (1 if is_told else None)
