@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asperity.drive.resolved.strip import FLANK, WHEEL_TIP
-from asperity.drive.static.flash import SHARE, Flash, Line
+from asperity.drive.static.flash import SHARE, Flash
 from asperity.drive.static.reduction import _along
 
 ACROSS, ALONG = 2e-4, 1e-3

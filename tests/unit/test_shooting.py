@@ -297,6 +297,45 @@ def test_friction_at_the_start_of_a_cycle_is_the_mean_over_the_asperities():
     assert state.drive_force == pytest.approx(2.0 * 0.3 + 0.5 * (1.0 - 0.2))
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_differences_are_taken_of_each_unknown_towards_its_inside(monkeypatch, side):
+    """Of a linear map, with slopes of the mean drive force, on scales of their own."""
+    rng = np.random.default_rng(3)
+    matrix, slopes, scales = rng.normal(size=(3, 3)), rng.normal(size=3), np.array([1.0, 5.0, 0.2])
+    here, went = np.array([0.4, -0.3, 0.0]), []
+    trial = np.zeros(1, [("at", float, 3)])
+
+    def read(state, springs, p, q, out):
+        out[:] = here
+
+    def write(given, p, q, state, springs):
+        went.append((given - here) / scales)
+        state["at"] = given
+
+    def defect_of(state, *others):
+        others[-1][:] = matrix @ (state[0]["at"] / scales)
+
+    for name, plain in {
+        "read_unknowns": read, "write_unknowns": write, "defect_of": defect_of,
+        "mean_drive": lambda sums, start, *_: slopes @ (start["at"] / scales),
+        "copy": lambda one, other: other.__setitem__(slice(None), one),
+    }.items():  # fmt: skip
+        monkeypatch.setattr(shooting, name, plain)
+    room = SimpleNamespace(
+        trial=trial, trial_springs=np.zeros(1), trial_end=trial, trial_end_springs=None,
+        scales=scales, here=np.zeros(3), there=np.zeros(3), trial_defect=np.zeros(3),
+        defect=matrix @ (here / scales),
+    )  # fmt: skip
+    jacobian = np.zeros((4, 3))
+    shooting.differentiate._function(
+        trial.copy(), np.zeros(1), None, None, None, None, None, 3, 1e-3, side,
+        slopes @ (here / scales), room, jacobian,
+    )  # fmt: skip
+    assert np.array(went) == pytest.approx(side * 1e-3 * np.diag([-1.0, 1.0, 1.0]), abs=1e-15)
+    assert jacobian[:3] == pytest.approx(matrix, abs=1e-10)
+    assert jacobian[3] == pytest.approx(slopes, abs=1e-10)
+
+
 @pytest.mark.parametrize(
     ("aim", "tried"),
     [((2.4, 3.2), (0.72, 0.96)), ((-3.2, 2.4), (-0.96, 0.72)), ((1.02, -1.36), (1.02, -1.36))],
