@@ -352,7 +352,7 @@ def measure(reached: Path, names=(), jobs: int = 1) -> None:
 def write(reached: Path, names=()) -> None:
     """Write the map, the same bytes for the same tests; of others than these as it stands.
 
-    Where all are run, the others are slow ones.
+    Where all are run, the others are slow ones. A file counts as known where a test of it is named.
     """
     lines = [json.loads(line) for line in reached.read_text("utf-8").splitlines()]
     slow = set() if names else _slow()
@@ -364,7 +364,8 @@ def write(reached: Path, names=()) -> None:
 
     found = make([*_noted(_kept(), of_others), *lines])
     known = {file: is_it for file, is_it in _kept().get("files", {}).items() if names}
-    known |= {file: _digest(file) for file in names or _ordinary() if (ROOT / file).is_file()}
+    files = [name.partition("::")[0] for name in names] or _ordinary()
+    known |= {file: _digest(file) for file in files if (ROOT / file).is_file()}
     found["files"] = dict(sorted(known.items()))
     KEPT.write_bytes(gzip.compress(json.dumps(found, separators=(",", ":")).encode(), mtime=0))
     print(f"{KEPT}: {len(found['near'])} functions, {len(found['tests'])} tests")
