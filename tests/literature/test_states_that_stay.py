@@ -10,7 +10,9 @@ from apparatus.grid import grid, slow
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve, solve_many
-from asperity.slider.periodic import solve_periodic
+from asperity.slider.cycle_map import Cycle
+from asperity.slider.from_rest import from_rest, ratio_of
+from asperity.slider.periodic import cycle_steps, solve_periodic
 
 OBLIQUE = """
 [slider]
@@ -365,6 +367,20 @@ def test_of_two_states_below_a_resonance_a_note_tells_of_the_other(tmp_path):
     assert alone.ratio == pytest.approx(0.874, abs=1e-3)
     (note,) = solve_periodic(model, history=False, rested=True).notes
     assert f"with the ratio {alone.ratio:.5g}, repeats itself as well" in note
+
+
+def test_from_rest_a_body_comes_to_the_other_of_two_states_and_to_no_other_than_that(tmp_path):
+    path = tmp_path / "leaning.toml"
+    path.write_text(LEANING)
+    model = Model.from_case(read_case(path, TABLES, ["solve.method=periodic", "solve.step=1 us"]))
+    steps = cycle_steps(model)
+    cycle = Cycle(model, steps, 1.0 / (steps * model.frequency))
+    assert cycle.find(0)
+    assert ratio_of(cycle) == pytest.approx(0.874, abs=1e-3)
+    other = from_rest(cycle)
+    assert other.growth < 1.0
+    assert other.ratio == ratio_of(other.state) < 0.5
+    assert from_rest(other.state) is None
 
 
 @pytest.mark.parametrize(

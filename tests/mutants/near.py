@@ -227,14 +227,14 @@ def make(reached) -> dict:
     }
 
 
-def _noted(kept, names):
-    """What a map tells of other tests than these, or those in these files, as it was noted."""
+def _noted(kept, of_others):
+    """What a map tells of other tests, as it was noted: of those for which ``of_others`` holds."""
     called = defaultdict(list)
     for name, tests in kept["near"].items():
         for test in tests:
             called[test].append(name)
     for n, test in enumerate(kept["tests"]):
-        if not {test, test.partition("[")[0], test.partition("::")[0]} & set(names):
+        if of_others(test):
             size = kept["sizes"][n] if "sizes" in kept else len(called[n])
             seconds = kept["seconds"][n] if "seconds" in kept else 0.0
             yield {"test": test, "seconds": seconds, "called": called[n], "size": size}
@@ -324,9 +324,19 @@ def _ordinary():
     ]
 
 
+def _slow():
+    """Slow tests, as they stand."""
+    told = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "--collect-only", "-m", "slow", *_ordinary()],
+        cwd=ROOT, capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    return {line for line in told.stdout.splitlines() if "::" in line}
+
+
 def measure(reached: Path, names=(), jobs: int = 1) -> None:
-    """Run the ordinary tests, or those named, and note what they reach."""
+    """Run the ordinary tests, or those named and slow ones among them; note what they reach."""
     shared = ["-n", str(jobs), "--dist", "loadfile"] if jobs > 1 else []
+    shared += ["-m", "slow or not slow"] if names else []
     environment = os.environ | {
         "PYTHONPATH": os.pathsep.join((str(SOURCE), str(TESTS))),
         "OPENBLAS_NUM_THREADS": "1",
@@ -340,11 +350,22 @@ def measure(reached: Path, names=(), jobs: int = 1) -> None:
 
 
 def write(reached: Path, names=()) -> None:
-    """Write the map, the same bytes for the same tests; of others than these as it stands."""
+    """Write the map, the same bytes for the same tests; of others than these as it stands.
+
+    Where all are run, the others are slow ones. A file counts as known where a test of it is named.
+    """
     lines = [json.loads(line) for line in reached.read_text("utf-8").splitlines()]
-    found = make([*(_noted(_kept(), names) if names else ()), *lines])
+    slow = set() if names else _slow()
+
+    def of_others(test):
+        if not names:
+            return test in slow
+        return not {test, test.partition("[")[0], test.partition("::")[0]} & set(names)
+
+    found = make([*_noted(_kept(), of_others), *lines])
     known = {file: is_it for file, is_it in _kept().get("files", {}).items() if names}
-    known |= {file: _digest(file) for file in names or _ordinary() if (ROOT / file).is_file()}
+    files = [name.partition("::")[0] for name in names] or _ordinary()
+    known |= {file: _digest(file) for file in files if (ROOT / file).is_file()}
     found["files"] = dict(sorted(known.items()))
     KEPT.write_bytes(gzip.compress(json.dumps(found, separators=(",", ":")).encode(), mtime=0))
     print(f"{KEPT}: {len(found['near'])} functions, {len(found['tests'])} tests")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from asperity.drive.resolved.strip import FLANK, WHEEL_TIP
-from asperity.drive.static.flash import SHARE, Flash, Line
+from asperity.drive.static.flash import SHARE, Flash
 from asperity.drive.static.reduction import _along
 
 ACROSS, ALONG = 2e-4, 1e-3
@@ -23,14 +23,10 @@ def flash():
         asked.append((share, z))
         return (share > 0.5).astype(int)
 
-    one = Flash.__new__(Flash)
-    one._flank, one._friction, one._effusivities = (
-        SimpleNamespace(nearest=nearest),
-        0.05,
-        (2e4, 9e3),
-    )
-    one.course, one.on_flank = [], 0.0
-    one.worst = Line(np.zeros(0), np.zeros(0), np.zeros(0, bool))
+    wheel = SimpleNamespace(family="tin bronze")
+    problem = SimpleNamespace(worm_speed=150.0, gearset=SimpleNamespace(wheel_material=wheel))
+    one = Flash(problem, SimpleNamespace(nearest=nearest), 0.05)
+    one._effusivities = 2e4, 9e3
     one.__dict__["_motion"] = np.array([SLIDING, WORM, WHEEL, WORM_ALONG, WHEEL_ALONG])
     return one, asked
 

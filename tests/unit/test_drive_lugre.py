@@ -11,6 +11,7 @@ from asperity.commands import case_tables
 from asperity.drive.locking import answer as locking
 from asperity.drive.locking import prepare as prepare_locking
 from asperity.drive.problem import DriveProblem
+from asperity.drive.reduced.in_series import ductile
 from asperity.drive.reduced.lugre import LuGre, deflect_damped
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction, teeth_key
@@ -79,6 +80,27 @@ def test_in_ten_thousand_steps_of_any_size_asperities_and_teeth_make_no_energy()
                 assert lost >= -1e-9 * (1.0 + w @ w)
             s, r, before, steps = (wx, wy), (hx, hy), load, steps + 1
     assert slow > 0.8 * steps > 8000
+
+
+@pytest.mark.usefixtures("plain_kernels")
+@pytest.mark.parametrize(
+    ("above", "way", "compliance"),
+    [
+        ((0.25528921, -0.9775963), (0.47360269, 6.25277318), 856.38853),
+        ((-1.29149611, 0.12874437), (0.0005108, -0.0003126), 3.4170292),
+        ((-1.1457482, 0.08761238), (2.62764061, 1.47537641), 24.648451),
+    ],
+)
+def test_asperities_above_their_limit_relax_over_the_slip_that_bent_teeth_leave(
+    above, way, compliance
+):
+    s, d = np.array(above), np.array(way)
+    *w, left = ductile(*s, *d, 1.0, 1.0, compliance)
+    slip = d - compliance * (w - s)
+    length = np.linalg.norm(slip)
+    relaxed = s * math.exp(-length) - slip * math.expm1(-length) / length
+    assert w == pytest.approx(relaxed, abs=1e-8)
+    assert left < 1e-8
 
 
 @pytest.mark.usefixtures("plain_kernels")

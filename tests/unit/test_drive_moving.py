@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 from asperity.drive.elastic.near import _travelled
-from asperity.drive.motion.kernels import move
+from asperity.drive.interface import AT
+from asperity.drive.motion.kernels import arrive, clear, move
+from asperity.drive.motion.system import STATE, SUMS
 from asperity.vibration.waveform import NO_TABLE, SINE, Wave
 
 pytestmark = pytest.mark.usefixtures("plain_kernels")
@@ -79,6 +81,26 @@ def test_what_is_imposed_goes_as_its_sine_and_with_the_rate_of_that():
     end = time + dt
     assert q == pytest.approx(steady * end + amplitudes * math.sin(turn * end), rel=1e-12)
     assert v == pytest.approx(steady + amplitudes * turn * math.cos(turn * end), rel=1e-6)
+
+
+def test_a_motor_s_work_is_what_a_worm_has_that_it_turned_alone():
+    torque, inertia, dt, steps = 0.3, 2e-5, 1e-4, 8
+    system = a_system(["turn"])
+    vars(system).update(
+        speed=0.0, torsion=0.0, torsion_damping=0.0, motor_torque=torque, worm_inertia=inertia,
+        load=0.0,
+    )  # fmt: skip
+    state, sums = (np.zeros(1, kind).view(np.recarray)[0] for kind in (STATE, SUMS))
+    clear._function(sums)
+    state.torque, state.turn_push, state.turn, state.turn_rate = torque, torque / inertia, 0.1, 2.0
+    q, v, mesh = np.zeros(5), np.zeros(5), np.zeros(len(AT))
+    for _ in range(steps):
+        move._function(system, state, dt, q, v)
+        arrive._function(system, state, dt, q, v, mesh, sums)
+    rate = 2.0 + torque / inertia * steps * dt
+    assert sums.turned == pytest.approx(0.5 * (2.0 + rate) * steps * dt, rel=1e-12)
+    assert sums.drive == pytest.approx(0.5 * inertia * (rate**2 - 2.0**2), rel=1e-12)
+    assert sums.stored == pytest.approx(0.5 * inertia * rate**2, rel=1e-12)
 
 
 def travelled(size, turns, shifts):

@@ -100,6 +100,29 @@ def test_its_friction_and_powers_are_those_of_a_cycle():
     assert homogenised.ledger.residual < 2e-3
 
 
+def test_what_a_heavy_body_takes_to_go_faster_is_in_its_balance():
+    settings = "slider.mass=50 kg", "vibration.velocity_ratio=20", "solve.duration=0.15 s"
+    answer = solve(body("table-4.3", "solve.method=homogenised", *settings))
+    late = answer.history.time >= 0.1425
+    speed = answer.history.velocity[late, 0]
+    gained = 0.5 * 50.0 * (speed[-1] ** 2 - speed[0] ** 2) / 7.5e-3
+    assert gained > 0.1 * answer.ledger.vibration
+    assert answer.ledger.residual < 2e-4
+
+
+def test_of_a_pressed_body_that_still_gets_faster_no_state_s_multiplier_is_told(monkeypatch):
+    # A coarse law does, and one for both.
+    for name, few in {"_POINTS_BELOW": 8, "_POINTS_ABOVE": 8, "_LOWEST": 3e-3}.items():
+        monkeypatch.setattr(hl, name, few)
+    law = homogenise(body("normal-pin"))
+    monkeypatch.setattr(homogenised, "homogenise", lambda model: law)
+    for duration, is_told in (("0.1 s", False), ("0.6 s", True)):
+        settings = "solve.method=homogenised", "vibration.start=2 ms", f"solve.duration={duration}"
+        normal = solve(body("normal-pin", *settings), history=False).normal
+        assert (normal.multiplier is not None) == is_told
+        assert normal.period == (1 if is_told else None)
+
+
 def test_a_body_that_is_free_does_not_drift_sideways_in_any_of_its_states():
     # A march with the law has no drift to wait for: each of its states is one that lasts.
     answer = solve(body("table-4.4", "solve.method=homogenised", "vibration.direction=30 deg"))

@@ -217,6 +217,22 @@ def test_a_growth_over_many_cycles_is_that_of_one_so_many_times(name):
     assert cycle._growth_over(4) == pytest.approx(found.multiplier(), rel=1e-3)
 
 
+def test_a_push_fades_as_a_drive_has_it_that_is_damped_beyond_ringing():
+    """Coulomb friction that never reverses is a load: m x'' + c x' + k x is constant."""
+    mass, damping, stiffness, frequency = 1e-3, 200.0, 1e4, 1e3
+    slider = Slider(
+        drive_velocity=0.5e-3, normal_force=50.0, mass=mass, drive_stiffness=stiffness,
+        drive_damping=damping, units="SI"
+    )  # fmt: skip
+    shaken = Vibration(frequency=frequency, velocity_ratio=0.2, units="SI")
+    friction = Friction(model="coulomb", mu=0.1, units="SI")
+    cycle = Cycle(Model(slider, friction, shaken, Solve(method="periodic")), 100, 1e-5)
+    assert cycle.find(0)
+    rate = (damping - math.sqrt(damping**2 - 4.0 * stiffness * mass)) / (2.0 * mass)
+    a_cycle, _ = cycle._of_pushes(1e-3, 1.1)
+    assert a_cycle == pytest.approx(math.exp(-rate / frequency), rel=1e-6)
+
+
 def test_a_body_that_sticks_and_slips_at_its_own_rate_has_no_state_that_stays():
     answer = solve_periodic(falling(stribeck_velocity=1e-3, static_mu=0.2), history=False)
     assert not answer.settled
@@ -281,6 +297,45 @@ def test_friction_at_the_start_of_a_cycle_is_the_mean_over_the_asperities():
     shooting._forces._function(state, springs, p, q, np.array([0.0, 0.1, 0.0]))
     assert [state.friction_x, state.friction_y] == pytest.approx(springs @ weights)
     assert state.drive_force == pytest.approx(2.0 * 0.3 + 0.5 * (1.0 - 0.2))
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_differences_are_taken_of_each_unknown_towards_its_inside(monkeypatch, side):
+    """Of a linear map, with slopes of the mean drive force, on scales of their own."""
+    rng = np.random.default_rng(3)
+    matrix, slopes, scales = rng.normal(size=(3, 3)), rng.normal(size=3), np.array([1.0, 5.0, 0.2])
+    here, went = np.array([0.4, -0.3, 0.0]), []
+    trial = np.zeros(1, [("at", float, 3)])
+
+    def read(state, springs, p, q, out):
+        out[:] = here
+
+    def write(given, p, q, state, springs):
+        went.append((given - here) / scales)
+        state["at"] = given
+
+    def defect_of(state, *others):
+        others[-1][:] = matrix @ (state[0]["at"] / scales)
+
+    for name, plain in {
+        "read_unknowns": read, "write_unknowns": write, "defect_of": defect_of,
+        "mean_drive": lambda sums, start, *_: slopes @ (start["at"] / scales),
+        "copy": lambda one, other: other.__setitem__(slice(None), one),
+    }.items():  # fmt: skip
+        monkeypatch.setattr(shooting, name, plain)
+    room = SimpleNamespace(
+        trial=trial, trial_springs=np.zeros(1), trial_end=trial, trial_end_springs=None,
+        scales=scales, here=np.zeros(3), there=np.zeros(3), trial_defect=np.zeros(3),
+        defect=matrix @ (here / scales),
+    )  # fmt: skip
+    jacobian = np.zeros((4, 3))
+    shooting.differentiate._function(
+        trial.copy(), np.zeros(1), None, None, None, None, None, 3, 1e-3, side,
+        slopes @ (here / scales), room, jacobian,
+    )  # fmt: skip
+    assert np.array(went) == pytest.approx(side * 1e-3 * np.diag([-1.0, 1.0, 1.0]), abs=1e-15)
+    assert jacobian[:3] == pytest.approx(matrix, abs=1e-10)
+    assert jacobian[3] == pytest.approx(slopes, abs=1e-10)
 
 
 @pytest.mark.parametrize(

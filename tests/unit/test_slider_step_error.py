@@ -222,6 +222,22 @@ def test_a_state_elsewhere_than_the_march_tells_nothing_of_its_error(monkeypatch
     assert solve(Model.from_case(case), history=False).step_error == 1.25e-5
 
 
+def test_a_body_that_nothing_shakes_is_marched_again_in_longer_steps():
+    """From rest, on the way to breaking away: an error by one on the step twice as long."""
+    asked = ["vibration.velocity_ratio=0", "slider.drive_stiffness=1 MN/m", "slider.mass=0.5 kg"]
+    model, step, steps = Model.from_case(read_case("table-4.3", TABLES, asked)), 2e-6, 400
+    rest = Cycle(model, steps, step)
+
+    def mean(finer):
+        cycle = Cycle(model, steps * finer, step / finer)
+        step_error.put(cycle, step, rest.body.kept["state"], rest.springs)
+        step_error.run_once(cycle)
+        return float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"])
+
+    told = march_end._marched_again(model, step, rest.body.kept["state"], rest.springs, steps)
+    assert told == pytest.approx(abs(mean(1) - mean(16)), rel=0.02)
+
+
 @pytest.mark.parametrize("waveform", ["sine", "triangle"])
 def test_where_no_state_is_next_to_a_march_its_last_cycles_tell_its_error(monkeypatch, waveform):
     settings = ["slider.drive_stiffness=20 MN/m", f"vibration.waveform={waveform}"]

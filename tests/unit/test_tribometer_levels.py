@@ -11,7 +11,7 @@ from apparatus.rig_signals import RATIOS, Imperfections, run_of, stream
 from asperity.casefile import read_case
 from asperity.tribometer.calibration import Line
 from asperity.tribometer.pair import Pair
-from asperity.tribometer.reduction import levels
+from asperity.tribometer.reduction import levels, quantities
 from asperity.tribometer.reduction.combined_uncertainty import estimate_jointly
 from asperity.tribometer.reduction.following import Following
 from asperity.tribometer.reduction.levels import _Fit, estimate_levels, unexpected
@@ -113,6 +113,14 @@ def following(found, place, volts=1.0, calibrated=None, *, by_pulses=False):
     lines = dict.fromkeys(SIGNALS, Line()) | (calibrated or {})
     pair, lasts = (discs(PULSES), 8.0) if by_pulses else (discs(NO_STEPS), 9.0)
     return Following(pair, volts, found, place, 0.95, lines, (lasts, lasts))
+
+
+def test_a_disc_that_takes_nothing_leaves_all_power_and_one_that_takes_all_none():
+    voltage, current, speed, ratio = 12.0, 2.0, 150.0, 32.0
+    for taken in (0.0, 0.25, 1.0):
+        torque = taken * voltage * current * ratio / speed
+        left = quantities.thesis_efficiency(torque, speed, voltage, current, ratio)
+        assert left == pytest.approx(1.0 - taken, abs=1e-12)
 
 
 def truths(noise):
