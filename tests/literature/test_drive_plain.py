@@ -68,6 +68,20 @@ def test_random_drives_are_those_of_the_plain_model(part):
     assert [agree(drive) for drive in drives].count(False) <= 1
 
 
+@pytest.mark.parametrize(
+    "number", [29, *(pytest.param(n, marks=pytest.mark.slow) for n in (3, 4, 12, 22, 31, 32))]
+)
+def test_a_light_drive_whose_flanks_hammer_is_that_of_the_plain_model(number):
+    drive = random_drives.drawn(np.random.default_rng([7, number]))
+    answer, plain, ratio, powers = compared(drive | {"load": 0.1 * drive["load"]})
+    assert answer.settled
+    assert plain["off"] <= 1.0
+    assert answer.open_share > 0.2
+    assert answer.open_share == pytest.approx(plain["open"], abs=4e-3)
+    assert ratio <= RATIO
+    assert powers <= POWERS
+
+
 DRIVE = {
     "mode": "axial", "place": "worm", "wave": "sine", "frequency": 10e3, "amplitude": 4e-6,
     "law": "coulomb", "mu": 0.2, "slip": 7e-8, "rate": 0.0, "viscous": 0.0, "compliance": 0.0,

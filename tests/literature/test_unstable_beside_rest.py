@@ -111,3 +111,7 @@ def test_what_stays_is_not_marched_and_what_does_not_settle_is_said(soft, monkey
 
     monkeypatch.setattr(slide, "march", marched)
     assert solve(body(soft, "vibration.velocity_ratio=2"), history=False).settled
+    # Nor what is one of many: from rest it is another.
+    many = "normal.damping_ratio=0", "solve.method=periodic"
+    rings = Model.from_case(read_case("normal-pin", TABLES, many))
+    assert not solve(rings, history=False).settled
