@@ -83,16 +83,13 @@ clean:  ## remove everything that was made
 	@$(BYTES)
 	@touch $@
 
-# Kernels are compiled on the core that pip leaves free, from when Numba is there.
-.venv/.test: pyproject.toml constraints.txt | .venv/bin/python
-	test -e .venv/.runtime || $(INSTALL) numba
-	@$(BYTES)
-	PYTHONPATH=src $(BIN)/python tests/warm.py $(WHICH) & \
-	  $(INSTALL) -e '.[test]' && { $(BYTES); $(BIN)/python tests/bytecode.py; wait; }
-	@touch .venv/.runtime $@
+# Kernels are compiled on the core that pip leaves free. The package itself is there already, and not
+# built anew: of its own metadata are the packages that come to it.
+.venv/.test: .venv/.runtime
+	$(BIN)/python tests/warm.py $(WHICH) & \
+	  $(INSTALL) 'asperity[test]' && { $(BYTES); $(BIN)/python tests/bytecode.py; wait; }
+	@touch $@
 
-# The package itself is there already, and not built anew: of its own metadata are the packages that
-# come to it.
 .venv/.dev: .venv/.runtime
 	$(INSTALL) 'asperity[dev]'
 	@touch $@

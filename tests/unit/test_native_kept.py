@@ -300,13 +300,22 @@ def test_an_entry_that_no_kernel_is_like_is_told_once(name, arguments, tmp_path)
     assert told.read_text("utf-8").startswith(of_room)
 
 
-def test_trouble_that_may_pass_leaves_nothing(entry, tmp_path, monkeypatch):
-    def full(*_given):
-        raise OSError(28, "No space left on device")
+@pytest.mark.parametrize(
+    "trouble",
+    [
+        OSError(28, "No space left on device"),
+        MemoryError(),
+        # A package that is installed later, or is just being replaced.
+        ModuleNotFoundError("No module named 'scipy'"),
+    ],
+)
+def test_trouble_that_may_pass_leaves_nothing(entry, tmp_path, monkeypatch, trouble):
+    def hindered(*_given):
+        raise trouble
 
     monkeypatch.setattr(making, "began", lambda: None)
-    monkeypatch.setattr(lean, "make", full)
-    with pytest.raises(OSError, match="No space"):
+    monkeypatch.setattr(lean, "make", hindered)
+    with pytest.raises(type(trouble)):
         making.keep(tmp_path, entry, keys.key(entry), 1)
     assert not [path for path in tmp_path.iterdir() if path.is_dir()]
 

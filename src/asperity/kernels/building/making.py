@@ -76,8 +76,8 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
         try:
             made = lean.make(kernel(entry), entry.arguments, link.symbol(entry), entry.target)
             link.keep(new, entry, made, _support())
-        except (OSError, MemoryError, subprocess.SubprocessError):
-            raise  # it may pass
+        except (OSError, MemoryError, subprocess.SubprocessError, ModuleNotFoundError):
+            raise  # it may pass: a package is installed later, say
         except Exception as error:
             # It hinders the next attempt too, until the sources change; or no kernel is such.
             (new / UNFIT).write_text(f"{entry.name}: {error}\n", "utf-8")
