@@ -289,12 +289,21 @@ def _nearest(tests, size, lines, importing):
     chosen = list(dict.fromkeys(first + answers))[:_MOST]
     # A dear one among those takes nothing from the cheap ones that follow.
     spent = 0.0
-    for test in ordered:
+    for test in _in_turns(ordered):
         own = lines[test]["seconds"]
         if test not in chosen and len(chosen) < _MOST and spent + own <= _LONGEST:
             chosen.append(test)
             spent += own
     return chosen
+
+
+def _in_turns(tests):
+    """Of those that differ in their parameters alone a few, then of all a few more, and so on."""
+    had, turns = Counter(), {}
+    for test in tests:
+        turns[test] = had[test.partition("[")[0]] // _OF_A_FUNCTION
+        had[test.partition("[")[0]] += 1
+    return sorted(tests, key=turns.get)
 
 
 def _few_of_each(tests, of_a_file, most):

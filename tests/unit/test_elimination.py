@@ -91,6 +91,13 @@ def test_the_correction_of_the_mean_is_that_of_a_library(seed, size):
         assert not out.any()
 
 
+def test_along_principal_axes_the_mean_is_corrected_of_each_by_itself():
+    tangent, spread = np.array([-1.0, 2.0, -3.0]), np.array([0.5, 0.2, 4.0])
+    out = np.empty((3, 3))
+    mean_correction(np.diag(tangent), np.diag(spread), np.full((3, 3), np.nan), out)
+    assert out == pytest.approx(np.diag(tangent / (1.0 - spread * tangent)), abs=1e-15)
+
+
 def test_a_mean_without_an_inverse_is_not_corrected():
     out = np.full((3, 3), np.nan)
     mean_correction(np.eye(3), np.eye(3), np.full((3, 3), np.nan), out)

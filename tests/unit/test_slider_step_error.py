@@ -121,6 +121,21 @@ def test_a_state_on_half_the_step_is_foreseen_from_one_cycle(name, settings):
     assert foreseen - here == pytest.approx(found - here, rel=0.2)
 
 
+@pytest.mark.parametrize(("stretched", "is_told"), [(1.0, True), (1.01, False)])
+def test_without_a_jacobian_only_a_state_that_is_come_to_in_a_cycle_is_foreseen(stretched, is_told):
+    """Friction at its limit needs no search; of a drive that is stretched it tells nothing."""
+    _, cycle = at_its_state("vibration.velocity_ratio=0.5", "vibration.direction=0 deg")
+    assert not cycle.jacobian.any()
+    body = cycle.body
+    body.kept["state"]["stretch"] *= stretched
+    first, ratio = step_error.predicted_on_half(
+        body.kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), body.no_sums(),
+        cycle.jacobian, cycle.slopes,
+    )  # fmt: skip
+    assert first == pytest.approx(stretched, rel=1e-3)
+    assert ratio == (first if is_told else np.inf)
+
+
 def test_the_jacobian_that_a_search_leaves_is_that_of_the_state_it_found():
     _, cycle = at_its_state("vibration.waveform=triangle", name="normal-pin")
     unknowns = len(cycle.jacobian)
