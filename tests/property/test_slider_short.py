@@ -107,7 +107,10 @@ def short_marches(seed, members, folder):
             then = marched(tables, folder, longer) if longer else None
         except AsperityError:
             continue
-        for each in (answer, then):
+        for each in (answer, late, then):
+            # The words tell no mean that the number is far from.
+            if each and each.settled and abs(each.ratio - mean_of(each)) > BAR:
+                off.append((n, each.ratio, mean_of(each)))
             if each and each.settled and late.settled and abs(mean_of(each) - mean_of(late)) > BAR:
                 off.append((n, each.ratio, late.ratio))
         if then and late.settled:

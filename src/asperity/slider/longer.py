@@ -100,7 +100,9 @@ def until_settled(
         answer, foreseen = marching.to_the_end()
         marched = marching.duration
         goes_on = foreseen is not None or not answer.settled
-        if goes_on and model.solve.duration is None and marched < farthest * (1.0 - 1e-9):
+        # All of a later window is still to come.
+        room = marched + model.window <= farthest
+        if goes_on and model.solve.duration is None and room:
             low, high = (share * marched for share in _FURTHER)
             marching.go_on(min(max(foreseen or high, low), high, farthest))
             continue
