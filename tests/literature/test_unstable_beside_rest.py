@@ -4,6 +4,8 @@ LuGre friction as Canudas de Wit et al. (1995) have it, on a base that vibrates,
 another integrator.
 """
 
+import dataclasses
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -11,6 +13,7 @@ from scipy.integrate import solve_ivp
 from asperity.casefile import read_case
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, slide, solve, solve_many, step_error
+from asperity.slider.longer import still_goes
 from asperity.slider.march import March
 from asperity.sweep import branches, read_grid
 from asperity.sweep import run as sweep
@@ -177,11 +180,24 @@ def test_a_march_beside_a_state_takes_no_more_steps_than_it_may(soft, monkeypatc
     assert found.notes[-1].startswith("a march from rest has not settled")
     # What finer steps take counts too.
     assert beside()[0].ratio_from_rest
-    monkeypatch.setattr(step_error, "allowed", lambda _: 1e-9)
+    monkeypatch.setattr(slide, "_MOST_BESIDE", 600_000)
+    monkeypatch.setattr(step_error, "allowed", lambda answer: 0.8 * answer.step_error)
     found, taken = beside()
     assert taken == [240_000, 0]
     assert found.ratio_from_rest is None
     assert found.notes[-1].startswith("where a body from rest goes takes too long to follow")
+
+
+def test_a_mean_that_still_goes_on_is_no_ratio_from_rest(soft, monkeypatch):
+    whole = slide.until_settled
+
+    def cut_short(*args, **how):
+        return dataclasses.replace(whole(*args, **how), notes=(still_goes(0.738, 0.741),))
+
+    monkeypatch.setattr(slide, "until_settled", cut_short)
+    found = solve(body(soft), history=False)
+    assert found.ratio_from_rest is None
+    assert found.notes[-1].startswith("a march from rest has not settled, at a ratio of 0.737")
 
 
 def test_what_drops_answers_that_have_not_settled_is_not_marched_for_them(soft, monkeypatch):
