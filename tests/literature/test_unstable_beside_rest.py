@@ -4,15 +4,22 @@ LuGre friction as Canudas de Wit et al. (1995) have it, on a base that vibrates,
 another integrator.
 """
 
+import dataclasses
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 from asperity.casefile import read_case
-from asperity.slider import TABLES, Model, slide, solve
+from asperity.runs import Run
+from asperity.slider import TABLES, Model, slide, solve, solve_many, step_error
+from asperity.slider.longer import still_goes
+from asperity.slider.march import March
 from asperity.sweep import branches, read_grid
 from asperity.sweep import run as sweep
 from asperity.sweep.plots import plot_sweep
+from asperity.tribometer.fit import forward
+from asperity.tribometer.reduction import prediction
 
 MASS, SPRING, LOAD, MU, STATIC = 0.1, 1e5, 10.0, 0.1, 0.15
 SPEED, STRIBECK, BENDS, FREQUENCY = 1e-3, 1e-3, 2e-7, 600.0
@@ -95,7 +102,7 @@ def test_so_do_sweeps_and_branches_with_their_pictures(soft, monkeypatch, tmp_pa
     assert [column.heading for column in found.tables()[0].columns][-1] == "from rest"
     lines = {line.get_label(): line for line in plot_sweep(found.to_dataset()).axes[0].lines}
     assert lines["from rest"].get_ydata().tolist() == rest
-    ways = branches.answer(branches.prepare(read_case(soft, TABLES, ()), over=over), slide.Run())
+    ways = branches.answer(branches.prepare(read_case(soft, TABLES, ()), over=over), Run())
     assert ways.ratio_from_rest[0] == pytest.approx(rest[0], abs=1e-3)
 
 
@@ -109,9 +116,102 @@ def test_what_stays_is_not_marched_and_what_does_not_settle_is_said(soft, monkey
     def marched(*_, **__):
         raise AssertionError("it stays")
 
-    monkeypatch.setattr(slide, "march", marched)
+    monkeypatch.setattr(slide, "March", marched)
     assert solve(body(soft, "vibration.velocity_ratio=2"), history=False).settled
     # Nor what is one of many: from rest it is another.
     many = "normal.damping_ratio=0", "solve.method=periodic"
     rings = Model.from_case(read_case("normal-pin", TABLES, many))
     assert not solve(rings, history=False).settled
+
+
+def test_a_march_that_has_not_settled_gives_no_ratio_from_rest(soft):
+    # Its mean of 1.24 is on the way to that of the state, where it settles after 0.4 s.
+    heavy = "vibration.frequency=20000 Hz", "slider.mass=10 kg"
+    found = solve(body(soft, *heavy), history=False)
+    assert "but a body from rest stays at a ratio of 1.24" in found.settled_by
+    assert found.ratio_from_rest is None
+    over = ["vibration.frequency=20000,20001 Hz"]
+    ways = branches.answer(branches.prepare(read_case(soft, TABLES, heavy[1:]), over=over), Run())
+    assert np.isnan(ways.ratio_from_rest).all()
+    assert not ways.beside.size
+    assert [note for note in ways.notes if note.startswith("a march from rest has come neither")]
+
+
+def test_a_march_from_rest_that_comes_to_the_same_ratio_is_not_another(soft):
+    heavy = "slider.mass=5 kg", "vibration.frequency=300 Hz"
+    found = solve(body(soft, *heavy), history=False)
+    marched = solve(body(soft, *heavy, "solve.method=march"), history=False)
+    assert not found.settled
+    assert marched.settled
+    assert found.ratio == pytest.approx(marched.ratio, rel=1e-3)
+    assert found.ratio_from_rest is None
+    assert "from rest" not in found.settled_by
+    assert found.notes[-1] == "a march from rest comes to the same ratio"
+
+
+def test_a_march_beside_a_state_takes_no_more_steps_than_it_may(soft, monkeypatch):
+    marches = []
+
+    class Counted(March):
+        def __init__(self, *args, **kwargs):
+            super().__init__(*args, **kwargs)
+            marches.append(self)
+
+    monkeypatch.setattr(slide, "March", Counted)
+
+    def beside(*settings):
+        """Return the answer, and the steps of each march beside it."""
+        marches.clear()
+        answer = solve(body(soft, *settings), history=False)
+        return answer, [each.done for each in marches]
+
+    # From the start on, two million.
+    found, taken = beside("vibration.frequency=5000 Hz", "vibration.velocity_ratio=0.3")
+    assert sum(taken) == 0
+    assert found.ratio_from_rest is None
+    assert found.notes[-1].startswith("where a body from rest goes takes too long to follow")
+    # It goes on up to there, where a window more has room.
+    found, taken = beside("vibration.frequency=610 Hz", "vibration.velocity_ratio=0.5")
+    assert len(taken) == 1
+    assert 499_000 < taken[0] <= 500_000
+    monkeypatch.setattr(slide, "_MOST_BESIDE", 300_000)
+    found, taken = beside("vibration.frequency=610 Hz", "vibration.velocity_ratio=0.5")
+    assert taken == [244_000]
+    assert found.notes[-1].startswith("a march from rest has not settled")
+    # What finer steps take counts too.
+    assert beside()[0].ratio_from_rest
+    monkeypatch.setattr(slide, "_MOST_BESIDE", 600_000)
+    monkeypatch.setattr(step_error, "allowed", lambda answer: 0.8 * answer.step_error)
+    found, taken = beside()
+    assert taken == [240_000, 0]
+    assert found.ratio_from_rest is None
+    assert found.notes[-1].startswith("where a body from rest goes takes too long to follow")
+
+
+def test_a_mean_that_still_goes_on_is_no_ratio_from_rest(soft, monkeypatch):
+    whole = slide.until_settled
+
+    def cut_short(*args, **how):
+        return dataclasses.replace(whole(*args, **how), notes=(still_goes(0.738, 0.741),))
+
+    monkeypatch.setattr(slide, "until_settled", cut_short)
+    found = solve(body(soft), history=False)
+    assert found.ratio_from_rest is None
+    assert found.notes[-1].startswith("a march from rest has not settled, at a ratio of 0.737")
+
+
+def test_what_drops_answers_that_have_not_settled_is_not_marched_for_them(soft, monkeypatch):
+    def marched(*_, **__):
+        raise AssertionError("nobody asked")
+
+    monkeypatch.setattr(slide, "March", marched)
+    (found,) = solve_many([body(soft)], beside=False)
+    assert not found.settled
+    case = forward.prepared(read_case(soft, TABLES, ()), "slide")
+    values, why = forward.Predictor(case, "slide", forces=False)([{}], {})
+    assert np.isnan(values).all()
+    assert "a disturbance grows" in why[0]
+    monkeypatch.setattr(prediction, "Solve", lambda **_: body(soft).solve)
+    monkeypatch.setattr(prediction, "Model", lambda *_: body(soft))
+    asked = ("longitudinal", "sine", SPEED, SPEED, FREQUENCY)
+    assert prediction.model_ratios(read_case(soft, TABLES, ()), LOAD, [asked]) == [None]

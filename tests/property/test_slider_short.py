@@ -7,6 +7,7 @@ durations that are said to do all do. Steps are given: none is chosen by its err
 
 import math
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -107,7 +108,10 @@ def short_marches(seed, members, folder):
             then = marched(tables, folder, longer) if longer else None
         except AsperityError:
             continue
-        for each in (answer, then):
+        for each in (answer, late, then):
+            # The words tell no mean that the number is far from.
+            if each and each.settled and abs(each.ratio - mean_of(each)) > BAR:
+                off.append((n, each.ratio, mean_of(each)))
             if each and each.settled and late.settled and abs(mean_of(each) - mean_of(late)) > BAR:
                 off.append((n, each.ratio, late.ratio))
         if then and late.settled:
@@ -122,6 +126,15 @@ def test_a_few_short_marches_are_judged_as_longer_ones_show(tmp_path):
     assert not off
     assert not failed
     assert tried == 3
+
+
+def test_a_ratio_far_from_the_mean_that_its_words_tell_is_seen(tmp_path, monkeypatch):
+    said = "the motion repeats itself after 2 cycles, whose mean ratio is 0.51"
+    told = SimpleNamespace(settled=True, settled_by=said, ratio=0.5, steps=1000, notes=())
+    monkeypatch.setitem(globals(), "marched", lambda *_: told)
+    assert short_marches((1, 16), [0], tmp_path)[0]
+    told.ratio = 0.5099
+    assert not short_marches((1, 16), [0], tmp_path)[0]
 
 
 @pytest.mark.parametrize(("part", "member"), [(1, 0), (4, 8), (6, 27)])

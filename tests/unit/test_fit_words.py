@@ -175,8 +175,8 @@ def test_parameters_that_go_together_stand_on_the_terminal(tmp_path, monkeypatch
 def test_what_has_not_settled_is_no_prediction_and_its_row_is_named(tmp_path, monkeypatch):
     whole = forward.solve_many
 
-    def loose(models):
-        answers = whole(models)
+    def loose(models, **how):
+        answers = whole(models, **how)
         return [
             dataclasses.replace(one, settled=False, settled_by="the body is still being taken up")
             if model.peak_velocity > 1.9 * model.slider.drive_velocity else one

@@ -208,5 +208,5 @@ def test_a_method_s_vibration_that_has_not_settled_has_no_share(monkeypatch):
 def test_a_segment_of_a_recording_has_no_model_beside_it_that_has_not_settled(monkeypatch):
     case = read_case("table-4.3", case_tables())
     asked = [("longitudinal", "sine", 0.5e-3, k * 0.5e-3, 4e3) for k in (1.0, 2.0)]
-    monkeypatch.setattr(prediction, "solve_many", lambda models: [settled(), loose()])
+    monkeypatch.setattr(prediction, "solve_many", lambda models, **_: [settled(), loose()])
     assert prediction.model_ratios(case, 41.0, asked) == [settled().ratio, None]

@@ -292,6 +292,13 @@ def test_a_long_march_goes_on_with_a_word_and_names_the_damping_that_is_lacking(
     march.go_on(4.0 * march.duration)
     (said,) = told
     assert f"{march.table.steps:.3g} steps are tried" in said
+    # Once, further on and where it is gone on with.
+    march.go_on(1.5 * march.duration)
+    again = March(model, run=Run(notify=told.append))
+    again.restore(march.tree())
+    assert again.table.steps == march.table.steps
+    again.go_on(1.5 * march.duration)
+    assert told == [said]
     assert "give a normal.damping_ratio" in said
     silent = []
     damped = "solve.method=march", "solve.step=5 ns"

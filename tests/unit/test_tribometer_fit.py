@@ -123,11 +123,11 @@ def test_what_is_looked_at_next_spans_the_measurements_however_many_conditions_d
 def test_a_fit_hears_ctrl_c_before_its_next_data_set(tmp_path, monkeypatch):
     solved = []
 
-    def pressed(models):
+    def pressed(models, **how):
         solved.append(len(models))
         if len(solved) == 2:
             signal.raise_signal(signal.SIGINT)
-        return solve_many(models)
+        return solve_many(models, **how)
 
     monkeypatch.setattr(forward, "solve_many", pressed)
     path = table(tmp_path / "data.csv", np.linspace(0.9, 0.1, 12))

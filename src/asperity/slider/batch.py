@@ -96,7 +96,7 @@ class _Body(NamedTuple):
 
 
 def solve_many(
-    models: Sequence[Model], *, stop: np.ndarray | None = None
+    models: Sequence[Model], *, stop: np.ndarray | None = None, beside: bool = True
 ) -> list[SlideResult | AsperityError]:
     """Solve many bodies, without histories.
 
@@ -112,6 +112,8 @@ def solve_many(
         The bodies, in any order.
     stop : ndarray of int64, shape (1,), optional
         Set it to 1 from another thread to have the call raise `Stopped` soon.
+    beside : bool
+        Whether a body whose periodic state is unstable is marched as well, as `solve` has it.
 
     Returns
     -------
@@ -147,7 +149,7 @@ def solve_many(
         if flag[0]:
             raise Stopped
         try:
-            answers[index] = solve(models[index], history=False, stop=flag)
+            answers[index] = solve(models[index], history=False, stop=flag, beside=beside)
         except AsperityError as error:
             answers[index] = error
     return [answer for answer in answers if answer is not None]

@@ -8,7 +8,6 @@ on a finer step is sought from the one on the first.
 
 import dataclasses
 import itertools
-import math
 import time
 from collections.abc import Iterable, Iterator
 
@@ -18,7 +17,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.runs.tree import Tree
 from asperity.slider.cycle_map import UNSTABLE, Cycle
-from asperity.slider.from_rest import from_rest, ratio_of
+from asperity.slider.from_rest import Elsewhere, from_rest
 from asperity.slider.model import Model
 from asperity.slider.periodic import DOUBLED, AperiodicError, answer_of, cycle_steps, settle
 from asperity.slider.result import SlideResult
@@ -68,12 +67,9 @@ class Walk:
             self._last = model, cycle
         return answer
 
-    def from_rest(self) -> float:
-        """Return the ratio of the last body from rest, if it comes to another state; NaN else."""
-        other = None if self._last is None else from_rest(self._last[1])
-        if other is None:
-            return math.nan
-        return other.ratio if other.state is None else ratio_of(other.state)
+    def from_rest(self) -> Elsewhere | None:
+        """Return what comes of the last body from rest, if it does not come to the same state."""
+        return None if self._last is None else from_rest(self._last[1])
 
     def tree(self) -> Tree:
         """Return where the last body was left; there must be one."""

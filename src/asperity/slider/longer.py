@@ -76,7 +76,12 @@ class Marching(Protocol[A_co]):
         ...
 
 
-def until_settled(model: Model, marching: Marching[A], instead: str | None = "periodic") -> A:
+def until_settled(
+    model: Model,
+    marching: Marching[A],
+    instead: str | None = "periodic",
+    farthest: float = math.inf,
+) -> A:
     """March to the end; where the case says no duration, on until it has settled, within bounds.
 
     Parameters
@@ -87,13 +92,17 @@ def until_settled(model: Model, marching: Marching[A], instead: str | None = "pe
         Its march, wherever it stands.
     instead : str, optional
         The method that looks for a state where no duration is foreseen that would do.
+    farthest : float
+        Time up to which it goes on at most, s; no later than that by the bounds.
     """
+    farthest = min(farthest, FARTHEST * model.duration)
     while True:
         answer, foreseen = marching.to_the_end()
         marched = marching.duration
-        farthest = FARTHEST * model.duration
         goes_on = foreseen is not None or not answer.settled
-        if goes_on and model.solve.duration is None and marched < farthest * (1.0 - 1e-9):
+        # All of a later window is still to come.
+        room = marched + model.window <= farthest
+        if goes_on and model.solve.duration is None and room:
             low, high = (share * marched for share in _FURTHER)
             marching.go_on(min(max(foreseen or high, low), high, farthest))
             continue

@@ -51,7 +51,9 @@ _SPARE = 1.2  # times what is foreseen
 # Of the window, times that disturbances of steady sliding fade in half of it for the rest to tell
 # anything; and of mu F_N, from which on friction swings.
 _SEEN, _SWINGS = 0.1, 1e-3
-_CHANGING = ("done", "seconds", "_start", "_first_half", "_quarters", "_places", "_rows")
+_CHANGING = (
+    "done", "seconds", "_start", "_first_half", "_quarters", "_places", "_rows", "_told",
+)  # fmt: skip
 _TOGETHER: dict[str, Callable[[Any, Any], Any]] = {"_max": max, "_min": min}
 _STRETCH = 2_000_000  # steps in one call of a kernel: a fraction of a second, then Ctrl-C is heard
 
@@ -93,6 +95,7 @@ class March:
         self._run = run if run is not None else Run()
         self._body = integrator(model, self.table.step)
         self._timed = model  # with the duration that is marched
+        self._told = False  # that it goes on for long
         self._start: tuple[float, float] | None = None
         self._first_half: npt.NDArray[np.void] | None = None
         # Sum of the drive force and steps, of the first quarter in each half of the window.
@@ -154,16 +157,20 @@ class March:
 
     def go_on(self, duration: float) -> None:
         """Take a later end, s."""
-        self._timed = lasting(self.model, duration)
-        self.table = Timetable(self._timed)
+        self._lasts(duration)
         seconds = estimate(self._timed)
-        if math.isinf(ringing_time(self.model)) and seconds > _LONG:
+        if not self._told and math.isinf(ringing_time(self.model)) and seconds > _LONG:
+            self._told = True
             self._run.notify(
                 f"nothing damps the contact, which may never settle: {self.table.steps:.3g} steps "
                 f"are tried, which take about {in_words(seconds)}; give a normal.damping_ratio, "
                 "or a solve.duration"
             )
         self._start, self._first_half, self._quarters = None, None, []
+
+    def _lasts(self, duration: float) -> None:
+        self._timed = lasting(self.model, duration)
+        self.table = Timetable(self._timed)
 
     def to_the_end(self) -> tuple[SlideResult, float | None]:
         """March to the end, and say what duration would do."""
@@ -211,7 +218,7 @@ class March:
         """Go back to where a march of the same body stood when it gave its tree."""
         self._body.kept = tree["body"]
         if tree["duration"] != self.model.duration:
-            self.go_on(tree["duration"])
+            self._lasts(tree["duration"])
         for name in _CHANGING:
             setattr(self, name, tree[name])
 

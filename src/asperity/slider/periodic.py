@@ -172,13 +172,7 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
     if other is None or other.state is not None:
         return answer
     standing = f"{answer.settled_by}, but a body from rest stays at a ratio of {other.ratio:.5g}"
-    return dataclasses.replace(
-        answer,
-        settled=False,
-        settled_by=standing,
-        step_error=None,
-        ratio_from_rest=other.ratio,
-    )
+    return dataclasses.replace(answer, settled=False, settled_by=standing, step_error=None)
 
 
 def answer_of(

@@ -51,8 +51,8 @@ class SlideResult(Result):
     step_error : float or None
         Estimated error of the ratio that the time step makes; None where it is not estimated.
     ratio_from_rest : float or None
-        Where a march from rest settles, or stays, beside a periodic state that a body from rest
-        does not come to; None where none is shown that has not settled for that.
+        Ratio at which a march from rest settles, where the periodic state is unstable; None where
+        it is the same to 1e-3 of it, where that march has not settled, and where none was made.
     residual : float
         How far from an answer it may be. ``march``: change of the mean drive force from the first
         to the second half of the window over :math:`\mu F_N` (steadiness), above 1e-3 also where a

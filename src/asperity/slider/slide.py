@@ -11,11 +11,23 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.runs import Run
 from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
-from asperity.slider.march import march
+from asperity.slider.longer import STILL_GOES, until_settled
+from asperity.slider.march import March, march
 from asperity.slider.model import Model
 from asperity.slider.periodic import GROWS, AperiodicError, none_stable, solve_periodic
 from asperity.slider.result import SlideResult
+from asperity.slider.ringing import as_it_rings
+from asperity.slider.step_error import allowed, refined
 from asperity.slider.timetable import Timetable
+
+_MOST_BESIDE = 500_000  # steps that a body is marched beside a state that is unstable
+_NOT_FOLLOWED = (
+    "where a body from rest goes takes too long to follow here: solve.method 'march' shows it"
+)
+
+
+class _TooLongError(Exception):
+    """A march beside a state would take more steps than it may."""
 
 
 def solve(
@@ -24,11 +36,12 @@ def solve(
     history: bool = True,
     stop: npt.NDArray[np.int64] | None = None,
     run: Run | None = None,
+    beside: bool = True,
 ) -> SlideResult:
     """Solve a sliding body by the method its case names.
 
     A body for which no periodic state is found is marched, and its answer says so; one whose state
-    is unstable is marched too, and its answer says where that settles.
+    is unstable is marched too, for at most 500,000 steps, and its answer says where that settles.
 
     Parameters
     ----------
@@ -40,6 +53,8 @@ def solve(
         Set it to 1 from another thread to have a march raise `Stopped` soon.
     run : Run, optional
         Where a march is kept and gone on from, and who is told how far it is.
+    beside : bool
+        Whether a body whose state is unstable is marched as well.
 
     Returns
     -------
@@ -60,7 +75,7 @@ def solve(
         except AperiodicError as error:
             none = error
         else:
-            return beside_march(found, stop=stop, run=run)
+            return beside_march(found, stop=stop) if beside else found
         answer = march(_to_march(model, none), history=history, stop=stop, run=run)
         left = none.reached.get("residual", math.nan)
         note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
@@ -81,24 +96,24 @@ def solve(
     return march(model, history=history, stop=stop, run=run)
 
 
-def beside_march(
-    answer: SlideResult,
-    *,
-    stop: npt.NDArray[np.int64] | None = None,
-    run: Run | None = None,
-) -> SlideResult:
+def beside_march(answer: SlideResult, *, stop: npt.NDArray[np.int64] | None = None) -> SlideResult:
     """Return a periodic state; of one that is unstable, with where a march from rest settles."""
     if answer.settled or GROWS not in answer.settled_by:
         return answer
     try:
-        rest = march(_to_march(answer.model), history=False, stop=stop, run=run)
+        rest = _shortly(_to_march(answer.model), stop)
     except (ConvergenceError, InputError):
         return answer
-    if not rest.settled:
+    except _TooLongError:
+        return dataclasses.replace(answer, notes=(*answer.notes, _NOT_FOLLOWED))
+    if not rest.settled or any(note.startswith(STILL_GOES) for note in rest.notes):
         note = (
             f"a march from rest has not settled, at a ratio of {rest.ratio:.5g}: see solve.method "
             "'march'"
         )
+        return dataclasses.replace(answer, notes=(*answer.notes, note))
+    if abs(rest.ratio - answer.ratio) <= allowed(answer):
+        note = "a march from rest comes to the same ratio"
         return dataclasses.replace(answer, notes=(*answer.notes, note))
     settles = f"a march from rest settles at a ratio of {rest.ratio:.5g}"
     return dataclasses.replace(
@@ -107,6 +122,24 @@ def beside_march(
         ratio_from_rest=rest.ratio,
         notes=(*answer.notes, f"{settles}: solve.method 'march' shows it"),
     )
+
+
+def _shortly(model: Model, stop: npt.NDArray[np.int64] | None) -> SlideResult:
+    """March as `march`, for so many steps in all as it may take beside a state."""
+    left = _MOST_BESIDE
+
+    def once(finer: Model) -> SlideResult:
+        nonlocal left
+        body = March(finer, stop=stop)
+        if body.table.steps > left:
+            raise _TooLongError
+        farthest = (left - body.table.parts) * body.table.step
+        try:
+            return until_settled(finer, body, farthest=farthest)
+        finally:
+            left -= body.done
+
+    return as_it_rings(refined(model, once))
 
 
 def _check_method(model: Model) -> None:

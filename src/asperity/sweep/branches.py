@@ -1,5 +1,6 @@
 """The periodic state of a sliding body along one axis, followed there and back."""
 
+import dataclasses
 import time
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
@@ -18,6 +19,7 @@ from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree
 from asperity.slider.continuation import Walk
 from asperity.slider.cost import time_of_cycles
+from asperity.slider.from_rest import ratio_of
 from asperity.slider.march import march_key
 from asperity.slider.model import Model
 from asperity.slider.orders import power_of
@@ -32,10 +34,14 @@ from asperity.sweep.grid import Grid
 
 _WAYS = ("there", "back")
 _DIMS = ("way", "value")
-_OF_BODY = ("ratio", "settled", "step_error")
+_OF_BODY = ("ratio", "settled", "step_error", "ratio_from_rest")
 # Of mu W: two states nearer to each other than this are one.
 _APART = 1e-4
 _CYCLES = 40  # of a state, in most cases
+_GOES_ELSEWHERE = (
+    "a march from rest has come neither to a state that is shown nor to another: see solve.method "
+    "'march'"
+)
 
 
 class Branches(Result):
@@ -57,7 +63,8 @@ class Branches(Result):
         ndarray, shape (2, n), there and back; NaN where no state was found that repeats itself
         after 1, 2, 4 or 8 cycles. What is normal to the plane is NaN without ``[normal]``.
     ratio_from_rest : ndarray, shape (n,)
-        Of a body from rest that comes to another state than that on the way there; NaN elsewhere.
+        Of a body from rest that comes to another state than that on the way there, or settles at
+        another ratio where that is unstable; NaN elsewhere.
     missing : int
         States that were not found.
     """
@@ -231,6 +238,7 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
     case, axis, models = problem
     bodies = [*models, *reversed(models)]
     names = [entry.name for entry in Branches.declared() if entry.label.dims == _DIMS]
+    of_row = *names, "ratio_from_rest"
     walk = Walk()
     rows: list[FloatArray] = []
     notes: list[str] = []
@@ -248,8 +256,9 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         run.forecast(sum(time_of_cycles(body, _CYCLES) for body in bodies), f"{len(bodies)} states")
         for body in bodies[len(rows) :]:
             state = walk.to(body)
-            rest = _from_rest(walk, state) if len(rows) < len(models) else np.nan
-            rows.append(np.array([*(_of(state, name) for name in names), rest]))
+            if len(rows) < len(models):
+                state = _and_from_rest(walk, state)
+            rows.append(np.array([_of(state, name) for name in of_row]))
             if not isinstance(state, ConvergenceError):
                 notes += [
                     note for note in state.notes if note not in notes and not note.startswith(NOTED)
@@ -271,17 +280,20 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
     )
 
 
-def _from_rest(walk: Walk, state: SlideResult | ConvergenceError) -> float:
-    """Return the ratio of a body from rest, if it comes to another state than the last; NaN else.
-
-    Where the last is unstable that of its march, if it settles.
-    """
+def _and_from_rest(
+    walk: Walk, state: SlideResult | ConvergenceError
+) -> SlideResult | ConvergenceError:
+    """Return the last state with the ratio of a body from rest, if that settles at another."""
     if isinstance(state, ConvergenceError):
-        return np.nan
-    if state.settled:
-        return walk.from_rest()
-    rest = beside_march(state).ratio_from_rest
-    return np.nan if rest is None else rest
+        return state
+    if not state.settled:
+        return beside_march(state)
+    other = walk.from_rest()
+    if other is None:
+        return state
+    if other.state is None:
+        return dataclasses.replace(state, notes=(*state.notes, _GOES_ELSEWHERE))
+    return dataclasses.replace(state, ratio_from_rest=ratio_of(other.state))
 
 
 def _of_the_step(models: list[Model], ratio: FloatArray, error: FloatArray) -> tuple[str, ...]:

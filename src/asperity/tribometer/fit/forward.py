@@ -101,7 +101,8 @@ def _slid(cases: Sequence[Case]) -> tuple[list[Any], list[Limit | None]]:
         except AsperityError as error:
             models.append(error)
         limits.append(limit)
-    answers = iter(solve_many([one for one in models if isinstance(one, Model)]))
+    # What has not settled is dropped: nothing beside it is wanted.
+    answers = iter(solve_many([one for one in models if isinstance(one, Model)], beside=False))
     return [next(answers) if isinstance(one, Model) else one for one in models], limits
 
 

@@ -54,7 +54,9 @@ def model_ratios(case: Case, load: float, asked: Sequence[Asked | None]) -> list
         slider = Slider.model_validate({"drive_velocity": sliding, "normal_force": load})
         vibration = Vibration.model_validate(shaken)
         models[place] = Model(slider, friction, vibration, Solve(method="periodic"))
-    for place, answer in zip(models, solve_many(list(models.values())), strict=True):
+    # What has not settled is dropped: nothing beside it is wanted.
+    answers = solve_many(list(models.values()), beside=False)
+    for place, answer in zip(models, answers, strict=True):
         if not isinstance(answer, AsperityError) and not unsettled(answer):
             found[place] = answer.ratio
     return found
