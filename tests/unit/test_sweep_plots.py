@@ -49,6 +49,12 @@ def test_what_goes_by_factors_has_a_scale_of_factors(values, scale):
     assert panel.get_xscale() == scale
 
 
+def test_few_factors_are_told_on_the_axis_each_once():
+    panel = plot_sweep(swept((1.5, 3.0, 6.0, 12.0, 24.0))).axes[0]
+    assert [label.get_text() for label in panel.get_xticklabels()] == ["1.5", "3", "6", "12", "24"]
+    assert not panel.get_xticks(minor=True).size
+
+
 def test_so_have_the_colours_of_many_lines():
     (_, bar) = plot_sweep(swept(np.arange(1.0, 12.0), np.geomspace(1.0, 1e3, 10))).axes
     assert bar.get_yscale() == "log"
@@ -70,5 +76,7 @@ def test_so_have_branches_and_safeties():
         {"axis": "vibration.frequency", "axis_unit": "Hz"},
     )
     assert {panel.get_xscale() for panel in plot_branches(ways).axes} == {"log"}
+    never = ways.assign(open_share=0.0 * ways["open_share"])
+    assert plot_branches(never).axes[2].get_ylim() == (0.0, 1.0)
     gears = swept(FACTORS).isel(mass=0).rename(ratio="margin")
     assert {panel.get_xscale() for panel in plot_along(gears).axes} == {"log"}

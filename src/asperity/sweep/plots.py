@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_MARKED = 40
+_FEW = 8  # values that are all told on an axis
 _ROOM = 0.04  # above the greatest value, over what is drawn
 _LABELS = {
     "ratio": r"mean drive force over $\mu F_N$",
@@ -121,6 +122,8 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
             )  # fmt: skip
         panel.set_ylabel(label)
         panel.margins(x=0.01)
+        if variable == "open_share" and not dataset[variable].fillna(0.0).any():
+            panel.set_ylim(0.0, 1.0)  # no share is below nothing
         _scale(panel, dataset["value"])
     legend(every[0], loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=3)
     every[-1].set_xlabel(f"{name} ({unit})" if unit else name)
@@ -129,8 +132,13 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
 
 def _scale(panel: "Axes", along: "xr.DataArray") -> None:
     """Have factors as far apart as each other, where values go by factors."""
-    if _is_numeric(along) and along.name != POINT and by_factors(along.values):
-        panel.set_xscale("log")
+    if not (_is_numeric(along) and along.name != POINT and by_factors(along.values)):
+        return
+    panel.set_xscale("log")
+    if along.size <= _FEW:
+        # The values that were asked for: between whole decades others stand in each other's way.
+        panel.set_xticks(along.values, labels=[f"{value:.4g}" for value in along.values])
+        panel.set_xticks([], minor=True)
 
 
 def _beside(panel: "Axes", title: str) -> None:
