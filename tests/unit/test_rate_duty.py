@@ -208,3 +208,25 @@ def test_variants_that_are_rated_block_by_block_are_those_of_one_block(monkeypat
     parts = variants(A100, Operation(**RUN), diameter_factor=factors)
     for key in ("iso14521.safety_wear", "bs721.safety_strength", "agma6034.eta"):
         assert parts[key].tolist() == whole[key].tolist(), key
+
+
+@pytest.mark.parametrize("varied", [
+    {"diameter_factor": np.linspace(12.0, 13.5, 17)},
+    {"diameter_factor": [12.0, 12.5, 13.5]},
+    {"worm_speed": [120.0, 150.0]},
+])  # fmt: skip
+def test_variants_of_a_duty_of_many_parts_have_what_each_has_alone(varied):
+    parts = steps(*((250 - 9 * n, 1500 - 40 * n, 50 + 10 * n) for n in range(17)))
+    ((name, values),) = varied.items()
+    if name == "worm_speed":
+        parts = [{key: part[key] for key in part if key != "worm_speed"} for part in parts]
+    operation = Operation(**RUN, duty_cycle=parts)
+    found = variants(A100, operation, **varied)
+    for place, value in enumerate(values):
+        gears, run = A100, operation
+        if name == "worm_speed":
+            run = Operation(**RUN | {name: f"{value} rad/s"}, duty_cycle=parts)
+        else:
+            gears = A100.model_copy(update={name: float(value)})
+        for path, wanted in safeties(rate(gears, run)).items():
+            assert found[path][place] == pytest.approx(wanted, rel=1e-9), path

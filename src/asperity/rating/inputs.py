@@ -166,7 +166,12 @@ class Inputs:
     @property
     def together(self) -> bool:
         """Whether the parts of the duty cycle go through the formulas together, as arrays."""
-        return len(self.duty) > MANY and not any(np.ndim(part.hours) for part in self.duty[:1])
+        return len(self.duty) > MANY and not self.is_varied
+
+    @functools.cached_property
+    def is_varied(self) -> bool:
+        """Whether it is many variants of a gearset or of its load, as arrays."""
+        return any(np.ndim(getattr(self, field.name)) for field in dataclasses.fields(self))
 
     @property
     def speeds(self) -> tuple[Real, ...]:

@@ -131,7 +131,7 @@ def _unreached(
 
     Of many, which are looked up at once; few are returned all.
     """
-    if len(speeds) <= _FEW or any(np.ndim(speed) for speed in speeds):
+    if len(speeds) <= _FEW or inputs.is_varied or any(np.ndim(speed) for speed in speeds):
         return speeds
     worm = np.asarray(speeds, dtype=np.float64)
     turning = worm / inputs.gear_ratio if member == "wheel" else worm
