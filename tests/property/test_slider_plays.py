@@ -175,7 +175,7 @@ def branched(seed, folder, beside):
     """Follow a body along its velocity ratio and back; yield states that are not as they are told.
 
     A body by the plain way comes from rest: it is in one of the two states that stay, if both were
-    found.
+    found, or in one that is told of a body from rest alone.
     """
     rng = np.random.default_rng(seed)
     (lot,) = lots(int(rng.integers(1 << 30)), 1, folder, models=("dahl", "lugre"))
@@ -197,6 +197,7 @@ def branched(seed, folder, beside):
                 yield way, place, "marked", [str(cell) for cell in row], lot.toml()
     for place, value in enumerate(values):
         both = [told["ratio"][way][place] for way in (0, 1)]
+        rest = told.get("ratio_from_rest", [None] * len(values))[place]
         stays = [told["settled"][way][place] == 1.0 for way in (0, 1)]
         if not all(stays):
             continue
@@ -210,8 +211,9 @@ def branched(seed, folder, beside):
         beside.append(value)
         more = error + 2.0 * unsteady
         more += 2.0 * max(told["step_error"][way][place] or 0.0 for way in (0, 1))
-        if min(abs(later - ratio) for ratio in both) > BAR + more:
-            yield value, both, plain, later, error, told.get("notes"), lot.toml()
+        known = [*both, *([] if rest is None else [rest])]
+        if min(abs(later - ratio) for ratio in known) > BAR + more:
+            yield value, known, plain, later, error, told.get("notes"), lot.toml()
 
 
 @pytest.mark.slow

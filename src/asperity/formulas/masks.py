@@ -44,7 +44,8 @@ _BY_VALUE = frozenset([float, int, str, bool, type(None), np.float64])
 @functools.cache
 def by_value(kind: type) -> bool:
     """Whether what is of a kind is known by its value, or never changes and equals itself alone."""
-    made = getattr(kind, "__dataclass_params__", None)
+    # Its own: what is derived of a frozen class need not be frozen.
+    made = vars(kind).get("__dataclass_params__")
     return kind in _BY_VALUE or (made is not None and made.frozen and not made.eq)
 
 
@@ -305,10 +306,8 @@ def common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     try:
         return _together(found)
     except ValueError:
-        pass
-    shapes = {name: np.shape(array) for name, array in arrays.items()}
-    listed = ", ".join(f"{name} {shape}" for name, shape in shapes.items())
-    raise InputError(f"the shapes {listed} do not go together; make them equal")
+        listed = ", ".join(f"{name} {shape}" for name, shape in zip(arrays, found, strict=True))
+        raise InputError(f"the shapes {listed} do not go together; make them equal") from None
 
 
 @functools.lru_cache
