@@ -227,6 +227,16 @@ def test_steps_that_compile_are_no_measure_of_what_a_work_takes(timed, compiling
     assert told in ([], ["this will take about 32 seconds"])
 
 
+def test_a_work_that_begins_anew_is_measured_anew(timed):
+    run, now, told = timed
+    # As a march with a finer step does: what it did before is no measure of it.
+    for total in (1000, 2000):
+        for done in range(1, total + 1):
+            now[0] += 0.02
+            run.checkpoint(done, total)
+    assert told == []
+
+
 def test_before_more_than_two_steps_are_measured_nothing_is_forecast(timed):
     run, now, told = timed
     for done in range(3):

@@ -114,7 +114,8 @@ class Run:
         """Tell how much is done; once it can be seen, also that it will take long."""
         self._progress(done, total)
         now = time.monotonic()
-        if self._begun is None:
+        # A work that begins anew, in finer steps say, is measured anew.
+        if self._begun is None or done - self._begun[1] < self._marks[1][1]:
             self._begun = now, done
             self._marks = [(now, 0), (now, 0)]
         began, first = self._begun

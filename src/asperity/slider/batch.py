@@ -16,6 +16,7 @@ from asperity.friction.loaded import STIFFNESS
 from asperity.normal import HERTZ, LINEAR, elastic_force
 from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
+from asperity.slider.astray import goes_alone
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.fading import quarter_means
@@ -35,7 +36,7 @@ from asperity.slider.scaled import (
     Parameters,
 )
 from asperity.slider.slide import solve
-from asperity.slider.step_error import power_missing, refined
+from asperity.slider.step_error import refined
 from asperity.slider.summary import energies, pressed_energies
 from asperity.slider.timetable import Timetable, WindowMeans, pull_across
 from asperity.vibration.waveform import displacement_at
@@ -159,7 +160,7 @@ def _refined(
     model: Model, answer: SlideResult | AsperityError, stop: np.ndarray
 ) -> SlideResult | AsperityError:
     """Return the answer of a body that settled if it may, by a step that makes no great error."""
-    if isinstance(answer, AsperityError) and power_missing(model, answer) is None:
+    if isinstance(answer, AsperityError) and not goes_alone(model, answer):
         return answer
     once = functools.partial(march_once, history=False, stop=stop)
     try:

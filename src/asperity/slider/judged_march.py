@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from asperity.results.settled import Standing
+from asperity.slider.astray import motion_across
 from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.integrators import Integrator
 from asperity.slider.longer import brought_home, far_from_home, needed, still_goes
@@ -63,6 +64,9 @@ def judged_answer(
     if standing.settled and leaves:
         standing = Standing(False, leaves)
     standing = heard(standing, model, window.model.duration)
+    across = motion_across(body, window.model, table) if standing.settled else None
+    if across is not None:
+        standing = Standing(False, str(across))
     if standing.settled:
         at_end = body()
         standing, wanders = judged(standing, at_end, table, sums, means)
@@ -89,4 +93,6 @@ def judged_answer(
         notes=(*march_notes(steady), *ringing_notes(model, follows=follows), *wanders, *notes),
         **told,
     )  # fmt: skip
+    if across is not None:
+        return answer, window.model.duration + across.cycles / model.frequency + model.window
     return answer, home if is_far or answer.settled else needed(window)

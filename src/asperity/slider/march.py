@@ -17,6 +17,7 @@ from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.run import duration as in_words
 from asperity.runs.tree import Tree
+from asperity.slider.astray import straight_or_askew
 from asperity.slider.cost import estimate
 from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
@@ -212,7 +213,7 @@ class March:
         """Return all that changes on the way, as a tree of arrays."""
         changing = {name: getattr(self, name) for name in _CHANGING}
         body, model = self._body.kept, self.model
-        return {**changing, "finer": model.finer, "body": body, "duration": self.duration}
+        return {**changing, "finer": model.finer, "askew": model.askew, "body": body, "duration": self.duration}
 
     def restore(self, tree: Tree) -> None:
         """Go back to where a march of the same body stood when it gave its tree."""
@@ -348,11 +349,16 @@ def march_once(
 ) -> SlideResult:
     """March as `march` in the steps that the model has, from ``kept`` on if it is given."""
     run = run if run is not None else Run()
-    body = March(model, record=history, stop=stop, run=run)
-    if kept is not None:
-        body.restore(kept)
-    with run.interruptible():
+
+    def once(model: Model) -> SlideResult:
+        body = March(model, record=history, stop=stop, run=run)
+        if kept is not None and kept["askew"] == model.askew:
+            body.restore(kept)
         return until_settled(model, body)
+
+    askew = kept["askew"] if kept is not None else 0.0
+    with run.interruptible():
+        return straight_or_askew(model, once, askew)
 
 
 def march_key(model: Model, *, history: bool) -> str:

@@ -39,6 +39,8 @@ _FIRST_CYCLES = 100
 _MOST_FIRST_STEPS, _DEEPER = 1_000_000, 1.05
 # Parts of a cycle by which steps may miss a corner of the wave; Coulomb's force jumps there.
 _MISSED, _MISSED_BY_COULOMB = 1e-5, 5e-6
+ASKEW = 1e-6
+"""Angle by which a body is shaken off its way that leaves it by the least push, rad."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -61,6 +63,8 @@ class Model:
         What the contact wears and heats by; it goes with ``normal``.
     finer : int
         How many times finer than by its bounds a step is divided, for the error it makes.
+    askew : float
+        How a push across grows a cycle, for which the body is shaken a little askew; 0: it is not.
     """
 
     slider: Slider
@@ -71,6 +75,7 @@ class Model:
     normal: Normal | None = None
     wear: Wear | None = None
     finer: int = dataclasses.field(default=1, repr=False)
+    askew: float = dataclasses.field(default=0.0, repr=False)
 
     def __post_init__(self) -> None:
         require_fields(self)
@@ -305,6 +310,7 @@ class Model:
             lost = 0.5 * mobility * damping
         cos, sin, _ = self.unit_direction
         sign = -1.0 if self.on_body else 1.0
+        transfer, sin = (1.0, ASKEW) if self.askew else (friction.transfer, sin)
         scaled = Parameters(
             drive=slider.drive_velocity * step / length,
             pull=0.0,
@@ -314,7 +320,7 @@ class Model:
             mobility_x=0.0 if slider.rigid else mobility / (1.0 + lost),
             mobility_y=mobility if slider.free else 0.0,
             base_x=sign * self.amplitude * cos / length,
-            base_y=sign * friction.transfer * self.amplitude * sin / length,
+            base_y=sign * transfer * self.amplitude * sin / length,
             own_1=0.0 if self.on_body else 1.0,
             own_2=friction.transfer if self.on_body else 0.0,
             exponent=friction.exponent,

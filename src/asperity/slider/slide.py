@@ -9,6 +9,7 @@ import numpy.typing as npt
 from asperity.casefile import Case
 from asperity.errors import ConvergenceError, InputError
 from asperity.runs import Run
+from asperity.slider.astray import straight_or_askew
 from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
 from asperity.slider.longer import STILL_GOES, until_settled
@@ -128,7 +129,7 @@ def _shortly(model: Model, stop: npt.NDArray[np.int64] | None) -> SlideResult:
     """March as `march`, for so many steps in all as it may take beside a state."""
     left = _MOST_BESIDE
 
-    def once(finer: Model) -> SlideResult:
+    def marched(finer: Model) -> SlideResult:
         nonlocal left
         body = March(finer, stop=stop)
         if body.table.steps > left:
@@ -138,6 +139,9 @@ def _shortly(model: Model, stop: npt.NDArray[np.int64] | None) -> SlideResult:
             return until_settled(finer, body, farthest=farthest)
         finally:
             left -= body.done
+
+    def once(finer: Model) -> SlideResult:
+        return straight_or_askew(finer, marched)
 
     return as_it_rings(refined(model, once))
 
