@@ -29,6 +29,7 @@ LAWS = {"split": SPLIT, "unsplit": UNSPLIT, "vector": VECTOR}
 NORMALS = {None: CONSTANT, "linear": LINEAR, "hertz": HERTZ, "rough": ROUGH}
 FEET = 64
 MOST_STEPS = 25_000
+ASKEW = 1e-6  # rad
 
 
 class Body(NamedTuple):
@@ -575,13 +576,17 @@ def body_of(model):
             critical = 2.0 * math.sqrt(slope * slider.mass)
             loss = normal.damping_ratio * critical / slider.normal_force
     on_body = vibration.applied_to == "body"
+    free = slider.mass is not None and slider.lateral != "guided"
+    across = flat * math.sin(vibration.direction)
+    # Nothing is aligned better than that; what is marched straight never leaves its way.
+    across = ASKEW if free and abs(across) < 1e-12 else across * friction.transfer
     return Body(
         drive=slider.drive_velocity,
         stiffness=slider.drive_stiffness or 0.0,
         damping=slider.drive_damping,
         mass=slider.mass or 1.0,
         rigid=slider.drive_stiffness is None,
-        free=slider.mass is not None and slider.lateral != "guided",
+        free=free,
         model=MODELS[friction.model],
         law=LAWS[friction.law],
         exponent=friction.exponent,
@@ -595,7 +600,7 @@ def body_of(model):
         own_1=0.0 if on_body else 1.0,
         own_2=friction.transfer if on_body else 0.0,
         base_x=sign * amplitude * flat * math.cos(vibration.direction),
-        base_y=sign * amplitude * flat * math.sin(vibration.direction) * friction.transfer,
+        base_y=sign * amplitude * across,
         base_z=sign * amplitude * up,
         normal=NORMALS[None if normal is None else normal.law],
         dead=normal is not None and normal.control == "force",

@@ -18,13 +18,12 @@ from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import at_the_end
 from asperity.slider.model import ASKEW, Model
 from asperity.slider.result import SlideResult
-from asperity.slider.scaled import DAHL, LUGRE
 from asperity.slider.step_error import power_missing, run_once
 from asperity.slider.timetable import Timetable
 
 _PUSH = 1e-8  # of the deflection limit, or of the velocity that gives the body as much energy
-_SOON, _LATE = 4, 64  # cycles after which pushes are looked at
-_CLEARLY = 2.0  # times as much or as little, that tells soon
+_CYCLES = 4, 16, 64  # after which pushes are looked at
+_CLEARLY = 1.05  # times as much or as little, that tells before the last of them
 _SMALL = 0.1  # of mu F_N, below which a motion across shows little in the mean drive force
 
 
@@ -47,14 +46,20 @@ class Growing(NamedTuple):
 
 
 def goes_straight(model: Model) -> bool:
-    """Whether a body that is free sideways is marched straight by symmetry alone.
+    r"""Whether a body is marched straight by symmetry alone, and might leave its way.
 
     Coulomb's friction and that of springs that are cut off bring any two motions nearer: a push
-    across fades.
+    across fades. So it does with Dahl's exponent of 1, if the load is constant: across,
+    :math:`\dot s = v - |v_x| s/s_{max}` damps what swings on the asperities, whatever
+    :math:`v_x` does.
     """
-    bends = model.friction.model in ("dahl", "lugre")
-    straight = model.vibrates and model.unit_direction[1] == 0.0
-    return straight and bends and model.slider.free and model.solve.scheme != "two-phase"
+    friction, slider = model.friction, model.slider
+    if not (model.vibrates and model.unit_direction[1] == 0.0 and slider.free):
+        return False
+    if model.solve.scheme == "two-phase":
+        return False
+    fades = friction.exponent == 1.0 and model.normal is None
+    return friction.model == "lugre" or (friction.model == "dahl" and not fades)
 
 
 def motion_across(body: Callable[[], Integrator], model: Model, table: Timetable) -> Growing | None:
@@ -84,10 +89,10 @@ def motion_across(body: Callable[[], Integrator], model: Model, table: Timetable
     sizes = [_size(there)]
     if not 0.0 < sizes[0] < _SMALL:
         return None
-    for _ in range(_LATE):
+    for _ in range(_CYCLES[-1]):
         run_once(there)
         sizes.append(_size(there))
-    half = _LATE // 2
+    half = _CYCLES[-1] // 2
     growth = (max(sizes[half:]) / max(sizes[:half])) ** (1.0 / half)
     if growth <= UNSTABLE:
         return None
@@ -105,7 +110,7 @@ def growth_of_pushes(cycle: Cycle) -> float:
     bodies[0].body.state["velocity_y"] = _PUSH * swift
     bodies[1].body.state["deflection_y"] = _PUSH
     done = 0
-    for cycles in (_SOON, _LATE):
+    for cycles in _CYCLES:
         for body in bodies:
             for _ in range(cycles - done):
                 run_once(body)

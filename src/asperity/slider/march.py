@@ -212,8 +212,8 @@ class March:
     def tree(self) -> Tree:
         """Return all that changes on the way, as a tree of arrays."""
         changing = {name: getattr(self, name) for name in _CHANGING}
-        body, model = self._body.kept, self.model
-        return {**changing, "finer": model.finer, "askew": model.askew, "body": body, "duration": self.duration}
+        model = {name: getattr(self.model, name) for name in ("finer", "askew")}
+        return {**changing, **model, "body": self._body.kept, "duration": self.duration}
 
     def restore(self, tree: Tree) -> None:
         """Go back to where a march of the same body stood when it gave its tree."""
