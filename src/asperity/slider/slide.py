@@ -12,7 +12,7 @@ from asperity.runs import Run
 from asperity.slider.astray import straight_or_askew
 from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
-from asperity.slider.longer import STILL_GOES, until_settled
+from asperity.slider.longer import STILL_GOES, lasting, until_settled
 from asperity.slider.march import March, march
 from asperity.slider.model import Model
 from asperity.slider.periodic import GROWS, AperiodicError, none_stable, solve_periodic
@@ -22,6 +22,7 @@ from asperity.slider.step_error import allowed, refined
 from asperity.slider.timetable import Timetable
 
 _MOST_BESIDE = 500_000  # steps that a body is marched beside a state that is unstable
+_SHORTER = 0.4  # of them, in a march that would be longer: it may settle soon, straight or askew
 _NOT_FOLLOWED = (
     "where a body from rest goes takes too long to follow here: solve.method 'march' shows it"
 )
@@ -132,18 +133,35 @@ def _shortly(model: Model, stop: npt.NDArray[np.int64] | None) -> SlideResult:
     def marched(finer: Model) -> SlideResult:
         nonlocal left
         body = March(finer, stop=stop)
-        if body.table.steps > left:
-            raise _TooLongError
+        whole = body.table.steps <= left
+        if not whole:
+            body = March(_shortened(finer, body.table.step, left), stop=stop)
         farthest = (left - body.table.parts) * body.table.step
         try:
-            return until_settled(finer, body, farthest=farthest)
+            answer = until_settled(body.model, body, farthest=farthest)
         finally:
             left -= body.done
+        if not (whole or answer.settled):
+            raise _TooLongError
+        return answer
 
     def once(finer: Model) -> SlideResult:
         return straight_or_askew(finer, marched)
 
     return as_it_rings(refined(model, once))
+
+
+def _shortened(model: Model, step: float, left: int) -> Model:
+    """Return a body that is marched for fewer steps, s, than it usually is, of those left."""
+    steps = int(_SHORTER * _MOST_BESIDE)
+    if model.solve.duration is not None or steps > left:
+        raise _TooLongError
+    try:
+        shorter = lasting(model, steps * step)
+        Timetable(shorter)
+    except InputError:
+        raise _TooLongError from None
+    return shorter
 
 
 def _check_method(model: Model) -> None:
