@@ -165,8 +165,8 @@ def test_a_march_beside_a_state_takes_no_more_steps_than_it_may(soft, monkeypatc
         answer = solve(body(soft, *settings), history=False)
         return answer, [each.done for each in marches]
 
-    # Two million it would be: in a tenth of that it does not settle. Of a duration that is asked for
-    # nothing is marched.
+    # Two million it would be, of which a tenth does not do. Of a duration that is asked for nothing
+    # is marched.
     long = "vibration.frequency=5000 Hz", "vibration.velocity_ratio=0.3"
     found, taken = beside(*long, "solve.duration=0.8 s")
     assert sum(taken) == 0
