@@ -27,6 +27,7 @@ from asperity.slider.ringing import (
     still_rings,
     upward,
 )
+from asperity.slider.steady import growth_rate
 from asperity.slider.step_error import allowed_at
 from asperity.slider.timetable import (
     FAR,
@@ -143,6 +144,10 @@ def needed(window: WindowMeans) -> float | None:
         least.append(max(model.start + model.ramp + model.window, model.start + spans))
     # What began with the drive or the vibration, a ring say, fades before the window begins.
     loaded = model.usual_duration + _loading(model)
+    # Who sticks and slips has a mean that follows where in a slip the window ends, and fades never.
+    slips = not model.vibrates and growth_rate(model) > 0.0
+    if slips and broke:
+        return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
     if lags or not (broke or model.vibrates or slider.rigid):
         least.append(loaded)
@@ -293,6 +298,12 @@ def advice(duration: float | None, model: Model, instead: str | None = "periodic
         return (
             "no solve.duration is foreseen that would do: nothing damps the body's ring on its "
             "drive; give slider.drive_damping"
+        )
+    if duration is None and not model.vibrates and growth_rate(model) > 0.0:
+        return (
+            "no solve.duration is foreseen that would do: the mean follows where in a slip its "
+            f"window of {model.window:.2g} s begins and ends; take it over whole slips from the "
+            "drive force over time (drive_force in slide.nc of --out, or history in Python)"
         )
     if duration is None:
         other = (

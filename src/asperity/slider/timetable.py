@@ -275,7 +275,7 @@ def march_notes(window: WindowMeans) -> tuple[str, ...]:
     if residual > UNSTEADY:
         notes.append(
             "not steady: from the first to the second half of the window the mean drive force "
-            f"changes by {residual:.2g} of mu F_N; give a longer solve.duration"
+            f"changes by {residual:.2g} of mu F_N"
         )
     bound = model.substeps // model.finer
     if bound > 1 and model.friction.model == "coulomb":
