@@ -149,7 +149,7 @@ def needed(window: WindowMeans) -> float | None:
     if slips and broke:
         return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
-    if lags or not (broke or model.vibrates or slider.rigid):
+    if lags or window.holds:
         least.append(loaded)
     if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(window)

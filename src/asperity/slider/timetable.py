@@ -114,7 +114,7 @@ class WindowMeans(NamedTuple):
     table: Timetable  #: Its steps
     change: float  #: Of the mean drive force from the window's first half to its second
     quarters: Sequence[float]  #: Those of its quarters
-    broke: bool  #: Whether the body has broken away
+    broke: bool  #: Whether the drive force has come to mu F_N
     across: float = 0.0  #: What `pull_across` gives
 
     @property
@@ -122,13 +122,24 @@ class WindowMeans(NamedTuple):
         """How far the mean drive forces of the halves are apart."""
         return abs(self.change)
 
+    @property
+    def holds(self) -> bool:
+        """Whether a body that nothing shakes still holds: it has not broken away.
+
+        Asperities that come to their limit ever more slowly may never bear all of mu F_N.
+        """
+        model = self.model
+        if self.broke or model.vibrates or model.slider.rigid:
+            return False
+        return not (bends_ever_more(model) and self.quarters[-1] >= 1.0 - FAR)
+
 
 def march_standing(window: WindowMeans) -> Standing:
     """Return whether a march has settled: by the halves of its window, if nothing is missing."""
-    model, table, _, means, broke, across = window
+    model, table, _, means, _, across = window
     residual = window.residual
     missing = []
-    if not (broke or model.vibrates or model.slider.rigid):
+    if window.holds:
         missing.append("the body has not broken away")
     if bending(model) > 0.0:
         missing.append("the asperities are still being taken up")
@@ -251,7 +262,7 @@ def still_grows(model: Model, table: Timetable) -> bool:
 
 def march_notes(window: WindowMeans) -> tuple[str, ...]:
     """What a reader of a march's numbers should know."""
-    model, table, _, _, broke, _ = window
+    model, table = window.model, window.table
     residual, notes = window.residual, []
     span = table.window * table.step
     if model.vibrates and span < SHORT * model.window - 1.0 / model.frequency:
@@ -259,7 +270,7 @@ def march_notes(window: WindowMeans) -> tuple[str, ...]:
             f"the means are over {span:.3g} s: solve.duration has no room for the usual "
             f"{model.window:.3g} s"
         )
-    if not (broke or model.vibrates or model.slider.rigid):
+    if window.holds:
         notes.append("the body has not broken away; give a longer solve.duration")
     if (bent := bending(model)) > 0.0:
         way = model.slider.drive_velocity * model.duration
