@@ -154,7 +154,7 @@ def march_standing(window: WindowMeans) -> Standing:
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
     elif (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
-    if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
+    if residual <= UNSTEADY and (far := still_to_bend(window)) > FAR:
         missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
     missing += drifts_sideways(across)
     if residual <= UNSTEADY and still_loads(model, table, residual):
@@ -172,15 +172,20 @@ def bending(model: Model) -> float:
     return bent if way < WAYS * bent else 0.0
 
 
-def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
+def still_to_bend(window: WindowMeans) -> float:
     r"""How far the mean is from where Dahl's asperities come to, over mu F_N.
 
     Those with an exponent :math:`i` above 1 come to their limit as :math:`t^{-1/(i - 1)}`: what is
-    left is :math:`i - 1` times the change in as long a time as has passed.
+    left is :math:`i - 1` times the change in as long a time as has passed. Where nothing shakes
+    them it is what friction lacks, whatever ring there is on the drive.
     """
+    model, table = window.model, window.table
     if not bends_ever_more(model):
         return 0.0
-    change = residual * (model.duration - model.start) / (0.5 * table.window * table.step)
+    if not model.vibrates:
+        return max(1.0 - sum(window.quarters) / len(window.quarters), 0.0)
+    half = 0.5 * table.window * table.step
+    change = window.residual * (model.duration - model.start) / half
     return (model.friction.exponent - 1.0) * change
 
 
