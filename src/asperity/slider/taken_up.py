@@ -7,7 +7,8 @@ all of that, and Dahl's exponent :math:`i`,
     \dot w = -\frac{v_d w^i}{s_{max} + L w^i},\quad
     v_d t = s_{max}\frac{w^{1 - i} - 1}{i - 1} + L(1 - w)
 
-from rest: a vibration that is slower than the drive adds nothing in the mean.
+from rest: a vibration that is slower than the drive adds nothing in the mean. LuGre's, with
+:math:`i = 1`, come to no more than static friction.
 """
 
 import math
@@ -30,10 +31,7 @@ def taken_up_after(model: Model) -> float | None:
     None beyond 1000 usual durations; no time where nothing bends, or is bent back by a vibration.
     """
     friction = model.friction
-    bends = friction.model == "dahl" or (
-        friction.model == "lugre" and (friction.static_mu or friction.mu) == friction.mu
-    )
-    if not bends or turns_back(model):
+    if friction.model not in ("dahl", "lugre") or turns_back(model):
         return 0.0
     most = _MOST_TIMES * max(model.usual_duration / model.duration, 1.0)
     durations = model.duration * _NEXT ** np.arange(math.ceil(math.log(most) / math.log(_NEXT)))
@@ -48,16 +46,20 @@ def taken_up_after(model: Model) -> float | None:
 
 
 def _means(model: Model, ends: FloatArray) -> FloatArray:
-    """Return what friction lacks of its limit, in the mean between rows of times in s."""
+    """Return what friction lacks of its limit, in the mean between rows of times in s.
+
+    Over mu F_N.
+    """
     slider, friction, w = model.slider, model.friction, _LACKS
+    most = (friction.static_mu or friction.mu) / friction.mu
     power = friction.exponent if friction.model == "dahl" else 1.0
-    bends = friction.deflection_limit(slider.normal_force)
+    bends = most * friction.deflection_limit(slider.normal_force)
     stiffness = slider.drive_stiffness
-    stretch = 0.0 if stiffness is None else model.full_friction / stiffness
+    stretch = 0.0 if stiffness is None else most * model.full_friction / stiffness
     way = bends * _powers(w, 1.0 - power) + stretch * (1.0 - w)
     summed = bends * _powers(w, 2.0 - power) + 0.5 * stretch * (1.0 - w * w)
     at = np.interp(ends * slider.drive_velocity, way, summed)
-    means: FloatArray = np.diff(at, axis=0) / np.diff(ends * slider.drive_velocity, axis=0)
+    means: FloatArray = most * np.diff(at, axis=0) / np.diff(ends * slider.drive_velocity, axis=0)
     return means
 
 

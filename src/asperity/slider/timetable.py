@@ -126,12 +126,14 @@ class WindowMeans(NamedTuple):
     def holds(self) -> bool:
         """Whether a body that nothing shakes still holds: it has not broken away.
 
-        Asperities that come to their limit ever more slowly may never bear all of mu F_N.
+        Asperities come ever nearer to their limit, and may never bear all of mu F_N; those whose
+        limit falls with the speed bear more before they slide.
         """
-        model = self.model
+        model, friction = self.model, self.model.friction
         if self.broke or model.vibrates or model.slider.rigid:
             return False
-        return not (bends_ever_more(model) and self.quarters[-1] >= 1.0 - FAR)
+        falls = (friction.static_mu or friction.mu) > friction.mu
+        return friction.model == "coulomb" or falls or not self.quarters[-1] >= 1.0 - FAR
 
 
 def march_standing(window: WindowMeans) -> Standing:
