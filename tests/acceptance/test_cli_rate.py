@@ -329,9 +329,9 @@ def test_end_of_h_star_is_one_line_with_the_effect_of_ratio_and_module(asperity)
     )
     assert (code, output) == (2, "")
     assert errors.count("\n") == 1
-    assert errors.startswith("gearset-2: h* is -0.00126; it must be above 0")
-    assert "U below" in errors
-    assert "m_x1 below" in errors
+    assert errors.startswith("gearset-2: the film parameter h* is -0.00126; it must be above 0")
+    assert "ratio below" in errors
+    assert "axial module below" in errors
 
 
 @pytest.mark.parametrize(

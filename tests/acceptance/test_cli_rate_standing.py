@@ -54,7 +54,8 @@ lubricant = "ISO VG 460 mineral"
 SAID = {
     "a ratio beyond two standards": (
         CATALOGUE_100,
-        "holds by AGMA 6034; no answer by ISO/TR 14521 and BS 721 ISO/TR 14521: h* is -0.00541",
+        "holds by AGMA 6034; no answer by ISO/TR 14521 and BS 721 ISO/TR 14521: the "
+        "film parameter h* is -0.00541",
         {"iso14521": None, "bs721": None, "agma6034": True},
     ),
     "a small gearbox that idles": (

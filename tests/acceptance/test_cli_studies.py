@@ -92,7 +92,7 @@ def test_the_settings_of_an_optimum_make_it(asperity):
     [
         (["sensitivity", "table-4.3"], r"^table-4\.3: it is a case of another kind"),
         (["optimise", "gearset-2", "--set", "gearset.axial_module=2.4 mm"],
-         r"^gearset-2: h\* is -0\.00411;"),
+         r"^gearset-2: the film parameter h\* is -0\.00411;"),
         (["methods", "gearset-2", "--set", "rating.friction=0.1"],
          r"^--set .*: rating\.friction is 0\.1,"),
         (["methods", "gearset-2", "--set", "vibration.frequency=20 kHz"],

@@ -99,7 +99,10 @@ def test_so_do_sweeps_and_branches_with_their_pictures(soft, monkeypatch, tmp_pa
     rest = [answer.ratio_from_rest for answer in alone]
     np.testing.assert_allclose(found.arrays["ratio_from_rest"], rest)
     assert found.to_json()["ratio_from_rest"] == rest
-    assert [column.heading for column in found.tables()[0].columns][-1] == "from rest"
+    (table,) = found.tables()
+    assert [column.heading for column in table.columns][-1] == "from rest"
+    said = f"2 points settle in another state from rest, at ratios of {min(rest):.5g} to "
+    assert any(str(remark).startswith(said) for remark in table.remarks)
     lines = {line.get_label(): line for line in plot_sweep(found.to_dataset()).axes[0].lines}
     assert lines["from rest"].get_ydata().tolist() == rest
     ways = branches.answer(branches.prepare(read_case(soft, TABLES, ()), over=over), Run())

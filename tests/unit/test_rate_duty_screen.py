@@ -31,6 +31,18 @@ def test_the_screen_of_an_actuator_tells_its_loads_oil_life_and_start():
     assert max(map(len, text.splitlines())) <= 79
 
 
+def test_the_parts_of_a_duty_in_which_the_load_drives_are_marked():
+    found = rate_case(read_case("gearset-3", case_tables(), ["operation.duty_cycle=1 h, 60 N m"]))
+    (plain,) = (table for table in found.tables() if "Duty" in table.title)
+    assert not plain.remarks
+    duty = "operation.duty_cycle=1 h, 60 N m; 1 h, 60 N m, load drives"
+    found = rate_case(read_case("gearset-3", case_tables(), [duty]))
+    (table,) = (table for table in found.tables() if "Duty" in table.title)
+    assert [row[0] for row in table.rows] == ["part 1", "part 2 *"]
+    assert "the load drives the worm" in table.remarks[0]
+    assert [part.get("load_drives") for part in found.to_json()["duty_cycle"]] == [None, True]
+
+
 def test_measured_losses_and_a_given_oil_are_told_as_such():
     text = actuator("housing.idle_loss=30 W", "operation.oil_temperature=60 degC").brief()
     assert "60 as given; idling 30 W measured" in text

@@ -172,7 +172,7 @@ def test_a_variable_without_room_stays_and_the_others_are_free():
 
 
 def test_a_gearset_that_a_standard_cannot_rate_is_refused_with_its_reason():
-    with pytest.raises(InputError, match=r"^h\* is"):
+    with pytest.raises(InputError, match=r"^the film parameter h\* is"):
         optimise(*gearset("gearset-2", "gearset.axial_module=2.4 mm"))
 
 

@@ -55,6 +55,21 @@ def test_few_factors_are_told_on_the_axis_each_once():
     assert not panel.get_xticks(minor=True).size
 
 
+@pytest.mark.parametrize(("count", "others"), [(7, 1), (60, 1), (60, 9)])
+def test_no_line_goes_through_what_has_not_settled(count, others):
+    found = swept(np.arange(1.0, count + 1.0), np.arange(1.0, others + 1.0))
+    loose = np.isin(found["frequency"], (3.0, 5.0))
+    found["settled"] = found["ratio"] * np.where(loose, 0.0, 1.0)[:, None]
+    lines = plot_sweep(found).axes[0].lines
+    solid = [line for line in lines if line.get_linestyle() == "-"]
+    hollow = [line for line in lines if line.get_fillstyle() == "none"]
+    assert len(solid) == len(hollow) == others
+    assert all(np.isnan(line.get_ydata()).tolist() == loose.tolist() for line in solid)
+    assert all(line.get_xdata().tolist() == [3.0, 5.0] for line in hollow)
+    # The fourth, between them, has its mark also where a line has none.
+    assert all(line.get_marker() == "o" and line.get_markevery() in (None, [3]) for line in solid)
+
+
 def test_so_have_the_colours_of_many_lines():
     (_, bar) = plot_sweep(swept(np.arange(1.0, 12.0), np.geomspace(1.0, 1e3, 10))).axes
     assert bar.get_yscale() == "log"
@@ -65,6 +80,17 @@ def test_so_have_the_colours_of_many_lines():
 def test_but_rows_of_a_table_of_points_have_places():
     (panel, *_) = plot_sweep(swept(FACTORS, name="point")).axes
     assert panel.get_xscale() == "linear"
+
+
+def test_no_line_of_branches_goes_through_what_has_not_settled():
+    places = {"value": ("value", [1.0, 2.0, 3.0]), "way": ["there", "back"]}
+    names = ("ratio", "penetration_swing", "open_share", "settled")
+    found = xr.Dataset({name: (("value", "way"), np.ones((3, 2))) for name in names}, places)
+    found["settled"][1] = 0.0
+    found = found.assign_attrs(axis="vibration.frequency", axis_unit="Hz")
+    for panel in plot_branches(found).axes:
+        drawn = [line for line in panel.lines if line.get_linestyle() == "-"]
+        assert [np.isnan(line.get_ydata()).tolist() for line in drawn] == [[False, True, False]] * 2
 
 
 def test_so_have_branches_and_safeties():

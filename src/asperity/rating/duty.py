@@ -12,8 +12,14 @@ from asperity.rating.inputs import Inputs, Values
 from asperity.rating.iso14521.calculation import parts_of
 from asperity.rating.result import Rating
 from asperity.results.quantity import Quantities, quantity
+from asperity.results.settled import MARK
 from asperity.results.table import Cell, Table, table_of_rows
 from asperity.results.words import Number, Sentence
+
+_BACK = (
+    f"{MARK} the load drives the worm: the part has its share of wear and losses, and none of the "
+    "efficiency over the duty"
+)
 
 
 class DutyPart(Quantities):
@@ -26,6 +32,9 @@ class DutyPart(Quantities):
     share: float | None = quantity("", "", "share of all wear", key="wear_share")
     sump: float | None = quantity("theta_S", "degC", "temperature of the oil", key="theta_S_degC")
     loss: float = quantity("P_V", "W", "all losses")
+    load_drives: bool | None = quantity(
+        "", "", "whether the load drives", default=None, optional=True
+    )
 
 
 class DutyMean(Quantities):
@@ -94,6 +103,7 @@ def duty_parts(inputs: Inputs, iso: Rating) -> tuple[DutyPart, ...]:
             share=_known(depth / whole if whole else math.nan),
             sump=_known(float(own["theta_S_degC"])),
             loss=float(own["loss_total_W"]),
+            load_drives=part.back or None,
         )
         for part, own, depth in zip(inputs.duty, found, depths, strict=True)
     )
@@ -107,12 +117,13 @@ def _each(together: Values, count: int) -> tuple[Values, ...]:
 
 
 def duty_table(parts: tuple[DutyPart, ...]) -> Table:
-    """Return a row for each part."""
+    """Return a row for each part, marked where the load drives the worm."""
+    back = any(part.load_drives for part in parts)
     number = itertools.count(1)
     return table_of_rows(
         parts,
         {
-            "": lambda part: f"part {next(number)}",
+            "": lambda part: f"part {next(number)}{f' {MARK}' if part.load_drives else ''}",
             "h": "hours",
             "T (N m)": "torque",
             "n_1 (rpm)": "speed",
@@ -122,6 +133,7 @@ def duty_table(parts: tuple[DutyPart, ...]) -> Table:
             "P_V (W)": "loss",
         },
         title="Duty cycle, by ISO/TR 14521",
+        remarks=(_BACK,) if back else (),
         within="duty_cycle",
     )
 

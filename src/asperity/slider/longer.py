@@ -27,7 +27,9 @@ from asperity.slider.ringing import (
     still_rings,
     upward,
 )
+from asperity.slider.steady import growth_rate
 from asperity.slider.step_error import allowed_at
+from asperity.slider.taken_up import taken_up_after
 from asperity.slider.timetable import (
     FAR,
     UNSTEADY,
@@ -43,7 +45,6 @@ from asperity.slider.timetable import (
 
 _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
-_MOST_TIMES = 1e3  # what has been marched, that a body is told to be marched for
 _MOVES = 0.02  # of the way to where a mean goes, between the halves of a window
 _FAR_OFF = 5.0  # times what may go untold, that a mean may be off by which has settled
 _NEXT, _MOST_TRIED = 1.02, 400
@@ -130,7 +131,10 @@ def needed(window: WindowMeans) -> float | None:
         return None
     slider = model.slider
     spans = model.window / WINDOW_SHARE
-    least = [1.0 * model.duration]
+    up = taken_up_after(model)
+    if up is None:
+        return None
+    least = [1.0 * model.duration, up]
     if (bent := bending(model)) > 0.0:
         least.append(_SPARE * WAYS * bent / slider.drive_velocity)
     if still_rings(model, model.duration):
@@ -143,12 +147,16 @@ def needed(window: WindowMeans) -> float | None:
         least.append(max(model.start + model.ramp + model.window, model.start + spans))
     # What began with the drive or the vibration, a ring say, fades before the window begins.
     loaded = model.usual_duration + _loading(model)
+    # Who sticks and slips has a mean that follows where in a slip the window ends, and fades never.
+    slips = not model.vibrates and growth_rate(model) > 0.0
+    if slips and broke:
+        return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
-    if lags or not (broke or model.vibrates or slider.rigid):
+    if lags or window.holds:
         least.append(loaded)
     if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(window)
-        if fading is not None:
+        if fading is not None and up <= model.duration:
             # Asperities with an exponent above 1 slow down as they come nearer to their limit.
             slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
             least.append(fading * max(slower, 1.0))
@@ -156,12 +164,10 @@ def needed(window: WindowMeans) -> float | None:
             least.append(loaded)
         if fading is None and max(least) <= model.duration:
             return None
-    if (far := still_to_bend(model, table, residual)) > FAR:
+    far = still_to_bend(window)
+    if far > FAR and up <= model.duration:
         times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)
-        bent = min(model.start + (model.duration - model.start) * times, _bent(model))
-        if bent > _MOST_TIMES * model.duration:
-            return None
-        least.append(bent)
+        least.append(model.start + (model.duration - model.start) * times)
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
     longest = max(
@@ -177,19 +183,6 @@ def _loading(model: Model) -> float:
         return 0.0
     held = (friction.static_mu or friction.mu) * slider.normal_force
     return _SPARE * held / (slider.drive_stiffness * slider.drive_velocity)
-
-
-def _bent(model: Model) -> float:
-    r"""Time in which asperities with an exponent above 1 come near their limit, s.
-
-    A deflection that lacks :math:`w` of the limit :math:`s_{max}` comes nearer by
-    :math:`dw/dx = -w^i/s_{max}` over the way :math:`x` of the drive, once that is stretched.
-    """
-    slider, friction = model.slider, model.friction
-    bends = friction.deflection_limit(slider.normal_force) / slider.drive_velocity
-    left = math.pow(_LEFT * FAR, friction.exponent - 1.0)
-    whole = model.window / (1.0 - 0.5 * WINDOW_SHARE)
-    return model.start + _loading(model) + whole + bends / ((friction.exponent - 1.0) * left)
 
 
 def _fading(of: WindowMeans) -> float | None:
@@ -293,6 +286,12 @@ def advice(duration: float | None, model: Model, instead: str | None = "periodic
         return (
             "no solve.duration is foreseen that would do: nothing damps the body's ring on its "
             "drive; give slider.drive_damping"
+        )
+    if duration is None and not model.vibrates and growth_rate(model) > 0.0:
+        return (
+            "no solve.duration is foreseen that would do: the mean follows where in a slip its "
+            f"window of {model.window:.2g} s begins and ends; take it over whole slips from the "
+            "drive force over time (drive_force in slide.nc of --out, or history in Python)"
         )
     if duration is None:
         other = (

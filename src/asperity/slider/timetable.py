@@ -114,7 +114,7 @@ class WindowMeans(NamedTuple):
     table: Timetable  #: Its steps
     change: float  #: Of the mean drive force from the window's first half to its second
     quarters: Sequence[float]  #: Those of its quarters
-    broke: bool  #: Whether the body has broken away
+    broke: bool  #: Whether the drive force has come to mu F_N
     across: float = 0.0  #: What `pull_across` gives
 
     @property
@@ -122,13 +122,26 @@ class WindowMeans(NamedTuple):
         """How far the mean drive forces of the halves are apart."""
         return abs(self.change)
 
+    @property
+    def holds(self) -> bool:
+        """Whether a body that nothing shakes still holds: it has not broken away.
+
+        Asperities come ever nearer to their limit, and may never bear all of mu F_N; those whose
+        limit falls with the speed bear more before they slide.
+        """
+        model, friction = self.model, self.model.friction
+        if self.broke or model.vibrates or model.slider.rigid:
+            return False
+        falls = (friction.static_mu or friction.mu) > friction.mu
+        return friction.model == "coulomb" or falls or not self.quarters[-1] >= 1.0 - FAR
+
 
 def march_standing(window: WindowMeans) -> Standing:
     """Return whether a march has settled: by the halves of its window, if nothing is missing."""
-    model, table, _, means, broke, across = window
+    model, table, _, means, _, across = window
     residual = window.residual
     missing = []
-    if not (broke or model.vibrates or model.slider.rigid):
+    if window.holds:
         missing.append("the body has not broken away")
     if bending(model) > 0.0:
         missing.append("the asperities are still being taken up")
@@ -143,7 +156,7 @@ def march_standing(window: WindowMeans) -> Standing:
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
     elif (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
-    if residual <= UNSTEADY and (far := still_to_bend(model, table, residual)) > FAR:
+    if residual <= UNSTEADY and (far := still_to_bend(window)) > FAR:
         missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
     missing += drifts_sideways(across)
     if residual <= UNSTEADY and still_loads(model, table, residual):
@@ -161,15 +174,20 @@ def bending(model: Model) -> float:
     return bent if way < WAYS * bent else 0.0
 
 
-def still_to_bend(model: Model, table: Timetable, residual: float) -> float:
+def still_to_bend(window: WindowMeans) -> float:
     r"""How far the mean is from where Dahl's asperities come to, over mu F_N.
 
     Those with an exponent :math:`i` above 1 come to their limit as :math:`t^{-1/(i - 1)}`: what is
-    left is :math:`i - 1` times the change in as long a time as has passed.
+    left is :math:`i - 1` times the change in as long a time as has passed. Where nothing shakes
+    them it is what friction lacks, whatever ring there is on the drive.
     """
+    model, table = window.model, window.table
     if not bends_ever_more(model):
         return 0.0
-    change = residual * (model.duration - model.start) / (0.5 * table.window * table.step)
+    if not model.vibrates:
+        return max(1.0 - sum(window.quarters) / len(window.quarters), 0.0)
+    half = 0.5 * table.window * table.step
+    change = window.residual * (model.duration - model.start) / half
     return (model.friction.exponent - 1.0) * change
 
 
@@ -251,7 +269,7 @@ def still_grows(model: Model, table: Timetable) -> bool:
 
 def march_notes(window: WindowMeans) -> tuple[str, ...]:
     """What a reader of a march's numbers should know."""
-    model, table, _, _, broke, _ = window
+    model, table = window.model, window.table
     residual, notes = window.residual, []
     span = table.window * table.step
     if model.vibrates and span < SHORT * model.window - 1.0 / model.frequency:
@@ -259,7 +277,7 @@ def march_notes(window: WindowMeans) -> tuple[str, ...]:
             f"the means are over {span:.3g} s: solve.duration has no room for the usual "
             f"{model.window:.3g} s"
         )
-    if not (broke or model.vibrates or model.slider.rigid):
+    if window.holds:
         notes.append("the body has not broken away; give a longer solve.duration")
     if (bent := bending(model)) > 0.0:
         way = model.slider.drive_velocity * model.duration
@@ -275,7 +293,7 @@ def march_notes(window: WindowMeans) -> tuple[str, ...]:
     if residual > UNSTEADY:
         notes.append(
             "not steady: from the first to the second half of the window the mean drive force "
-            f"changes by {residual:.2g} of mu F_N; give a longer solve.duration"
+            f"changes by {residual:.2g} of mu F_N"
         )
     bound = model.substeps // model.finer
     if bound > 1 and model.friction.model == "coulomb":

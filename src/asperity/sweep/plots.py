@@ -3,7 +3,9 @@
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
+from asperity.arrays import FloatArray
 from asperity.errors import InputError
 from asperity.rating.demands import DEMANDS
 from asperity.rating.standing import NAMES
@@ -54,19 +56,21 @@ def plot_sweep(dataset: "xr.Dataset") -> "Figure":
     if shown == "margin" and all(map(_is_numeric, axes)):
         return plot_plane(dataset)
     along = max(axes, key=lambda axis: (_is_numeric(axis), axis.size))
-    curves = ratio.transpose(along.name, ...).values.reshape(along.size, -1)
+    curves, loose = _curves(along, ratio), _loose(along, dataset, ratio)
     figure, (panel,) = axes_grid()
     across = next((axis for axis in axes if axis.name != along.name), None)
     if across is None or curves.shape[1] <= len(COLOURS):
         names = [""] if across is None else [_text(across, value) for value in across.values]
-        for values, name, colour, marker in zip(curves.T, names, COLOURS, MARKERS, strict=False):
-            _line(panel, along, values, color=colour, marker=marker, label=name or None)
+        for values, out, name, colour, marker in zip(
+            curves.T, loose.T, names, COLOURS, MARKERS, strict=False
+        ):
+            _line(panel, along, values, out, color=colour, marker=marker, label=name or None)
         if across is not None:
             _beside(panel, _label(across, with_unit=False))
     else:
-        _many_lines(panel, along, curves, across)
-    if "settled" in dataset:
-        _mark_unsettled(panel, along, dataset, ratio)
+        _many_lines(panel, along, curves, loose, across)
+    if loose.any():
+        _mark_unsettled(panel, along, curves, loose, dataset)
     _scale(panel, along)
     if drives:
         panel.set_title(balances(dataset).replace("; ", ";\n"), loc="left", fontsize=10.0)
@@ -101,13 +105,18 @@ def plot_branches(dataset: "xr.Dataset") -> "Figure":
         for way, colour, marker in (("there", VERMILION, "o"), ("back", BLUE, "s")):
             found = dataset[variable].sel(way=way)
             order = np.argsort(found["value"].values)
-            panel.plot(
-                found["value"].values[order], scale * found.values[order], color=colour,
-                marker=marker, markersize=4.0 if way == "there" else 6.5, fillstyle="none",
-                linewidth=1.0, label=way,
-            )  # fmt: skip
-            out = (dataset["settled"].sel(way=way).values == 0.0) if "settled" in dataset else None
-            if out is not None and out.any():
+            look: dict[str, Any] = {
+                "color": colour, "marker": marker, "markersize": 4.0 if way == "there" else 6.5,
+                "fillstyle": "none", "linewidth": 1.0,
+            }  # fmt: skip
+            out = np.zeros(order.size, dtype=bool)
+            if "settled" in dataset:
+                out = dataset["settled"].sel(way=way).values == 0.0
+            firm = np.where(out, np.nan, scale * found.values)
+            panel.plot(found["value"].values[order], firm[order], label=way, **look)
+            if out.any():
+                look["linestyle"] = ""
+                panel.plot(found["value"].values[out], scale * found.values[out], **look)
                 told = any(line.get_label() == "not settled" for line in panel.lines)
                 panel.plot(
                     found["value"].values[out], scale * found.values[out], linestyle="",
@@ -146,29 +155,43 @@ def _beside(panel: "Axes", title: str) -> None:
     legend(panel, title=title, loc="upper left", bbox_to_anchor=(1.0, 1.0))
 
 
+def _curves(along: "xr.DataArray", values: "xr.DataArray") -> FloatArray:
+    """Return what is drawn over an axis, a column for each value of the other."""
+    found: FloatArray = values.transpose(along.name, ...).values.reshape(along.size, -1)
+    return found
+
+
+def _loose(
+    along: "xr.DataArray", dataset: "xr.Dataset", ratio: "xr.DataArray"
+) -> npt.NDArray[np.bool_]:
+    """Return which of the drawn values have not settled."""
+    curves = _curves(along, ratio)
+    if "settled" not in dataset:
+        return np.zeros(curves.shape, dtype=bool)
+    loose: npt.NDArray[np.bool_] = ~(_curves(along, dataset["settled"]) > 0.0)
+    return loose & np.isfinite(curves)
+
+
 def _mark_unsettled(
-    panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset", ratio: "xr.DataArray"
+    panel: "Axes",
+    along: "xr.DataArray",
+    curves: FloatArray,
+    loose: npt.NDArray[np.bool_],
+    dataset: "xr.Dataset",
 ) -> None:
     """Cross out what has not settled, and say so; beside it where a march from rest settles."""
-    order = (along.name, ...)
-    loose = ~(dataset["settled"].transpose(*order).values.reshape(along.size, -1) > 0.0)
-    values = ratio.transpose(*order).values.reshape(along.size, -1)
-    loose &= np.isfinite(values)
-    if not loose.any():
-        return
     places = along.values if _is_numeric(along) else np.arange(along.size)
     crosses = [
         panel.plot(places[out], column[out], linestyle="", marker="x", color=BLACK, zorder=5)[0]
-        for column, out in zip(values.T, loose.T, strict=True)
+        for column, out in zip(curves.T, loose.T, strict=True)
     ]
     crosses[0].set_label("not settled")
     if "ratio_from_rest" in dataset:
-        rest = dataset["ratio_from_rest"].transpose(*order).values.reshape(along.size, -1)
         marks = [
             panel.plot(
                 places, column, linestyle="", marker="^", color=BLACK, fillstyle="none", zorder=5
             )[0]
-            for column in rest.T
+            for column in _curves(along, dataset["ratio_from_rest"]).T
         ]
         marks[0].set_label("from rest")
     # Beside it: in it a cross would be one more that has not settled.
@@ -187,24 +210,52 @@ def _closed_form(panel: "Axes", along: "xr.DataArray", dataset: "xr.Dataset") ->
         legend(panel)
 
 
-def _line(panel: "Axes", axis: "xr.DataArray", values: np.ndarray, **style: Any) -> None:
+def _line(
+    panel: "Axes",
+    axis: "xr.DataArray",
+    values: np.ndarray,
+    loose: npt.NDArray[np.bool_] | None = None,
+    **style: Any,
+) -> None:
+    """Draw values over an axis; hollow, with no line through it, what is loose."""
     # In rising order, since the axis may have been given in any.
     numeric = _is_numeric(axis)
     order = np.argsort(axis.values) if numeric else np.arange(len(values))
+    out = np.zeros(len(values), dtype=bool) if loose is None else loose[order]
+    places, firm = axis.values[order], np.where(out, np.nan, values[order])
+    style = {"marker": ""} | style
     if len(values) > _MOST_MARKED:
         style["marker"] = ""
     # Neighbouring rows of a table of points need not belong together.
     if numeric and axis.name != POINT:
         line = "-"
+        if not style["marker"] and (alone := _alone(firm)):
+            style |= {"marker": "o", "markevery": alone}
     else:
         line = ""
-        style = {"marker": "_"} | {name: how for name, how in style.items() if name != "dashes"}
-        style["marker"] = style["marker"] or "o"
-    panel.plot(axis.values[order], values[order], markersize=4.0, linestyle=line, **style)
+        style = {name: how for name, how in style.items() if name != "dashes"}
+        style["marker"] = style["marker"] or "_"
+    panel.plot(places, firm, markersize=4.0, linestyle=line, **style)
+    if out.any():
+        panel.plot(
+            places[out], values[order][out], linestyle="", marker=style["marker"] or "o",
+            fillstyle="none", markersize=6.0, color=style["color"],
+        )  # fmt: skip
+
+
+def _alone(values: FloatArray) -> list[int]:
+    """Return the places of values that no line reaches: with none on either side."""
+    there = np.concatenate([[False], np.isfinite(values), [False]])
+    alone: list[int] = np.flatnonzero(there[1:-1] & ~there[:-2] & ~there[2:]).tolist()
+    return alone
 
 
 def _many_lines(
-    panel: "Axes", axis: "xr.DataArray", curves: np.ndarray, across: "xr.DataArray"
+    panel: "Axes",
+    axis: "xr.DataArray",
+    curves: np.ndarray,
+    loose: npt.NDArray[np.bool_],
+    across: "xr.DataArray",
 ) -> None:
     import matplotlib as mpl
     from matplotlib.cm import ScalarMappable
@@ -216,7 +267,8 @@ def _many_lines(
     even = LogNorm if _is_numeric(across) and by_factors(across.values) else Normalize
     scale = even(float(numbers.min()), float(numbers.max()))
     for place in places:
-        _line(panel, axis, curves[:, place], color=shades(scale(numbers[place])))
+        shade = shades(scale(numbers[place]))
+        _line(panel, axis, curves[:, place], loose[:, place], color=shade)
     bar = panel.figure.colorbar(ScalarMappable(scale, shades), ax=panel, label=_label(across))
     if not _is_numeric(across):
         bar.set_ticks(places.tolist(), labels=[str(value) for value in across.values])

@@ -29,7 +29,7 @@ _MOST_REASONS = 100
 MOST_AXES = 2
 _MOST_ROWS = 60
 _MOST_COLUMNS = 9
-_SETTLED, _STEP_ERROR = "settled", "step_error"
+_SETTLED, _STEP_ERROR, _FROM_REST = "settled", "step_error", "ratio_from_rest"
 
 
 class SweepResult(Result):
@@ -236,9 +236,25 @@ class SweepResult(Result):
                 f"{MARK} {told} not settled: no prediction; `{self._of.verb}` says of each what is "
                 "missing",
             )
+        remarks += self._other_states()
         beside = {self._of.beside[name]: self.arrays[name] for name in self.beside}
         columns = {self._of.column: self.arrays[self._of.shown], **beside}
         return (_table(self.axes, columns, remarks, loose),)
+
+    def _other_states(self) -> tuple[str, ...]:
+        """Say how many points settle elsewhere from rest, and where that stands."""
+        rest = self.arrays.get(_FROM_REST, np.empty(0))
+        found = rest[np.isfinite(rest)]
+        if not found.size:
+            return ()
+        points = "1 point settles" if found.size == 1 else f"{found.size} points settle"
+        least, most = f"{found.min():.5g}", f"{found.max():.5g}"
+        ratios = f"a ratio of {least}" if least == most else f"ratios of {least} to {most}"
+        column = self._of.beside[_FROM_REST]
+        return (
+            f"{points} in another state from rest, at {ratios}: column '{column}', {_FROM_REST} in "
+            "the files of --out",
+        )
 
     def write(self, folder: Path, *, pictures: str = "png") -> list[str]:
         """Write JSON, netCDF and, of one or two axes, a picture."""

@@ -16,12 +16,14 @@ Film = Callable[..., Real]
 
 # What a message calls an input, its unit there, and how many of those are one of the input's own.
 _SHOWN = {
-    "ratio": ("U", "", 1.0),
-    "axial_module": ("m_x1", " mm", 1.0),
-    "centre_distance": ("c", " mm", 1.0),
-    "diameter_factor": ("q_1", "", 1.0),
-    "pressure_angle": ("alpha_n", " deg", math.degrees(1.0)),
+    "ratio": ("ratio", "", 1.0),
+    "axial_module": ("axial module", " mm", 1.0),
+    "centre_distance": ("centre distance", " mm", 1.0),
+    "diameter_factor": ("diameter factor", "", 1.0),
+    "pressure_angle": ("pressure angle", " deg", math.degrees(1.0)),
 }
+
+_WHOLE = 10.0  # per cent, from which on no parts of one are told
 
 
 class FilmParameterError(InputError):
@@ -73,19 +75,21 @@ def too_thin(film: Film, gearset: Mapping[str, Any], value: float) -> FilmParame
     shares = {n: limit / _now(gearset, n) for n, limit in limits.items() if limit is not None}
     driver = min(shares, key=lambda name: abs(math.log(shares[name])), default="ratio")
     changes = []
-    for name, (symbol, unit, size) in _SHOWN.items():
+    for name, (words, unit, size) in _SHOWN.items():
         limit = limits[name]
         if limit is not None:
             side = "below" if shares[name] < 1.0 else "above"
             percent = 100.0 * (shares[name] - 1.0)
-            changes.append(f"{symbol} {side} {limit * size:.5g}{unit} ({percent:+.2g} %)")
+            changed = f"{percent:+.2g}" if abs(percent) < _WHOLE else f"{percent:+.0f}"
+            changes.append(f"{words} {side} {limit * size:.5g}{unit} ({changed} %)")
         elif name in ("ratio", "axial_module"):
-            changes.append(f"no {symbol}")
-    symbol, unit, size = _SHOWN[driver]
+            changes.append(f"no {words}")
+    words, unit, size = _SHOWN[driver]
     return FilmParameterError(
-        f"h* is {value:.3g}; it must be above 0. {symbol} = {_now(gearset, driver) * size:.5g}"
-        f"{unit} drives it (with x_2 = {gearset['profile_shift']:.3g}); any one of these, x_2 "
-        f"following, brings it back: {', '.join(changes)}",
+        f"the film parameter h* is {value:.3g}; it must be above 0. The {words} of "
+        f"{_now(gearset, driver) * size:.5g}{unit} drives it (with a profile shift of "
+        f"{gearset['profile_shift']:.3g}); any one of these, the profile shift following, brings "
+        f"it back: {', '.join(changes)}",
         value,
         driver,
         limits,

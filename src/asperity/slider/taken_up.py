@@ -1,0 +1,69 @@
+r"""When asperities are taken up, whose slip keeps its direction: how near friction is to its limit.
+
+With :math:`w` what friction lacks of :math:`\mu F_N`, a drive that is stretched by :math:`L` under
+all of that, and Dahl's exponent :math:`i`,
+
+.. math::
+    \dot w = -\frac{v_d w^i}{s_{max} + L w^i},\quad
+    v_d t = s_{max}\frac{w^{1 - i} - 1}{i - 1} + L(1 - w)
+
+from rest: a vibration that is slower than the drive adds nothing in the mean. LuGre's, with
+:math:`i = 1`, come to no more than static friction.
+"""
+
+import math
+
+import numpy as np
+
+from asperity.arrays import FloatArray
+from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.timetable import FAR, UNSTEADY, turns_back
+
+_LEFT = 0.5  # of what is steady enough, that is let be
+_LACKS = np.geomspace(1.0, 1e-7, 4001)  # of the limit
+_SPARE = 1.02
+_NEXT, _MOST_TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one
+
+
+def taken_up_after(model: Model) -> float | None:
+    """Return the duration in s in whose window friction is at its limit.
+
+    None beyond 1000 usual durations; no time where nothing bends, or is bent back by a vibration.
+    """
+    friction = model.friction
+    if friction.model not in ("dahl", "lugre") or turns_back(model):
+        return 0.0
+    most = _MOST_TIMES * max(model.usual_duration / model.duration, 1.0)
+    durations = model.duration * _NEXT ** np.arange(math.ceil(math.log(most) / math.log(_NEXT)))
+    windows = np.minimum(model.window, WINDOW_SHARE * (durations - model.start))
+    begin = durations - windows
+    early, late = _means(model, np.array([begin, durations - 0.5 * windows, durations]))
+    near = (0.5 * (early + late) <= _LEFT * FAR) & (early - late <= _LEFT * UNSTEADY)
+    if not near.any():
+        return None
+    first = int(np.argmax(near))
+    return float(durations[first]) * _SPARE if first else model.duration
+
+
+def _means(model: Model, ends: FloatArray) -> FloatArray:
+    """Return what friction lacks of its limit, in the mean between rows of times in s.
+
+    Over mu F_N.
+    """
+    slider, friction, w = model.slider, model.friction, _LACKS
+    most = (friction.static_mu or friction.mu) / friction.mu
+    power = friction.exponent if friction.model == "dahl" else 1.0
+    bends = most * friction.deflection_limit(slider.normal_force)
+    stiffness = slider.drive_stiffness
+    stretch = 0.0 if stiffness is None else most * model.full_friction / stiffness
+    way = bends * _powers(w, 1.0 - power) + stretch * (1.0 - w)
+    summed = bends * _powers(w, 2.0 - power) + 0.5 * stretch * (1.0 - w * w)
+    at = np.interp(ends * slider.drive_velocity, way, summed)
+    means: FloatArray = most * np.diff(at, axis=0) / np.diff(ends * slider.drive_velocity, axis=0)
+    return means
+
+
+def _powers(w: FloatArray, power: float) -> FloatArray:
+    r"""Return :math:`\int_w^1 u^{p - 1}\,du`."""
+    found: FloatArray = -np.expm1(power * np.log(w)) / power if power else -np.log(w)
+    return found
