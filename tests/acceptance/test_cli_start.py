@@ -142,14 +142,14 @@ def test_what_a_drive_begins_with_and_nobody_gave_is_said_to_be_assumed(asperity
 
 
 AT_THE_END = """
-import atexit, sys, threading, time
+import atexit, sys, threading
 from asperity.cli.main import program
 sys.argv = ["asperity", *sys.argv[1:]]
 atexit.register(print, "at the end")
 HERE
 program()
 """
-LATER = "threading.Thread(target=lambda: (time.sleep(0.3), print('later'))).start()"
+LATER = "threading.Thread(target=lambda: (threading.main_thread().join(), print('later'))).start()"
 
 
 @pytest.mark.parametrize(("here", "said"), [("", []), (LATER, ["later"])])
