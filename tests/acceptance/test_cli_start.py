@@ -152,7 +152,7 @@ program()
 LATER = "threading.Thread(target=lambda: (threading.main_thread().join(), print('later'))).start()"
 
 
-@pytest.mark.parametrize(("here", "said"), [("", []), (LATER, ["later"])])
+@pytest.mark.parametrize(("here", "said"), [("", []), (LATER, ["later"])], ids=["alone", "thread"])
 def test_what_is_to_be_done_at_the_end_is_done_and_threads_are_waited_for(here, said):
     words = [sys.executable, "-c", AT_THE_END.replace("HERE", here)]
     done = subprocess.run([*words, "--version"], capture_output=True, text=True, check=True)
