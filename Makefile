@@ -5,11 +5,13 @@ PYTHON := $(firstword $(foreach python,python3.11 python3 python3.12 python3.13 
 endif
 
 BIN := .venv/bin
-INSTALL := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check -c constraints.txt
+QUIETLY := --quiet --no-compile --disable-pip-version-check -c constraints.txt
+# By a new pip: one that comes with Python looks twice as long for what to install.
+INSTALL := $(BIN)/python -m pip install $(QUIETLY)
 # On all cores, what pip does on one: half of the time it takes. Some packages hold files that are
 # no Python to this version; pip is silent about them too. The tests of the packages, a third of
 # all of it, nobody imports; of the tools' packages little is, and Python compiles that as it goes.
-SELDOM := tests|dask|distributed|ezdxf|pip|playwright|pymeasure|pyvista|setuptools|trimesh|vtkmodules
+SELDOM := tests|dask|distributed|ezdxf|pip|pymeasure|pyqtgraph|pyvista|trimesh|vtkmodules
 BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 -x '/($(SELDOM))/' .venv/lib || true
 PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder --durations 25 --durations-min 5
 # Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.
@@ -32,7 +34,7 @@ slow: WHICH = --slow
 test: .venv/.test  ## prove what the package states, in a few minutes
 	$(BIN)/python -m pytest $(PYTEST_OPTIONS)
 
-slow: .venv/.test  ## prove the rest of it
+slow: .venv/.slow  ## prove the rest of it
 	$(BIN)/python -m pytest -m slow --share $(SHARE) --part $(PART) $(PYTEST_OPTIONS)
 
 lint: .venv/.dev  ## look at format, style and docstrings
@@ -76,7 +78,10 @@ clean:  ## remove everything that was made
 .venv/bin/python:
 	@test -n "$(PYTHON)" && $(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 	  { echo "asperity needs Python 3.11 or later; name one: make PYTHON=/path/to/python3.11"; exit 1; }
-	$(PYTHON) -m venv .venv
+	$(PYTHON) -m venv --without-pip .venv
+	@$(PYTHON) -m pip --python $@ install $(QUIETLY) pip 2>/dev/null || \
+	  { $@ -m ensurepip >/dev/null && { $@ -m pip install $(QUIETLY) pip || true; }; } || \
+	  { rm $@; exit 1; }
 
 .venv/.runtime: pyproject.toml constraints.txt | .venv/bin/python
 	$(INSTALL) -e .
@@ -88,6 +93,10 @@ clean:  ## remove everything that was made
 .venv/.test: .venv/.runtime
 	$(BIN)/python tests/warm.py $(WHICH) & \
 	  $(INSTALL) 'asperity[test]' && { $(BYTES); $(BIN)/python tests/bytecode.py; wait; }
+	@touch $@
+
+.venv/.slow: .venv/.test
+	$(INSTALL) 'asperity[slow]'
 	@touch $@
 
 .venv/.dev: .venv/.runtime

@@ -1,6 +1,6 @@
 """`python -m asperity` is the command line."""
 
-from asperity.cli.main import main
+from asperity.cli.main import program
 
 if __name__ == "__main__":
-    main()
+    program()

@@ -2,6 +2,7 @@
 
 import io
 import json
+import pstats
 import subprocess
 import sys
 
@@ -138,3 +139,32 @@ def test_what_a_drive_begins_with_and_nobody_gave_is_said_to_be_assumed(asperity
     assert "friction.mu" not in out
     assert "\n#torsional_stiffness" in other.read_text()
     assert 'worm_mass = "1 kg"\n' in other.read_text()
+
+
+AT_THE_END = """
+import atexit, sys, threading
+from asperity.cli.main import program
+sys.argv = ["asperity", *sys.argv[1:]]
+atexit.register(print, "at the end")
+HERE
+program()
+"""
+LATER = "threading.Thread(target=lambda: (threading.main_thread().join(), print('later'))).start()"
+
+
+@pytest.mark.parametrize(("here", "said"), [("", []), (LATER, ["later"])], ids=["alone", "thread"])
+def test_what_is_to_be_done_at_the_end_is_done_and_threads_are_waited_for(here, said):
+    words = [sys.executable, "-c", AT_THE_END.replace("HERE", here)]
+    done = subprocess.run([*words, "--version"], capture_output=True, text=True, check=True)
+    version, *others = done.stdout.splitlines()
+    assert version.startswith("asperity ")
+    assert others == [*said, "at the end"]
+    wrong = subprocess.run([*words, "rate", "nowhere"], capture_output=True, text=True)
+    assert wrong.returncode == 2
+    assert wrong.stdout.splitlines() == [*said, "at the end"]
+
+
+def test_a_profile_of_a_command_is_written(tmp_path):
+    words = [sys.executable, "-m", "cProfile", "-o", tmp_path / "seen", "-m", "asperity", "cases"]
+    subprocess.run(words, check=True, capture_output=True)
+    assert pstats.Stats(str(tmp_path / "seen")).total_calls > 1000

@@ -10,10 +10,15 @@ from apparatus.page import Served
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+def pytest_ignore_collect(config):
+    # Where no slow tests are asked for, nobody imports playwright either.
+    return True if config.option.markexpr == "not slow" else None
+
+
 def pytest_collection_modifyitems(items):
     here = Path(__file__).parent
     for item in items:
-        if item.path.is_relative_to(here) and "browser" in item.fixturenames:
+        if item.path.is_relative_to(here):
             item.add_marker(pytest.mark.slow)
 
 

@@ -267,7 +267,7 @@ def test_sources_that_changed_while_it_was_made_leave_nothing(entry, tmp_path, m
     monkeypatch.setattr(making, "began", lambda: None)
     monkeypatch.setattr(making, "_support", lambda: b"")
     monkeypatch.setattr(lean, "make", lambda *_given: lean.Made(b"code", ["d"], (1, 2)))
-    monkeypatch.setattr(link, "_linked", lambda *_given: b"linked")
+    monkeypatch.setattr(link, "linked", lambda *_given: b"linked")
     key = keys.key(entry)
     monkeypatch.setattr(keys, "stands", lambda module: False)
     with pytest.raises(making.ChangedError):
@@ -331,7 +331,7 @@ def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkey
 
 
 def test_a_library_that_is_whole_but_does_not_load_is_left(entry, tmp_path, monkeypatch):
-    monkeypatch.setattr(link, "_linked", lambda *_given: b"no library")
+    monkeypatch.setattr(link, "linked", lambda *_given: b"no library")
     folder = tmp_path / keys.key(entry)
     folder.mkdir(mode=0o700)
     link.keep(folder, entry, lean.Made(b"code", ["d"], (1, 2)), b"common")

@@ -114,7 +114,7 @@ MADE = lean.Made(b"code", ["d"], (1, 2))
 
 
 def test_an_object_is_read_as_it_was_kept(entry, tmp_path, monkeypatch):
-    monkeypatch.setattr(link, "_linked", lambda objects: b"linked")
+    monkeypatch.setattr(link, "linked", lambda objects: b"linked")
     link.keep(tmp_path, entry, MADE, b"common")
     assert link.kept(tmp_path, entry) == MADE
     assert link.kept(tmp_path, Entry(0, entry.name, [["d"], ["q"]], 1.0)) is None
@@ -132,7 +132,7 @@ def test_an_entry_without_its_object_is_made_once_more(entry, tmp_path, monkeypa
     monkeypatch.setattr(making, "began", lambda: None)
     monkeypatch.setattr(making, "_support", lambda: b"common")
     monkeypatch.setattr(lean, "make", make)
-    monkeypatch.setattr(link, "_linked", lambda objects: b"linked")
+    monkeypatch.setattr(link, "linked", lambda objects: b"linked")
     folder = tmp_path / keys.key(entry)
     assert making.keep(tmp_path, entry, folder.name, 1)
     (folder / table.OBJECTS[0]).unlink()
@@ -141,6 +141,19 @@ def test_an_entry_without_its_object_is_made_once_more(entry, tmp_path, monkeypa
     assert len(made) == 2
     assert link.kept(folder, entry) == MADE
     assert sorted(path.name for path in tmp_path.iterdir() if path.is_dir()) == [folder.name]
+
+
+@needs_compiler
+def test_a_compiler_that_does_not_link_is_told_before_anything_is_compiled(
+    entry, tmp_path, monkeypatch
+):
+    monkeypatch.setenv("CC", "false")
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(link, "support", lambda: b"common")
+    monkeypatch.setattr(library, "_Makers", None)
+    with pytest.raises(library.NoLibraryError, match="the C compiler does not link: "):
+        library.build(tmp_path, [entry], 1)
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_symbol_follows_from_the_entry_and_not_from_its_place(entry):

@@ -100,8 +100,12 @@ def model_of(*settings, name):
 def foreseen_beside(cycle):
     """The ratio that is foreseen on half the step, or None, and that of the cycle."""
     here, part = step_error._ratio(cycle), orders.part_of_difference(cycle.body.model)
-    jacobian, slopes = map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
-    return step_error._foreseen(cycle, jacobian, slopes, here, part)[0], here
+    return step_error._foreseen(cycle, *differences(cycle), here, part)[0], here
+
+
+def differences(cycle):
+    """Its Jacobian and slopes as kernels take them from the package."""
+    return map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
 
 
 @pytest.mark.parametrize(
@@ -130,7 +134,7 @@ def test_without_a_jacobian_only_a_state_that_is_come_to_in_a_cycle_is_foreseen(
     body.kept["state"]["stretch"] *= stretched
     first, ratio = step_error.predicted_on_half(
         body.kept["state"], cycle.springs, body.p, cycle.q, *cycle.halves(), body.no_sums(),
-        cycle.jacobian, cycle.slopes,
+        *differences(cycle),
     )  # fmt: skip
     assert first == pytest.approx(stretched, rel=1e-3)
     assert ratio == (first if is_told else np.inf)

@@ -5,6 +5,7 @@ kept in the user's cache as it is made, so that a build that was stopped goes on
 """
 
 import argparse
+import contextlib
 import dataclasses
 import os
 import signal
@@ -13,7 +14,7 @@ import sys
 import tempfile
 import threading
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -59,6 +60,11 @@ def build(
 
     if (why := hindrance() or (None if entries else "no kernel is listed")) is not None:
         raise NoLibraryError(why)
+    making.began()
+    common = link.support()
+    with _said_by_the_compiler():
+        # Before minutes of compiling: what does not link this links nothing.
+        link.linked([common])
     wanted = {entry.number: keys.key(entry) for entry in entries}
     with tempfile.TemporaryDirectory() as other:
         kernels = kernel_folder.kernels() or Path(other)
@@ -74,15 +80,20 @@ def build(
         raise NoLibraryError("no kernel can be made")
     if not all(keys.stands(entry.module) for entry, _ in found):
         raise NoLibraryError("sources changed while it was made")
-    making.began()
     folder.mkdir(parents=True, exist_ok=True)
+    with _said_by_the_compiler():
+        link.write(folder, found, common)
+    if load.is_for_here(TARGET, FEATURES) and load.from_folder(folder) is None:
+        raise NoLibraryError("what is linked does not load")
+
+
+@contextlib.contextmanager
+def _said_by_the_compiler() -> Iterator[None]:
     try:
-        link.write(folder, found, link.support())
+        yield
     except (OSError, subprocess.CalledProcessError) as error:
         said = str(getattr(error, "stderr", None) or error).strip().splitlines()
         raise NoLibraryError(f"the C compiler does not link: {said[-1]}") from None
-    if load.is_for_here(TARGET, FEATURES) and load.from_folder(folder) is None:
-        raise NoLibraryError("what is linked does not load")
 
 
 @dataclasses.dataclass

@@ -43,7 +43,7 @@ def write(folder: Path, made: Sequence[tuple[Entry, lean.Made]], common: bytes) 
     OSError, subprocess.CalledProcessError
         Nothing links.
     """
-    held = _linked([*(one.code for _, one in made), common])
+    held = linked([*(one.code for _, one in made), common])
     (folder / table.LIBRARY).write_bytes(held)
     table.write(folder, _table(made, held))
 
@@ -67,7 +67,7 @@ def keep(folder: Path, entry: Entry, made: lean.Made, common: bytes) -> None:
     code, other = (folder / name for name in table.OBJECTS)
     code.write_bytes(made.code)
     try:
-        held = _linked([made.code, common])
+        held = linked([made.code, common])
         (folder / table.LIBRARY).write_bytes(held)
     except (OSError, subprocess.CalledProcessError):
         # There is no compiler, or it lacks what it links with.
@@ -92,7 +92,19 @@ def kept(folder: Path, entry: Entry) -> lean.Made | None:
     return lean.Made(code, row["returns"], tuple(row["words"]))
 
 
-def _linked(objects: Iterable[bytes]) -> bytes:
+def linked(objects: Iterable[bytes]) -> bytes:
+    """Return a shared library of object files.
+
+    Parameters
+    ----------
+    objects : iterable of bytes
+        Their contents.
+
+    Raises
+    ------
+    OSError, subprocess.CalledProcessError
+        Nothing links.
+    """
     words = compiler()
     if words is None:
         raise FileNotFoundError("no C compiler")

@@ -218,7 +218,8 @@ class _Makers:
                     if not self._running:
                         return
                 if missing:
-                    time.sleep(_PATIENCE)
+                    # Who waits for many waits for long, and those who make them need the core.
+                    time.sleep(_PATIENCE * min(len(missing), 10))
         finally:
             with self._lock:
                 for entry in missing.values():
