@@ -90,6 +90,38 @@ def test_lanes_say_where_their_means_go_and_go_on_as_a_march_does():
     assert [each.ratio for each in together] == [alone.ratio] * 2
 
 
+# Rigid friction under a triangle five times as fast as the drive goes one way as long as the other.
+NOTHING = """
+[slider]
+drive_velocity = "0.24329281207316022 mm/s"
+normal_force = "3.4666937200505896 N"
+mass = "1.9948181625335144 kg"
+drive_stiffness = "446775.17397973605 N/m"
+drive_damping = "12.168751323176307 N s/m"
+[friction]
+model = "coulomb"
+mu = 0.10839355564236205
+[vibration]
+waveform = "triangle"
+frequency = "442.72567370365675 Hz"
+velocity_ratio = 5.318826933305637
+direction = "0 deg"
+[solve]
+step = "5.6468376434690396 us"
+"""
+
+
+@pytest.mark.parametrize(("duration", "settled"), [(0.81, False), (1.2, True), (1.6, True)])
+def test_a_ratio_of_nothing_has_settled_where_it_is_so_to_four_digits(tmp_path, duration, settled):
+    """A ring of the drive is left, which fades: 4.3e-4, 3.8e-5 and -3.9e-5 of mu F_N."""
+    path = tmp_path / "nothing.toml"
+    path.write_text(NOTHING)
+    model = Model.from_case(read_case(path, TABLES, ()))
+    answer = solve(lasting(model, duration), history=False)
+    assert answer.settled is settled
+    assert (abs(answer.ratio) < 1e-4) is settled
+
+
 def untold(seed, members):
     """Return the bodies that are further from where they go than they say."""
     off, went = [], 0

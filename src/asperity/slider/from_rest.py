@@ -25,7 +25,8 @@ _THERE = 1e-4  # of mu F_N, that it is from a state whose cycles it repeats alre
 _NEARER = 0.9  # of how far it was, where a march is on its way
 _GONE = 1.0  # time constants of a contact's ringing, from which on a march comes nearer
 _TAKEN_UP = 1.2
-_LEANS = 1.5  # times a resonance, up to which there may be two states
+_HALVES = 2.0  # times a resonance, up to which a body may swing there in every second cycle
+_PUMPED = 4.0  # times it, up to which it may swing sideways, where friction turns with the slip
 _CYCLES = (40, 80, 160, 320, 960)  # after the body is taken up
 _MOST_TAKEN_UP = 4000.0
 _TOLD = 36  # last cycles that are looked at
@@ -57,11 +58,17 @@ def ratio_of(cycle: Cycle) -> float:
 def may_come_elsewhere(cycle: Cycle) -> bool:
     """Whether a body from rest may come to another state than that of a cycle.
 
-    Where friction at its limit was found; where friction falls with the speed; and up to a
-    resonance on contact or asperities, or on the contact up to as many of them as the cycles after
-    which the state repeats itself. What moves as it is told has one state, for its asperities
+    Where friction at its limit was found; where friction falls with the speed; and up to twice a
+    resonance on contact or asperities, or on the contact up to as many times that as the cycles
+    after which the state repeats itself. What moves as it is told has one state, for its asperities
     forget; so has what friction holds to a limit that is told (Coulomb's, and springs that are cut
     off): two motions of it only come nearer.
+
+    What softens rings at its resonance when it is shaken there, or a little below, or at half the
+    period: asperities that are bent are soft one way and stiff the other, so that the slip may go
+    back in every second cycle only, of a body that is shaken at up to twice their frequency.
+    Friction along the slip that comes to its limit at once (vector, an exponent below 1) is pumped
+    sideways by a slip that turns round, above that too.
     """
     model = cycle.body.model
     slider, friction, normal = model.slider, model.friction, model.normal
@@ -72,23 +79,23 @@ def may_come_elsewhere(cycle: Cycle) -> bool:
         return elastic and friction.model != "coulomb"
     if slider.mass is None:
         return False
+    turns = slider.free and friction.law == "vector" and friction.exponent < 1.0
     # The resonance of what softens as it is moved further leans to lower frequencies.
-    highest = _LEANS * math.sqrt(1.0 / slider.mass) / (2.0 * math.pi)
+    highest = math.sqrt(1.0 / slider.mass) / (2.0 * math.pi)
     pressed = 0.0
     if normal is not None and normal.control == "force" and model.unit_direction[2] != 0.0:
         pressed = normal.slope(slider.normal_force)
     # What repeats itself after some cycles rings at a part of their frequency.
-    if model.frequency <= cycle.period * highest * math.sqrt(pressed):
+    if model.frequency <= _HALVES * cycle.period * highest * math.sqrt(pressed):
         return True
-    if cycle.period > 1:
-        return False
     if friction.model in ("coulomb", "springs") or not (elastic or slider.free):
         return False
     if elastic and (friction.static_mu or 0.0) > friction.mu:
         return True
     turning = max(1.0, friction.exponent) * model.full_friction
     stiffness = turning / friction.deflection_limit(slider.normal_force)
-    return model.frequency <= highest * math.sqrt(stiffness + (slider.drive_stiffness or 0.0))
+    highest *= math.sqrt(stiffness + (slider.drive_stiffness or 0.0))
+    return model.frequency <= (_PUMPED if turns else _HALVES) * highest
 
 
 def bounces_uncompared(cycle: Cycle) -> bool:

@@ -47,6 +47,7 @@ _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
 _MOVES = 0.02  # of the way to where a mean goes, between the halves of a window
 _FAR_OFF = 5.0  # times what may go untold, that a mean may be off by which has settled
+_NOTHING = 1e-4  # a ratio that is none to four digits, and what may be left to it
 _NEXT, _MOST_TRIED = 1.02, 400
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
 STILL_GOES = "the halves of the window agree, but the mean still goes on as it fades"
@@ -259,13 +260,15 @@ def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> f
 def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> bool:
     """Whether a mean ratio is further than 5e-3 of it from where it goes to: it has not settled.
 
-    That which rings may change the other way from half to half. One that moves by nothing of the
-    way is in a state of its own, such as one of several cycles. Parameters are those of
-    `brought_home`.
+    Of a ratio that is none to four digits, further than that is. That which rings may change the
+    other way from half to half. One that moves by nothing of the way is in a state of its own, such
+    as one of several cycles. Parameters are those of `brought_home`.
     """
     if comes_to is None or abs(comes_to - ratio) <= _FAR_OFF * allowed_at(comes_to):
         return False
     left = comes_to - ratio
+    if max(abs(comes_to), abs(left)) <= _NOTHING:
+        return False
     moves = abs(window.change) > _MOVES * abs(left)
     return moves or windows_in_time(window.change, left) is not None
 

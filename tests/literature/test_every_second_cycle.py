@@ -1,0 +1,152 @@
+"""Bodies that slide back in every second cycle only, shaken at up to twice a resonance.
+
+A bent asperity is soft the way it is bent and stiff the other. An oscillator of two stiffnesses,
+like a moored tower (Thompson and Stewart, Nonlinear Dynamics and Chaos), answers near twice its
+own frequency with a large motion at half of what shakes it, beside a small one at the whole of it;
+which of the two comes follows from where it comes from.
+"""
+
+import math
+
+import pytest
+
+from asperity.casefile import read_case
+from asperity.slider import TABLES, Model, solve
+from asperity.slider.periodic import solve_periodic
+
+# By lot, shaken at 1.74 times the resonance on asperities that are not bent.
+HALVED = """
+[slider]
+drive_velocity = "2.189836041601042 mm/s"
+normal_force = "1.7025853597046763 N"
+mass = "0.4932068385147147 g"
+drive_stiffness = "44457.29340695794 N/m"
+drive_damping = "0.12889802224215405 N s/m"
+[friction]
+model = "lugre"
+mu = 0.2543823968613899
+max_deflection = "0.906054266521706 um"
+law = "split"
+contact_damping = "1.6088268189546808 N s/m"
+transfer = 0.0
+[vibration]
+frequency = "8991.22074026986 Hz"
+velocity_ratio = 1.1
+direction = "180 deg"
+"""
+
+# By lot too, at 3.3 times: its slip turns round, and friction with it, which pumps it sideways.
+PUMPED = """
+[slider]
+drive_velocity = "2.764212829926207 um/s"
+normal_force = "0.37603227085756363 N"
+mass = "164.18963904482944 g"
+drive_stiffness = "52753.41583823562 N/m"
+[friction]
+model = "dahl"
+mu = 0.2616150583277325
+max_deflection = "0.19647837399508996 um"
+law = "vector"
+exponent = 0.3333333333333333
+[vibration]
+waveform = "square"
+rise_time = "258.9094422066836 us"
+frequency = "963.0665495240567 Hz"
+velocity_ratio = 1.4319327942373707
+direction = "3.181368329293012 rad"
+"""
+
+
+# By lot: pressed, with a friction that falls with the speed. It never comes to a state of four
+# cycles that repeats itself, but sticks and slips as it likes.
+FALLING = """
+[slider]
+drive_velocity = "29.024913304372294 um/s"
+normal_force = "284.2676121334835 N"
+mass = "24.392757921709197 kg"
+lateral = "guided"
+drive_stiffness = "742956.8928583713 N/m"
+drive_damping = "667.2838313848516 N s/m"
+[friction]
+model = "lugre"
+mu = 0.09449234470550519
+max_deflection = "0.4581287661823846 um"
+law = "split"
+static_mu = 0.1711382904079558
+stribeck_velocity = "10.45218755116122 um/s"
+transfer = 0.0
+load_exponent = 1.3
+contact_damping = "10575.396568190232 N s/m"
+viscous_damping = "495.8842426701624 N s/m"
+[normal]
+law = "hertz"
+control = "force"
+stiffness = "26283778.93933343 N/m"
+damping_ratio = 0.06112920249164256
+[vibration]
+waveform = "triangle"
+frequency = "492.21821822248586 Hz"
+velocity_ratio = 0.8401255272414353
+direction = "5.0941220804952225 rad"
+"""
+
+
+@pytest.fixture
+def body(tmp_path):
+    def of(case, *settings):
+        path = tmp_path / "body.toml"
+        path.write_text(case)
+        return Model.from_case(read_case(path, TABLES, settings))
+
+    return of
+
+
+@pytest.mark.parametrize("case", [HALVED, PUMPED])
+def test_the_state_is_shown_to_which_a_body_from_rest_comes(body, case):
+    alone = solve_periodic(body(case, "solve.method=periodic"), history=False)
+    state = solve(body(case, "solve.method=periodic"), history=False)
+    marched = solve(body(case, "solve.method=march"), history=False)
+    assert marched.settled
+    assert state.ratio == pytest.approx(marched.ratio, abs=1e-3)
+    assert state.settled_by.startswith("the state repeats itself every 2 cycles")
+    assert alone.ratio > state.ratio + 0.04
+    (note,) = state.notes
+    assert f"with the ratio {alone.ratio:.5g}, repeats itself as well" in note
+
+
+def test_a_body_swings_at_half_the_frequency_near_the_resonance_of_two_stiffnesses(body):
+    model = body(HALVED, "solve.method=periodic")
+    bent = solve(model, history=False).ratio
+    asperities = model.full_friction / model.friction.max_deflection
+    halves = [
+        math.pi * math.sqrt(model.slider.mass / (asperities * share + model.slider.drive_stiffness))
+        for share in (1.0 - bent, 1.0 + bent)
+    ]
+    assert model.frequency == pytest.approx(2.0 / sum(halves), rel=0.05)
+
+
+@pytest.mark.parametrize("times", [1.2, 3.0])
+def test_well_above_that_a_body_has_the_one_state(body, times):
+    settings = f"vibration.frequency={times * 8991.2} Hz", "solve.method=periodic"
+    state = solve(body(HALVED, *settings), history=False)
+    assert state.settled
+    assert not state.notes
+
+
+def test_a_contact_bounces_in_every_second_cycle_where_that_of_a_body_from_rest_does():
+    """At 4 kHz, 1.8 times the resonance of the contact, which a rising body loses."""
+    settings = "vibration.velocity_ratio=18.3", "solve.method=periodic"
+    model = Model.from_case(read_case("pin-on-disc", TABLES, settings))
+    alone, state = solve_periodic(model, history=False), solve(model, history=False)
+    assert (alone.normal.period, state.normal.period) == (1, 2)
+    marched = Model.from_case(read_case("pin-on-disc", TABLES, settings[:1]))
+    assert state.ratio == pytest.approx(solve(marched, history=False).ratio, abs=1e-5)
+    assert alone.ratio > state.ratio + 0.1
+
+
+@pytest.mark.slow
+def test_a_state_of_four_cycles_to_which_no_body_from_rest_comes_has_not_settled(body):
+    state = solve(body(FALLING, "solve.method=periodic"), history=False)
+    assert state.normal.period == 4
+    assert not state.settled
+    assert "a body from rest stays at a ratio of 1.0" in state.settled_by
