@@ -1,6 +1,7 @@
 """Bodies shaken along their way, which leave it by the least push across."""
 
 import dataclasses
+import math
 
 import pytest
 from apparatus.plain_body import solved
@@ -37,7 +38,7 @@ def marched():
 
 
 def test_a_body_goes_where_one_shaken_a_little_askew_goes(marched):
-    askew = solve(body(vibration__direction="1e-6 deg"), history=False)
+    askew = solve(body(vibration__direction="1e-4 deg"), history=False)
     assert marched.settled
     assert marched.ratio == pytest.approx(askew.ratio, abs=2e-4)
     assert marched.ratio == pytest.approx(0.1638, abs=1e-4)
@@ -92,16 +93,46 @@ def test_asperities_of_exponent_1_fade_whatever_they_are_shaken_by():
         assert growth_of_pushes(cycle) < 1.0
 
 
-def test_what_still_grows_has_not_settled_and_says_what_duration_would_do():
-    slowly = {"slider__drive_stiffness": "1e6 N/m", "vibration__velocity_ratio": 2}
-    short = solve(body(**slowly, friction__exponent=3), history=False)
-    assert not short.settled
-    assert "a motion across the body's way still grows 1.05" in short.settled_by
-    (advice,) = [note.split() for note in short.notes if "would do" in note]
-    duration = f"{advice[advice.index('s') - 1]} s"
-    longer = solve(body(**slowly, friction__exponent=3, solve__duration=duration), history=False)
-    assert longer.settled
-    assert longer.ratio > short.ratio + 1e-4
+def test_a_vibration_across_that_the_contact_does_not_see_keeps_no_body_straight(marched):
+    """With a transfer of 0, and as much along the way."""
+    turned = body(
+        vibration__direction="30 deg", friction__transfer=0,
+        vibration__velocity_ratio=4.49 / math.cos(math.radians(30.0)),
+    )  # fmt: skip
+    answer = solve(turned, history=False)
+    assert answer.ratio == pytest.approx(marched.ratio, abs=1e-5)
+    assert sum(LEAVES in note for note in answer.notes) == 1
+
+
+@pytest.mark.parametrize("direction", ["3.1415926535 rad", "1e-9 deg", "1e-4 deg"])
+def test_a_way_that_is_nearly_straight_is_looked_at_too(direction):
+    """What grows slowly from nearly nothing has not settled, or is marched askew."""
+    slowly = {"friction__exponent": 3.72, "solve__duration": "0.05 s"}
+    answer = solve(body(**slowly, vibration__direction=direction), history=False)
+    assert not answer.settled or answer.ratio == pytest.approx(0.16604, rel=2e-3)
+
+
+@pytest.mark.parametrize("duration", [0.02, 0.0215, 0.0235, 0.02434, 0.026, 0.03, 0.2])
+def test_what_has_grown_in_the_window_has_not_settled(duration):
+    """By a plain program of another hand it comes to 0.16588, from 0.16393 straight."""
+    answer = solve(body(friction__exponent=3.7, solve__duration=f"{duration} s"), history=False)
+    right = answer.ratio == pytest.approx(0.16588, rel=1e-3)
+    assert answer.settled is right
+    if not answer.settled and "across the body's way" in answer.settled_by:
+        (advice,) = [note.split() for note in answer.notes if "would do" in note]
+        longer = f"{advice[advice.index('s') - 1]} s"
+        later = solve(body(friction__exponent=3.7, solve__duration=longer), history=False)
+        assert later.settled
+        assert later.ratio == pytest.approx(0.16588, rel=1e-3)
+
+
+def test_what_grows_from_nearly_nothing_to_nearly_nothing_is_let_be():
+    """Below an exponent of 1 smaller pushes grow the faster, up to where nobody sees them."""
+    low = body(friction__exponent=0.5)
+    answer = solve(low, history=False)
+    askew = solve(body(friction__exponent=0.5, vibration__direction="1e-4 deg"), history=False)
+    assert answer.ratio == pytest.approx(askew.ratio, rel=1e-6)
+    assert not any(LEAVES in note for note in answer.notes)
 
 
 @pytest.mark.parametrize("duration", ["0.02 s", None])

@@ -38,6 +38,7 @@ _AS_OFTEN = 0.25  # of the times as many, that a growth over the longer time may
 _FAR_PUSH = 0.1
 _SAME_RATIO, _SAME_IN_PLANE = 1e-6, 2e-5
 _MOST_WATCHED = 2000
+_PLAINLY = 1.01  # growth that three digits tell
 _GONE = 100.0  # times the push: it does not come back
 
 
@@ -292,6 +293,11 @@ class Cycle:
         self.body.state["velocity_x"] *= 1.0 + _PUSH
         if self.q is not None:
             self.body.state["rise"] += _PUSH * math.sqrt(self.q.mobility)
+
+
+def times(growth: float) -> str:
+    """Say how much a disturbance grows a cycle, in digits that tell it from one that does not."""
+    return f"{growth:.3g} times" if growth >= _PLAINLY else f"{growth:.7g} times"
 
 
 def _like(one: _Kind) -> _Kind:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from asperity.results.settled import Standing
-from asperity.slider.astray import motion_across
+from asperity.slider.astray import come_to_its_size, motion_across
 from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.integrators import Integrator
 from asperity.slider.longer import brought_home, far_from_home, needed, still_goes
@@ -64,7 +64,7 @@ def judged_answer(
     if standing.settled and leaves:
         standing = Standing(False, leaves)
     standing = heard(standing, model, window.model.duration)
-    across = motion_across(body, window.model, table) if standing.settled else None
+    across = motion_across(body, window) if standing.settled else None
     if across is not None:
         standing = Standing(False, str(across))
     if standing.settled:
@@ -94,5 +94,5 @@ def judged_answer(
         **told,
     )  # fmt: skip
     if across is not None:
-        return answer, window.model.duration + across.cycles / model.frequency + model.window
+        return answer, come_to_its_size(across, window.model)
     return answer, home if is_far or answer.settled else needed(window)

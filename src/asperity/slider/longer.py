@@ -126,7 +126,7 @@ def lasting(model: M, duration: float) -> M:
 
 def needed(window: WindowMeans) -> float | None:
     """Return the duration in s that a march needs to settle; None where none is foreseen."""
-    model, table, _, means, broke, across = window
+    model, table, means, across = window.model, window.table, window.quarters, window.across
     residual = window.residual
     if math.isinf(ringing_time(model)) or rings_on_drive(model):
         return None
@@ -150,7 +150,7 @@ def needed(window: WindowMeans) -> float | None:
     loaded = model.usual_duration + _loading(model)
     # Who sticks and slips has a mean that follows where in a slip the window ends, and fades never.
     slips = not model.vibrates and growth_rate(model) > 0.0
-    if slips and broke:
+    if slips and window.broke:
         return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
     if lags or window.holds:

@@ -17,7 +17,7 @@ from asperity.runs import Run, Stopped
 from asperity.runs.key import code_key, key
 from asperity.runs.run import duration as in_words
 from asperity.runs.tree import Tree
-from asperity.slider.astray import straight_or_askew
+from asperity.slider.astray import greatest_across, straight_or_askew
 from asperity.slider.cost import estimate
 from asperity.slider.fading import quarter_means
 from asperity.slider.history import History
@@ -237,6 +237,7 @@ class March:
             self._timed, table, float(second - first),
             quarter_means([_pulled(half) for half in halves], self._quarters),
             self.breakaway is not None, pull_across(model, sums["friction_y"] / sums["steps"]),
+            (greatest_across(halves[0]), greatest_across(halves[1])),
         )  # fmt: skip
         swings = _swing(first_half), _swing(self.sums)
         half = 0.5 * table.window * table.step

@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
-from asperity.slider.cycle_map import UNSTABLE, Cycle
+from asperity.slider.cycle_map import UNSTABLE, Cycle, times
 from asperity.slider.from_rest import (
     bounces_uncompared,
     from_rest,
@@ -215,10 +215,8 @@ def standing_of(cycle: Cycle, growth: float) -> Standing:
     """Return whether a state that was found is one that a body stays in."""
     cycles = "every cycle" if cycle.period == 1 else f"every {cycle.period} cycles"
     repeats = f"the state repeats itself {cycles} to {ACCEPTED:g}"
-    if growth > UNSTABLE:
-        return Standing(False, f"{repeats}, {GROWS} {growth:.3g} times")
-    if cycle.grows_slowly(growth):
-        return Standing(False, f"{repeats}, {GROWS} {growth:.7g} times")
+    if growth > UNSTABLE or cycle.grows_slowly(growth):
+        return Standing(False, f"{repeats}, {GROWS} {times(growth)}")
     if cycle.one_of_many(growth):
         if cycle.q is not None:
             rings = ringing_time(cycle.body.model) * cycle.body.model.frequency
@@ -249,15 +247,13 @@ def settle(cycle: Cycle) -> tuple[bool, float, tuple[str, ...]]:
     growth = cycle.multiplier() if found else math.inf
     notes: tuple[str, ...] = ()
     if found and growth > UNSTABLE:
-        notes = (
-            f"this periodic state is unstable: a disturbance grows {growth:.3g} times a cycle",
-        )
+        notes = (f"this periodic state is unstable: a disturbance grows {times(growth)} a cycle",)
     if cycle.q is not None and not growth <= UNSTABLE:
         if found:
             ratio = cycle.body.sums["drive_force"] / cycle.body.sums["steps"]
             notes = (
                 f"the state that repeats itself every cycle, with the ratio {ratio:.5g}, is "
-                f"unstable: a disturbance grows {growth:.3g} times a cycle",
+                f"unstable: a disturbance grows {times(growth)} a cycle",
             )
         found, growth = _longer(cycle)
     return found, growth, notes

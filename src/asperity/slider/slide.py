@@ -152,7 +152,7 @@ def _shortly(model: Model, stop: npt.NDArray[np.int64] | None) -> SlideResult:
 
 
 def _shortened(model: Model, step: float, left: int) -> Model:
-    """Return a body that is marched for fewer steps, s, than it usually is, of those left."""
+    """Return a body that is marched for fewer steps in s than it would be, if so many are left."""
     steps = int(_SHORTER * _MOST_BESIDE)
     if model.solve.duration is not None or steps > left:
         raise _TooLongError

@@ -116,6 +116,7 @@ class WindowMeans(NamedTuple):
     quarters: Sequence[float]  #: Those of its quarters
     broke: bool  #: Whether the drive force has come to mu F_N
     across: float = 0.0  #: What `pull_across` gives
+    across_at_most: tuple[float, float] = (0.0, 0.0)  #: Greatest friction across in its halves
 
     @property
     def residual(self) -> float:
@@ -138,7 +139,7 @@ class WindowMeans(NamedTuple):
 
 def march_standing(window: WindowMeans) -> Standing:
     """Return whether a march has settled: by the halves of its window, if nothing is missing."""
-    model, table, _, means, _, across = window
+    model, table, means, across = window.model, window.table, window.quarters, window.across
     residual = window.residual
     missing = []
     if window.holds:
