@@ -1,3 +1,4 @@
+import errno
 import importlib
 import json
 import os
@@ -280,3 +281,28 @@ def test_folders_of_old_sources_go_after_a_month(monkeypatch, tmp_path):
         other.name,
         kernel_key(__name__, Path(__file__)),
     }
+
+
+def full(path, content):
+    raise OSError(errno.ENOSPC, "No space left on device", str(path))
+
+
+def read_only(path, **options):
+    raise OSError(errno.EROFS, "Read-only file system", str(path))
+
+
+@pytest.mark.parametrize(
+    ("method", "instead", "why"),
+    [("write_bytes", full, "no space left on device"), ("mkdir", read_only, "read-only file sys")],
+)
+def test_a_cache_that_takes_no_kernels_is_told_of_once(
+    monkeypatch, tmp_path, caplog, method, instead, why
+):
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / method))
+    monkeypatch.setattr(Path, method, instead)
+    assert kernel_folder.kernels() is None
+    assert kernel_folder.kernels() is None
+    (told,) = caplog.messages
+    assert told.startswith(f"the cache folder {tmp_path / method / 'asperity'} cannot be written ")
+    assert f"({why}" in told
+    assert "set ASPERITY_CACHE" in told

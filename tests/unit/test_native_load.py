@@ -116,7 +116,15 @@ def test_another_library_beside_the_table_is_not_called(made, linked, caplog):
 def test_a_table_without_its_library_is_told(made, caplog):
     (made / table.LIBRARY).unlink()
     assert answer() is None
-    assert str(made / table.LIBRARY) in caplog.text
+    told = f"{made / table.LIBRARY} cannot be read (no such file or directory): kernels are "
+    assert caplog.messages == [f"{told}compiled instead; install asperity anew"]
+
+
+def test_a_library_without_its_table_is_told(made, caplog):
+    (made / table.TABLE).unlink()
+    assert answer() is None
+    (told,) = caplog.messages
+    assert told.startswith(f"{made / table.TABLE} is missing: kernels are compiled instead")
 
 
 def test_where_nothing_was_made_nothing_is_said(made, caplog):

@@ -1,6 +1,8 @@
 """Rows kept on disk."""
 
+import errno
 import sqlite3
+from pathlib import Path
 
 import pytest
 
@@ -94,6 +96,19 @@ def test_a_file_that_cannot_be_opened_is_told_once_and_done_without(open_cache, 
     assert not cache.usable
     (line,) = told
     assert "no longer kept" in line
+
+
+def test_a_damaged_file_that_cannot_be_replaced_is_told_of_in_words(
+    open_cache, told, monkeypatch, tmp_path
+):
+    def refused(path, **options):
+        raise PermissionError(errno.EACCES, "Permission denied", str(path))
+
+    (tmp_path / "results.sqlite").write_bytes(b"garbage " * 1000)
+    monkeypatch.setattr(Path, "unlink", refused)
+    assert not open_cache().usable
+    (line,) = told
+    assert line.endswith("it cannot be replaced (permission denied) and is not used")
 
 
 def test_a_full_disk_costs_the_cache_and_not_the_sweep(open_cache, told, tmp_path):

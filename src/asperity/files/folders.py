@@ -5,6 +5,8 @@ import os
 import secrets
 from pathlib import Path
 
+_PROBED = 4096  # bytes: a file of none can be made on a full disk
+
 _log = logging.getLogger(__name__)
 
 
@@ -27,19 +29,32 @@ def cache_folder(name: str) -> Path | None:
 
     It stands in :func:`cache_root`.
     """
-    root = cache_root()
-    if root is None:
-        return None
-    folder = root / name
     try:
-        root.mkdir(mode=0o700, parents=True, exist_ok=True)
-        folder.mkdir(mode=0o700, exist_ok=True)
-        # Permission bits do not tell about read-only file systems, so write and see.
-        probe = folder / f".probe-{secrets.token_hex(6)}"
-        probe.touch()
-        probe.unlink()
+        return made_folder(name)
     except (OSError, ValueError):
         return None
+
+
+def made_folder(name: str) -> Path:
+    """Return the folder as `cache_folder`.
+
+    Raises
+    ------
+    OSError
+        There is none, or nothing can be written to it: it may be full.
+    """
+    root = cache_root()
+    if root is None:
+        raise OSError("there is no home folder")
+    folder = root / name
+    root.mkdir(mode=0o700, parents=True, exist_ok=True)
+    folder.mkdir(mode=0o700, exist_ok=True)
+    # Permission bits do not tell about read-only file systems, nor of full ones: write and see.
+    probe = folder / f".probe-{secrets.token_hex(6)}"
+    try:
+        probe.write_bytes(bytes(_PROBED))
+    finally:
+        probe.unlink(missing_ok=True)
     return folder
 
 

@@ -6,20 +6,24 @@ may write to.
 
 import contextlib
 import functools
+import logging
 import os
 import re
 import shutil
 import time
 from pathlib import Path
 
-from asperity.files.folders import cache_folder, is_ours_alone
+from asperity.files.folders import cache_root, is_ours_alone, made_folder
+from asperity.files.store import reason
 
 _KEPT_DAYS = 30
 _INSTEAD = "kernels are compiled anew"
 
+_log = logging.getLogger(__name__)
+
 
 def kernels() -> Path | None:
-    """Return the folder, or None where there is none that is the user's alone.
+    """Return the folder, or None where there is none that is the user's alone, which is told once.
 
     What has not been used for a month goes.
     """
@@ -29,8 +33,17 @@ def kernels() -> Path | None:
 @functools.cache
 def _kernels(base: str | None, xdg: str | None) -> Path | None:
     # The arguments are what the answer depends on; they make it once per process and setting.
-    folder = cache_folder("kernels")
-    if folder is None or not is_ours_alone(folder, _INSTEAD):
+    try:
+        folder = made_folder("kernels")
+    except (OSError, ValueError) as trouble:
+        why = reason(trouble) if isinstance(trouble, OSError) else str(trouble)
+        _log.warning(
+            "the cache folder %s cannot be written to (%s): kernels are compiled anew by each run; "
+            "set ASPERITY_CACHE to a folder that can",
+            cache_root() or "~/.cache", why,
+        )  # fmt: skip
+        return None
+    if not is_ours_alone(folder, _INSTEAD):
         return None
     with contextlib.suppress(OSError):
         _remove_old(folder)

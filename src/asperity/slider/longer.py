@@ -157,7 +157,8 @@ def needed(window: WindowMeans) -> float | None:
         least.append(loaded)
     if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(window)
-        if fading is not None and up <= model.duration:
+        # Where nothing shakes them, the law of asperities tells all that fades.
+        if fading is not None and (model.vibrates or up <= model.duration):
             # Asperities with an exponent above 1 slow down as they come nearer to their limit.
             slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
             least.append(fading * max(slower, 1.0))

@@ -16,6 +16,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from asperity.files.store import reason
 from asperity.kernels.native import layout, table, target
 from asperity.kernels.native.call import Addresses, Caller, Native
 
@@ -101,13 +102,20 @@ def checked(folder: Path, files: Sequence[Path], remedy: str) -> dict[str, Any] 
     """
     try:
         rows = table.read(folder)
+        if rows is None and files[0].exists() and not (folder / table.TABLE).exists():
+            raise table.DamagedError(f"{folder / table.TABLE} is missing")
         if rows is None or not is_for_here(rows["target"], rows["features"]):
             return None
         held = b"".join(file.read_bytes() for file in files)
         if hashlib.sha256(held).hexdigest() != rows["library"]:
             raise table.DamagedError(f"{files[0]} is damaged")
-    except (table.DamagedError, OSError) as trouble:
+    except table.DamagedError as trouble:
         _log.warning("%s: kernels are compiled instead; %s", trouble, remedy)
+        return None
+    except OSError as trouble:
+        where = trouble.filename or files[0]
+        told = f"{where} cannot be read ({reason(trouble)})"
+        _log.warning("%s: kernels are compiled instead; %s", told, remedy)
         return None
     return rows
 
