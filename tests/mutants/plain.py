@@ -55,11 +55,15 @@ def _making(made):
 _inside = 0
 
 
+# Most arguments are such.
+_PLAIN = frozenset([float, int, bool, np.float64, np.int64, np.bool_, _Record])
+
+
 def _called(self, *arguments):
     global _inside
     _inside += 1
     try:
-        return self._function(*[_with_attributes(one) for one in arguments])
+        return self._function(*_each_with_attributes(arguments))
     finally:
         _inside -= 1
 
@@ -67,6 +71,10 @@ def _called(self, *arguments):
 def plainly(kernel):
     """Return a kernel as plain Python."""
     return functools.partial(_called, kernel)
+
+
+def _each_with_attributes(values):
+    return [one if type(one) in _PLAIN else _with_attributes(one) for one in values]
 
 
 def _with_attributes(value):
@@ -82,7 +90,7 @@ def _with_attributes(value):
         away = value.__array_interface__["data"][0] - base.__array_interface__["data"][0]
         return _with_attributes(base.reshape(-1))[away // value.dtype.itemsize]
     if isinstance(value, tuple):
-        new = [_with_attributes(one) for one in value]
+        new = _each_with_attributes(value)
         if any(one is not other for one, other in zip(new, value, strict=True)):
             return tuple(new) if kind is tuple else kind(*new)
     return value
