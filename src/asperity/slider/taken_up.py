@@ -8,7 +8,8 @@ all of that, and Dahl's exponent :math:`i`,
     v_d t = s_{max}\frac{w^{1 - i} - 1}{i - 1} + L(1 - w)
 
 from rest: a vibration that is slower than the drive adds nothing in the mean. LuGre's, with
-:math:`i = 1`, come to no more than static friction.
+:math:`i = 1`, come to no more than static friction. Springs under heights that fall off
+exponentially have :math:`i = 1` too, and are at their limit sooner under others.
 """
 
 import math
@@ -31,7 +32,7 @@ def taken_up_after(model: Model) -> float | None:
     None beyond 1000 usual durations; no time where nothing bends, or is bent back by a vibration.
     """
     friction = model.friction
-    if friction.model not in ("dahl", "lugre") or turns_back(model):
+    if friction.model == "coulomb" or turns_back(model):
         return 0.0
     most = _MOST_TIMES * max(model.usual_duration / model.duration, 1.0)
     durations = model.duration * _NEXT ** np.arange(math.ceil(math.log(most) / math.log(_NEXT)))
