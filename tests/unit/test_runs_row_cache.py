@@ -1,5 +1,7 @@
 """Rows kept on disk."""
 
+import errno
+import os
 import sqlite3
 
 import pytest
@@ -56,6 +58,19 @@ def test_a_damaged_file_is_moved_aside_and_replaced(open_cache, told, tmp_path, 
     assert (tmp_path / "results.sqlite.damaged").read_bytes() == content
     (line,) = told
     assert "is damaged; set aside as results.sqlite.damaged and started again" in line
+
+
+def test_a_damaged_file_that_cannot_be_replaced_is_told_why_in_words(
+    open_cache, told, tmp_path, monkeypatch
+):
+    def refused(path):
+        raise PermissionError(errno.EPERM, os.strerror(errno.EPERM), str(path))
+
+    monkeypatch.setattr(row_cache, "set_aside", refused)
+    (tmp_path / "results.sqlite").write_bytes(b"no database" * 500)
+    open_cache().put({KEYS[0]: {"ratio": 0.5}})
+    (line,) = told
+    assert line.endswith("cannot be replaced (operation not permitted) and is not used")
 
 
 def test_a_file_damaged_behind_its_head_costs_no_more_than_its_rows(open_cache, told, tmp_path):

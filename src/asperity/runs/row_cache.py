@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Self
 
 from asperity.files.folders import cache_folder
+from asperity.files.store import reason
 from asperity.runs.cache import KEPT_DAYS, remove_old, set_aside
 
 Row = dict[str, float | str | None]
@@ -122,7 +123,8 @@ class Rows:
             done = set_aside(self._path)
             self._database = _open(self._path)
         except (OSError, sqlite3.Error) as error:
-            return f"it cannot be replaced ({error}) and is not used"
+            why = reason(error) if isinstance(error, OSError) else error
+            return f"it cannot be replaced ({why}) and is not used"
         return f"{done} and started again"
 
 
