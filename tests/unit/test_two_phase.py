@@ -125,16 +125,19 @@ def test_with_the_body_vibrated_it_is_table_7_3_with_the_stored_y(theta, exponen
     assert marched(model) == pytest.approx(expected, abs=1e-9 * model.full_friction)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_up_to_the_start_the_direction_is_the_drives():
     size, cos, sin = phases(0.5, 0.8, 0.6, 0.1, 0.3, 0.0, 0.2, 1.0, True)
     assert (cos, sin) == (1.0, 0.0)
     assert size > 0.5
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_without_any_deflection_nothing_is_divided_by_zero():
     assert phases(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, False) == (0.0, 1.0, 0.0)
 
 
+@pytest.mark.usefixtures("plain_kernels")
 def test_the_explicit_phases_overshoot_where_the_exponential_update_cannot():
     # Linearly unstable beyond twice the limit of slip in a step.
     def after_many(slip):
