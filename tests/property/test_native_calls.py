@@ -18,8 +18,8 @@ LINES = (
     "slide normal-pin --json",
     "flank gearset-3b --density coarse --json",
     "drive drive-thesis --json",
-    "block block-longitudinal --set block.elements='[4, 3, 3]' --set block.element=hex8 "
-    "--set vibration.start='2 ms' --set solve.step='4 us' --set solve.duration='5 ms' --json",
+    "block block-longitudinal --set block.elements='[2, 2, 2]' --set block.element=hex8 "
+    "--set vibration.start='0.2 ms' --set solve.step='4 us' --set solve.duration='0.8 ms' --json",
 )
 
 
