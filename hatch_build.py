@@ -21,8 +21,8 @@ from asperity.kernels.building.compiler import hindrance
 ROOT = Path(__file__).parent
 # What the modules of kernels import, and what compiles them.
 NEEDED = ("numba", "numpy", "pydantic", "scipy")
-# pip keeps what an environment's packages add to the path from what is built in it: the sources too,
-# where they are installed to be edited.
+# pip keeps what packages of an environment add to the path from what is built in it: the sources
+# too, where they are installed to be edited.
 BEGIN = f"""
 import runpy, sys
 sys.path.insert(0, {str(ROOT / "src")!r})

@@ -57,6 +57,30 @@ direction = "3.181368329293012 rad"
 """
 
 
+# A block on a way, shaken up at 2.4 times the resonance on its contact: it is thrown.
+THROWN = """
+[slider]
+drive_velocity = "2 mm/s"
+drive_stiffness = "250 kN/m"
+drive_damping = "40 N s/m"
+mass = "1.2 kg"
+normal_force = "120 N"
+[friction]
+model = "dahl"
+mu = 0.16
+max_deflection = "0.3 um"
+law = "vector"
+[vibration]
+frequency = "6 kHz"
+elevation = "90 deg"
+velocity_ratio = 20
+[normal]
+law = "hertz"
+stiffness = "300 N/um"
+damping_ratio = 0.05
+"""
+
+
 # By lot: pressed, with a friction that falls with the speed. It never comes to a state of four
 # cycles that repeats itself, but sticks and slips as it likes.
 FALLING = """
@@ -150,3 +174,16 @@ def test_a_state_of_four_cycles_to_which_no_body_from_rest_comes_has_not_settled
     assert state.normal.period == 4
     assert not state.settled
     assert "a body from rest stays at a ratio of 1.0" in state.settled_by
+
+
+@pytest.mark.parametrize(("ratio", "from_rest"), [(20, 0.07706), (29, 0.05605)])
+def test_a_body_that_is_thrown_is_shown_as_it_bounces_from_rest(tmp_path, ratio, from_rest):
+    """By a semi-implicit program of another hand; it bounces every cycle too, 0.1198 and 0.0826."""
+    path = tmp_path / "thrown.toml"
+    path.write_text(THROWN)
+    case = read_case(path, TABLES, ["solve.method=periodic", f"vibration.velocity_ratio={ratio}"])
+    found = solve(Model.from_case(case), history=False)
+    assert found.settled
+    assert found.ratio == pytest.approx(from_rest, rel=2e-3)
+    assert found.normal.period == 3
+    assert any("repeats itself as well" in note for note in found.notes)

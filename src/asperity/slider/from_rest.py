@@ -58,11 +58,11 @@ def ratio_of(cycle: Cycle) -> float:
 def may_come_elsewhere(cycle: Cycle) -> bool:
     """Whether a body from rest may come to another state than that of a cycle.
 
-    Where friction at its limit was found; where friction falls with the speed; and up to twice a
-    resonance on contact or asperities, or on the contact up to as many times that as the cycles
-    after which the state repeats itself. What moves as it is told has one state, for its asperities
-    forget; so has what friction holds to a limit that is told (Coulomb's, and springs that are cut
-    off): two motions of it only come nearer.
+    Where it is thrown and lands; where friction at its limit was found; where friction falls with
+    the speed; and up to twice a resonance on contact or asperities, or on the contact up to as many
+    times that as the cycles after which the state repeats itself. What moves as it is told has one
+    state, for its asperities forget; so has what friction holds to a limit that is told (Coulomb's,
+    and springs that are cut off): two motions of it only come nearer.
 
     What softens rings at its resonance when it is shaken there, or a little below, or at half the
     period: asperities that are bent are soft one way and stiff the other, so that the slip may go
@@ -70,6 +70,15 @@ def may_come_elsewhere(cycle: Cycle) -> bool:
     Friction along the slip that comes to its limit at once (vector, an exponent below 1) is pumped
     sideways by a slip that turns round, above that too.
     """
+    return _is_thrown(cycle) or _may_swing(cycle)
+
+
+def _is_thrown(cycle: Cycle) -> bool:
+    return cycle.q is not None and float(cycle.body.sums["landings"]) > 0.0
+
+
+def _may_swing(cycle: Cycle) -> bool:
+    """Whether a body may come to another state without being thrown to it."""
     model = cycle.body.model
     slider, friction, normal = model.slider, model.friction, model.normal
     elastic = slider.drive_stiffness is not None
@@ -98,14 +107,13 @@ def may_come_elsewhere(cycle: Cycle) -> bool:
     return model.frequency <= (_PUMPED if turns else _HALVES) * highest
 
 
-def bounces_uncompared(cycle: Cycle) -> bool:
-    """Whether a body is thrown and lands where no march from rest is compared.
+def may_bounce_otherwise(cycle: Cycle) -> bool:
+    """Whether a body is thrown and lands above its resonances, where it flies for long.
 
     What flies for a cycle and more may land in several ways, by ever so little in where it comes
-    from, so that one march tells nothing of the others.
+    from, so that the one from rest tells nothing of the others.
     """
-    thrown = cycle.q is not None and float(cycle.body.sums["landings"]) > 0.0
-    return thrown and not may_come_elsewhere(cycle)
+    return _is_thrown(cycle) and not _may_swing(cycle)
 
 
 def from_rest(cycle: Cycle) -> Elsewhere | None:

@@ -10,8 +10,8 @@ from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
 from asperity.slider.cycle_map import UNSTABLE, Cycle, times
 from asperity.slider.from_rest import (
-    bounces_uncompared,
     from_rest,
+    may_bounce_otherwise,
     ratio_of,
     sticks_from_rest,
 )
@@ -46,8 +46,8 @@ _NOT_FOLLOWED = (
     "long to follow here: see solve.method 'march'"
 )
 _BOUNCES = (
-    "the body is thrown and lands, above what a march from rest is compared for: by where it comes "
-    "from it may bounce in another way, see solve.method 'march'"
+    "the body is thrown and lands, above its resonances: from rest it comes to this, from "
+    "elsewhere it may bounce in another way"
 )
 _REST = f"give a damping (normal.damping_ratio), or {_MARCH}"
 
@@ -166,7 +166,7 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
             f"a march from rest has not come to this state after {other.cycles} cycles: it has a "
             f"ratio of {other.ratio:.5g} there, see solve.method 'march'",
         )
-    elif rested and bounces_uncompared(cycle):
+    elif rested and may_bounce_otherwise(cycle):
         notes += (_BOUNCES,)
     answer = answer_of(model, step, cycle, growth, notes, began, history=history, judged=judged)
     if other is None or other.state is not None:
