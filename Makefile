@@ -81,10 +81,11 @@ clean:  ## remove everything that was made
 	  { echo "asperity needs Python 3.11 or later; name one: make PYTHON=/path/to/python3.11"; exit 1; }
 	$(PYTHON) -m venv --without-pip .venv
 	@$(PYTHON) -m pip --python $@ install $(QUIETLY) pip 2>/dev/null || \
-	  { $@ -m ensurepip >/dev/null && { $@ -m pip install $(QUIETLY) pip || true; }; } || \
+	  { $@ -m ensurepip >/dev/null && { $@ -m pip install $(QUIETLY) pip 2>/dev/null || true; }; } || \
 	  { rm $@; exit 1; }
 
 .venv/.runtime: pyproject.toml constraints.txt | .venv/bin/python
+	@$(BIN)/python -c 'import pip' 2>/dev/null || $(BIN)/python -m ensurepip >/dev/null
 	$(INSTALL) -e .
 	@$(BYTES)
 	@touch $@

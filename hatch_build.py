@@ -21,13 +21,6 @@ from asperity.kernels.building.compiler import hindrance
 ROOT = Path(__file__).parent
 # What the modules of kernels import, and what compiles them.
 NEEDED = ("numba", "numpy", "pydantic", "scipy")
-# pip keeps what packages of an environment add to the path from what is built in it: the sources
-# too, where they are installed to be edited.
-BEGIN = f"""
-import runpy, sys
-sys.path.insert(0, {str(ROOT / "src")!r})
-runpy.run_module("asperity.kernels.building.library", run_name="__main__", alter_sys=True)
-"""
 
 
 def get_requires_for_build_wheel(config_settings=None):
@@ -73,15 +66,19 @@ def _said():
 
 def _library(folder):
     """Make the library in a folder; return why there is none, or None."""
-    paths = [str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]
-    done = subprocess.run(
-        [sys.executable, "-c", BEGIN, str(folder)],
-        # For the processes that it starts.
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))},
-        stderr=subprocess.PIPE,
-        text=True,
-        check=False,
-    )
+    with tempfile.TemporaryDirectory() as beside:
+        # By another name: pip keeps from what is built in an environment all that its packages add
+        # to the path, the sources themselves where they are installed to be edited.
+        sources = Path(beside) / "src"
+        sources.symlink_to(ROOT / "src", target_is_directory=True)
+        paths = [str(sources), os.environ.get("PYTHONPATH", "")]
+        done = subprocess.run(
+            [sys.executable, "-m", "asperity.kernels.building.library", str(folder)],
+            env=os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))},
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
     if done.returncode:
         last = (done.stderr.strip().splitlines() or [f"status {done.returncode}"])[-1]
         return last.removeprefix("no library of kernels: ")

@@ -68,3 +68,16 @@ def test_nothing_is_waited_for_that_does_not_bend_or_is_bent_back():
 def test_what_takes_more_than_a_thousand_usual_durations_has_none():
     body = still("friction.exponent=3", "friction.max_deflection=1 mm", *SLOW)
     assert taken_up_after(body) is None
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1, 1.2])
+def test_a_still_body_whose_friction_lacks_something_has_not_settled(exponent):
+    """Halves of a ring on the drive agree now and then; all that slides comes to mu F_N."""
+    body = still(
+        "slider.drive_velocity=1.39 mm/s", "slider.mass=8.63 kg",
+        "slider.drive_stiffness=92300 N/m", "slider.drive_damping=10 N s/m",
+        f"friction.exponent={exponent}", "friction.max_deflection=0.852 um", "solve.duration=0.1 s",
+    )  # fmt: skip
+    answer = solve(body, history=False)
+    assert not answer.settled
+    assert answer.ratio < 0.97

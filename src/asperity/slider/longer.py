@@ -157,8 +157,7 @@ def needed(window: WindowMeans) -> float | None:
         least.append(loaded)
     if residual > UNSTEADY or still_to_come(means) > FAR:
         fading = _fading(window)
-        # Where nothing shakes them, the law of asperities tells all that fades.
-        if fading is not None and (model.vibrates or up <= model.duration):
+        if fading is not None:
             # Asperities with an exponent above 1 slow down as they come nearer to their limit.
             slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
             least.append(fading * max(slower, 1.0))

@@ -158,7 +158,8 @@ def march_standing(window: WindowMeans) -> Standing:
     elif (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
     if residual <= UNSTEADY and (far := still_to_bend(window)) > FAR:
-        missing.append(f"the asperities come to their limit ever more slowly, {far:.2g} from it")
+        slowly = ", ever more slowly" if model.friction.exponent > 1.0 else ""
+        missing.append(f"the asperities still come to their limit{slowly}: {far:.2g} from it")
     missing += drifts_sideways(across)
     if residual <= UNSTEADY and still_loads(model, table, residual):
         missing.append("the drive is still being stretched: the body lags behind it")
@@ -180,13 +181,13 @@ def still_to_bend(window: WindowMeans) -> float:
 
     Those with an exponent :math:`i` above 1 come to their limit as :math:`t^{-1/(i - 1)}`: what is
     left is :math:`i - 1` times the change in as long a time as has passed. Where nothing shakes
-    them it is what friction lacks, whatever ring there is on the drive.
+    them, of any exponent, it is what friction lacks, whatever ring there is on the drive.
     """
     model, table = window.model, window.table
+    if model.friction.model == "dahl" and not model.vibrates:
+        return max(1.0 - sum(window.quarters) / len(window.quarters), 0.0)
     if not bends_ever_more(model):
         return 0.0
-    if not model.vibrates:
-        return max(1.0 - sum(window.quarters) / len(window.quarters), 0.0)
     half = 0.5 * table.window * table.step
     change = window.residual * (model.duration - model.start) / half
     return (model.friction.exponent - 1.0) * change
