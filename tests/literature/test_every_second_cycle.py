@@ -187,3 +187,20 @@ def test_a_body_that_is_thrown_is_shown_as_it_bounces_from_rest(tmp_path, ratio,
     assert found.ratio == pytest.approx(from_rest, rel=2e-3)
     assert found.normal.period == 3
     assert any("repeats itself as well" in note for note in found.notes)
+
+
+def test_a_march_that_rings_beside_a_state_is_followed_to_where_it_comes():
+    """To one of four cycles, at -0.0275; after 284 cycles it is next to one of a cycle."""
+    settings = (
+        "slider.mass=1.702809308205 kg", "slider.drive_stiffness=1633406.373914 N/m",
+        "slider.drive_damping=40 N s/m", "slider.drive_velocity=1.102083922495 mm/s",
+        "slider.normal_force=8.579265055564 N", "friction.max_deflection=60.63397492629 nm",
+        "friction.law=vector", "friction.transfer=1", "vibration.start=0 s",
+        "vibration.frequency=5862.690533360 Hz", "vibration.velocity_ratio=5.325863921517",
+        "vibration.elevation=60 deg", "normal.law=hertz", "normal.stiffness=316826738.13198 N/m",
+        "normal.damping_ratio=0.02", "normal.control=force", "solve.method=periodic",
+    )  # fmt: skip
+    case = read_case("table-4.3", TABLES, settings).replace_values({"solve.step": None})
+    found = solve(Model.from_case(case), history=False)
+    assert not found.settled
+    assert "a body from rest stays at a ratio of -0.027" in found.settled_by

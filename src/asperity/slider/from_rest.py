@@ -21,6 +21,7 @@ from asperity.slider.steady import fading_rate
 _SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
 _NEAR = 0.02  # of mu F_N, that a march may be from the state that it comes to
+_OFF = 5e-3  # of mu F_N, from which on a march that is next to a state goes on
 _THERE = 1e-4  # of mu F_N, that it is from a state whose cycles it repeats already
 _NEARER = 0.9  # of how far it was, where a march is on its way
 _GONE = 1.0  # time constants of a contact's ringing, from which on a march comes nearer
@@ -140,8 +141,10 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
             continue
         if (growth := found.multiplier()) <= UNSTABLE:
             if abs(ratio_of(found) - there) <= _SAME:
-                if body.run < fades:
-                    continue  # it rings still, and may do so for ever
+                # It rings still, and may do so for ever; or the state is next to where it is, as
+                # one of a cycle is to one of four, and not what it comes to.
+                if body.run < fades or abs(last - there) > _OFF:
+                    continue
                 return None
             found.run = body.run + found.run + cycle.run
             return Elsewhere(found, growth, ratio_of(found), found.run)
