@@ -158,8 +158,8 @@ def march_standing(window: WindowMeans) -> Standing:
     elif (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
     if residual <= UNSTEADY and (far := still_to_bend(window)) > FAR:
-        slowly = ", ever more slowly" if model.friction.exponent > 1.0 else ""
-        missing.append(f"the asperities still come to their limit{slowly}: {far:.2g} from it")
+        slowly = " ever more slowly" if model.friction.exponent > 1.0 else ""
+        missing.append(f"the asperities come to their limit{slowly}, {far:.2g} from it")
     missing += drifts_sideways(across)
     if residual <= UNSTEADY and still_loads(model, table, residual):
         missing.append("the drive is still being stretched: the body lags behind it")
