@@ -26,6 +26,10 @@ _THERE = 1e-4  # of mu F_N, that it is from a state whose cycles it repeats alre
 _NEARER = 0.9  # of how far it was, where a march is on its way
 _GONE = 1.0  # time constants of a contact's ringing, from which on a march comes nearer
 _TAKEN_UP = 1.2
+_LEANS = 1.5  # times a resonance, up to which there may be two states that go back or lift alike
+_SLOWLY = 0.5  # of the drive velocity, for what is up to twice as fast on its asperities
+_GOES_BACK = -0.9  # of the limit, of friction that has turned round
+_LIGHT = 0.5  # of the load, below which a contact is soft enough to bounce in every second cycle
 _HALVES = 2.0  # times a resonance, up to which a body may swing there in every second cycle
 _PUMPED = 4.0  # times it, up to which it may swing sideways, where friction turns with the slip
 _CYCLES = (40, 80, 160, 320, 960)  # after the body is taken up
@@ -96,7 +100,11 @@ def _may_swing(cycle: Cycle) -> bool:
     if normal is not None and normal.control == "force" and model.unit_direction[2] != 0.0:
         pressed = normal.slope(slider.normal_force)
     # What repeats itself after some cycles rings at a part of their frequency.
-    if model.frequency <= _HALVES * cycle.period * highest * math.sqrt(pressed):
+    sums = cycle.body.sums
+    lifts = cycle.q is not None and float(sums["load_min"]) < _LIGHT
+    if model.frequency <= (_HALVES if lifts else _LEANS) * cycle.period * highest * math.sqrt(
+        pressed
+    ):
         return True
     if friction.model in ("coulomb", "springs") or not (elastic or slider.free):
         return False
@@ -105,7 +113,12 @@ def _may_swing(cycle: Cycle) -> bool:
     turning = max(1.0, friction.exponent) * model.full_friction
     stiffness = turning / friction.deflection_limit(slider.normal_force)
     highest *= math.sqrt(stiffness + (slider.drive_stiffness or 0.0))
-    return model.frequency <= (_PUMPED if turns else _HALVES) * highest
+    # What goes back in every cycle, up to the limit, has no cycle left to leave out; what is shaken
+    # more slowly than it is drawn goes back in none.
+    flat = math.hypot(*model.unit_direction[:2]) * model.peak_velocity
+    goes = flat > _SLOWLY * slider.drive_velocity and float(sums["friction_x_min"]) > _GOES_BACK
+    halves = _HALVES if goes else _LEANS
+    return model.frequency <= (_PUMPED if turns else halves) * highest
 
 
 def may_bounce_otherwise(cycle: Cycle) -> bool:
