@@ -190,8 +190,12 @@ class Cycle:
         """Whether a disturbance of a state lasts, and the mean force follows it."""
         if not _LASTING <= growth <= UNSTABLE:
             return False
+        # Drive and contact may both ring: which lasts a rounding longer says nothing.
+        return any(map(self._is_followed, _modes(self.jacobian, _LASTING)))
+
+    def _is_followed(self, mode: npt.NDArray[np.complex128]) -> bool:
+        """Whether the mean force follows a disturbance that lasts."""
         most = _SAME_RATIO if self.q is not None else _SAME_IN_PLANE
-        mode = _mode(self.jacobian)
         if self.q is None and mode.imag.any():
             # A ring. By its square it does the same always, and what comes and goes twice a turn: a
             # quarter of a turn on, that has the other sign. Of two pushes so far apart half the sum
@@ -232,7 +236,7 @@ class Cycle:
 
     def _of_pushes(self, size: float, growth: float) -> tuple[float, float]:
         """How much a push of a size grows a cycle, to the worse side, and the most left of it."""
-        worst, left, mode = 0.0, 0.0, _mode(self.jacobian).real
+        worst, left, mode = 0.0, 0.0, _modes(self.jacobian)[0].real
         half = round(0.5 * min(max(math.log(_GONE) / math.log(growth), _WATCHED), _MOST_WATCHED))
         for push in (size, -size):
             # The mode may turn round slowly: the most of a time tells more than its end.
@@ -333,10 +337,14 @@ def _map_of(jacobian: FloatArray) -> FloatArray:
     return found
 
 
-def _mode(jacobian: FloatArray) -> npt.NDArray[np.complex128]:
-    """Return what has the largest multiplier, its largest number 1."""
+def _modes(jacobian: FloatArray, least: float = math.inf) -> list[npt.NDArray[np.complex128]]:
+    """Return what has at least this multiplier, the largest always and first, its most being 1.
+
+    Of two that turn round opposite ways one.
+    """
     growths, modes = np.linalg.eig(_map_of(jacobian))
-    mode = modes[:, int(np.argmax(np.abs(growths)))]
+    sizes = np.where(growths.imag < 0.0, -1.0, np.abs(growths))
+    order = np.argsort(-sizes, kind="stable")
+    lasting = max(1, int(np.count_nonzero(sizes >= least)))
     # Turned so that its real part is its most.
-    found: npt.NDArray[np.complex128] = mode / mode[np.argmax(np.abs(mode))]
-    return found
+    return [mode / mode[np.argmax(np.abs(mode))] for mode in modes.T[order[:lasting]]]
