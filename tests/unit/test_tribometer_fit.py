@@ -210,27 +210,27 @@ def test_a_law_that_cannot_be_fitted_is_told_and_the_others_are(tmp_path, monkey
             return super().__call__(conditions, given)
 
     monkeypatch.setattr(study, "Predictor", Partly)
-    path = table(tmp_path / "data.csv", exact("table-4.3"))
-    result = fitted(path, "table-4.3", [LIMIT], law="all")
+    path = table(tmp_path / "data.csv", exact("table-4.4"))
+    result = fitted(path, "table-4.4", [LIMIT], law="all")
     assert [one.law for one in result.laws] == [law for law in LAWS if law != "vector"]
     (told,) = result.to_json()["failed"][-1:]
     assert (told["row"], told["law"]) == (None, "vector")
     assert "answers 0 of 12 measurements" in told["why"]
     assert any("law vector is not fitted" in note for note in result.notes)
     with pytest.raises(ConvergenceError, match="answers 0 of 12"):
-        fitted(path, "table-4.3", [LIMIT], law="vector")
+        fitted(path, "table-4.4", [LIMIT], law="vector")
 
 
 def test_an_uncertain_condition_widens_the_intervals(tmp_path):
-    values = exact("table-4.3")
+    values = exact("table-4.4")
     head = "vibration.velocity_ratio,ratio,sd"
-    plain = numbers(fitted(table(tmp_path / "a.csv", values, head=head), "table-4.3", [LIMIT]))
+    plain = numbers(fitted(table(tmp_path / "a.csv", values, head=head), "table-4.4", [LIMIT]))
     rows = [
         f"{k:.10g},{v:.10g},{NOISE},{0.05 * k:.6g}" for k, v in zip(RATIOS, values, strict=True)
     ]
     path = tmp_path / "b.csv"
     path.write_text("\n".join([f"{head},sd vibration.velocity_ratio", *rows]), "utf-8")
-    wide = numbers(fitted(str(path), "table-4.3", [LIMIT]))
+    wide = numbers(fitted(str(path), "table-4.4", [LIMIT]))
     spans = [math.log(one[LIMIT].ends[1] / one[LIMIT].ends[0]) for one in (plain, wide)]
     assert spans[1] > 1.1 * spans[0]
 
