@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.slider.cycle_map import UNSTABLE, Cycle
+from asperity.slider.cycle_map import UNSTABLE, Cycle, lasts
 from asperity.slider.model import Model
 from asperity.slider.ringing import ringing_time
 from asperity.slider.shooting import run
@@ -153,7 +153,8 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
         if found is None:
             continue
         if (growth := found.multiplier()) <= UNSTABLE:
-            if abs(ratio_of(found) - there) <= _SAME:
+            # What fades by a power of the time repeats itself while it is on its way.
+            if abs(ratio_of(found) - there) <= (_COME if lasts(growth) else _SAME):
                 # It rings still, and may do so for ever; or the state is next to where it is, as
                 # one of a cycle is to one of four, and not what it comes to.
                 if body.run < fades or abs(last - there) > _OFF:
