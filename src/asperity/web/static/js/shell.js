@@ -47,8 +47,8 @@ async function shared(title, answer) {
 const last = {};
 
 /**
- * Scrolls the list of screens, which is one row on a phone, to one of them. `scrollIntoView` would have the first Tab go
- * on from there.
+ * Scrolls the list of screens, which is one row on a phone, to one of them. `scrollIntoView` would have the first Tab
+ * go on from there.
  * @param {Element | null} list @param {Element | null} one
  */
 function inSight(list, one) {
