@@ -270,7 +270,7 @@ def test_a_ratio_is_taken_as_it_is_written(seen, text):
 
 ENDS = [
     ("x-from", "abc", "6.0"), ("x-from", "-0.5", "0.5"), ("x-points", "1000", "500"),
-    ("x-points", "abc", "11"), ("y-to", "5 N m", "5 deg"), ("y-from", "1e400 deg", "45 deg"),
+    ("x-points", "abc", "11"), ("y-to", "5 N m", "5 deg"), ("y-from", "1e400 deg", "90 deg"),
 ]  # fmt: skip
 
 

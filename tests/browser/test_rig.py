@@ -120,6 +120,7 @@ def test_an_interval_is_a_bar_and_point_and_model_have_marks_of_their_own(seen):
     low, high = (float(end) for end in page.locator("tbody tr").first.locator("td").nth(6)
                  .inner_text().split(" to "))  # fmt: skip
     plot.get_by_text("as table").click()
+    expect(plot.locator("tbody td").nth(3)).to_be_visible()
     cells = plot.locator("tbody td").all_inner_texts()
     assert [float(cell) for cell in cells[2:4]] == pytest.approx([low, high], rel=1e-3)
 

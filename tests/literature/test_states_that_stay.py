@@ -189,6 +189,17 @@ def test_of_two_states_the_one_is_shown_that_a_march_from_rest_comes_to(tmp_path
     assert any("with the ratio 1, repeats itself as well" in note for note in state.notes)
 
 
+@pytest.mark.parametrize("duration", [slow(0.12), 0.3])
+def test_a_swing_across_less_than_a_push_is_found_where_the_friction_follows_it(tmp_path, duration):
+    """Pushes of a thousandth fade to it. Shaken 1e-9 rad askew a march has 0.774337, too."""
+    vector = "friction.law=vector", "friction.transfer=1", "solve.method=march"
+    marched = near_resonance(tmp_path, *vector, f"solve.duration={duration} s")
+    assert marched.settled
+    assert marched.ratio == pytest.approx(0.774337, abs=1e-6)  # 0.767851 straight
+    assert 0.0 < marched.friction_y_max < 2e-3
+    assert any("so that no body stays on it" in note for note in marched.notes)
+
+
 @pytest.mark.parametrize(("ratio", "exponent"), [(0.5, 1.0), (0.98, 1.0), (0.9, 2.0)])
 def test_nothing_is_said_of_friction_at_its_limit_where_a_body_comes_to_it(ratio, exponent):
     settings = (

@@ -7,7 +7,7 @@ Coulomb and Dahl: :math:`\mu F_N`; LuGre (Canudas de Wit et al. 1995):
 import math
 
 import pytest
-from apparatus.grid import grid
+from apparatus.grid import grid, slow
 from apparatus.stribeck import SLOW
 
 from asperity.casefile import read_case
@@ -75,6 +75,23 @@ def test_a_vibration_of_nothing_changes_nothing(law, way):
     assert nothing.settled
     assert little.settled
     assert little.ratio == pytest.approx(nothing.ratio, rel=1e-6)
+
+
+@pytest.mark.parametrize("exponent", [2, 3, slow(4)])
+@pytest.mark.parametrize("ratio", [0.0, 1e-3])
+def test_asperities_that_fade_by_a_power_of_the_time_make_no_state_one_of_many(ratio, exponent):
+    """Next to its limit an asperity of exponent i is off it by w, and dw/dt goes by w^i."""
+    settings = (
+        *LAWS["curved"], f"friction.exponent={exponent}", *WAYS["up"], "solve.method=periodic",
+        "slider.drive_damping=40 N s/m",
+    )  # fmt: skip
+    state = shaken(ratio, *settings)
+    assert state.settled
+    assert state.ratio == pytest.approx(1.0, abs=2e-5)
+    # Nothing damps this contact, and as much is left of its ring however long.
+    ringing = shaken(6.0, *settings, "normal.damping_ratio=0")
+    assert not ringing.settled
+    assert "one of many" in ringing.settled_by
 
 
 def test_nor_does_it_settle_what_sticks_and_slips():

@@ -18,12 +18,15 @@ from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import at_the_end
 from asperity.slider.model import ASKEW, WINDOW_SHARE, Model
 from asperity.slider.result import SlideResult
-from asperity.slider.step_error import power_missing, run_once
+from asperity.slider.step_error import friction_of, power_missing, run_once
+from asperity.slider.straight import goes_straight
 from asperity.slider.timetable import WindowMeans
 
 # Of the deflection limit, or of the velocity that gives the body as much energy. Low exponents have
 # smaller ones grow, up to where the mean drive force tells nothing of them.
 _PUSH = 1e-3
+_LEAST = 1e-6  # such a push, that is as good as none
+_FOLLOWED = 1e-4  # of mu F_N, by which the mean friction follows a swing across
 _CYCLES = 4, 16, 64  # after which pushes are looked at
 _CLEARLY = 1.05  # times as much or as little, that tells before the last of them
 _NEARLY = 1e-2  # of the vibration, that the contact sees of it across a way that is nearly straight
@@ -46,24 +49,6 @@ class Growing(NamedTuple):
 
     def __str__(self) -> str:
         return f"a motion across the body's way still grows, {self.times:.3g} times {self.span}"
-
-
-def goes_straight(model: Model, within: float = ASKEW) -> bool:
-    r"""Whether a body is marched straight, by symmetry or nearly so, and might leave its way.
-
-    Coulomb's friction and that of springs that are cut off bring any two motions nearer: a push
-    across fades. So it does with Dahl's exponent of 1, if the load is constant: across,
-    :math:`\dot s = v - |v_x| s/s_{max}` damps what swings on the asperities, whatever
-    :math:`v_x` does. ``within`` is what the contact sees of the vibration across, at most.
-    """
-    friction, slider = model.friction, model.slider
-    seen = friction.transfer * abs(model.unit_direction[1])
-    if not (model.vibrates and seen <= within and slider.free):
-        return False
-    if model.solve.scheme == "two-phase":
-        return False
-    fades = friction.exponent == 1.0 and model.normal is None
-    return friction.model == "lugre" or (friction.model == "dahl" and not fades)
 
 
 def motion_across(body: Callable[[], Integrator], window: WindowMeans) -> Growing | None:
@@ -118,26 +103,49 @@ def growth_of_pushes(cycle: Cycle) -> float:
     """Return how much the least stable push across a straight motion grows a cycle.
 
     Of two pushes, of its velocity and of its asperities, which is all there is across: what becomes
-    of both tells of any. Soon where it is clear that they fade, after more cycles elsewhere.
+    of both tells of any. Those that fade may do so to a swing less than they are, which the mean
+    friction follows nevertheless: then much smaller ones tell whether it lasts.
     """
-    bodies = [cycle.copied(), cycle.copied()]
-    swift = math.sqrt(cycle.body.p.mobility_y)
+    straight, *pushed = _pushed(cycle, _PUSH)
+    growth = _growth(pushed, _PUSH)
+    if growth > UNSTABLE:
+        return growth
+    means = []
+    for body in (straight, *pushed):
+        _go_on(body, _CYCLES[-1])
+        means.append(friction_of(body, _CYCLES[0]))
+    if max(abs(mean - means[0]) for mean in means) <= _FOLLOWED:
+        return growth
+    return max(growth, _growth(_pushed(cycle, _LEAST)[1:], _LEAST))
+
+
+def _pushed(cycle: Cycle, push: float) -> list[Cycle]:
+    """Return a body that goes straight from a cycle on, and two that are pushed across."""
+    bodies = [cycle.copied() for _ in range(3)]
     for body in bodies:
+        body.run = 0
         body.body.p = cycle.body.p._replace(base_y=0.0)
         body.body.state["velocity_y"] = body.body.state["deflection_y"] = 0.0
-    bodies[0].body.state["velocity_y"] = _PUSH * swift
-    bodies[1].body.state["deflection_y"] = _PUSH
-    done, first, growth = 0, 0.0, 0.0
+    bodies[1].body.state["velocity_y"] = push * math.sqrt(cycle.body.p.mobility_y)
+    bodies[2].body.state["deflection_y"] = push
+    return bodies
+
+
+def _growth(bodies: list[Cycle], push: float) -> float:
+    """Return how much two pushes grow a cycle.
+
+    Soon where it is clear that they fade, after more cycles elsewhere.
+    """
+    first, growth = 0.0, 0.0
+    swift = math.sqrt(bodies[0].body.p.mobility_y)
     for cycles in _CYCLES:
         for body in bodies:
-            for _ in range(cycles - done):
-                run_once(body)
-        done = cycles
+            _go_on(body, cycles)
         states = [body.body.state for body in bodies]
         across = [[each["velocity_y"] / swift for each in states],
                   [each["deflection_y"] for each in states]]  # fmt: skip
-        grown = float(np.abs(np.linalg.eigvals(np.array(across) / _PUSH)).max())
-        growth = math.pow(grown, 1.0 / done)
+        grown = float(np.abs(np.linalg.eigvals(np.array(across) / push)).max())
+        growth = math.pow(grown, 1.0 / cycles)
         if grown < 1.0 / _CLEARLY:
             return growth
         if grown > _CLEARLY:
@@ -146,6 +154,13 @@ def growth_of_pushes(cycle: Cycle) -> float:
                 return first
             first = growth
     return growth
+
+
+def _go_on(body: Cycle, cycles: int) -> None:
+    """March a body until it has run so many cycles."""
+    for _ in range(cycles - body.run):
+        run_once(body)
+    body.run = max(body.run, cycles)
 
 
 def straight_or_askew(

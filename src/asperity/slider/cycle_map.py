@@ -1,5 +1,6 @@
 """The map of a body's state over a cycle of the vibration, whose fixed point repeats itself."""
 
+import itertools
 import math
 from collections.abc import Iterator
 from typing import TypeVar
@@ -35,11 +36,14 @@ _LASTING = 1.0 - 1e-5  # a multiplier by differences is as exact
 _SURE = 1.0 + 2e-5  # above which it is not 1
 _LONGER = 64, 256  # times the cycles, over which a slow growth is told
 _AS_OFTEN = 0.25  # of the times as many, that a growth over the longer time may be off it
-_FAR_PUSH = 0.1
+_FAR_PUSH, _HARD_PUSH = 0.1, 0.3
 _SAME_RATIO, _SAME_IN_PLANE = 1e-6, 2e-5
 _MOST_WATCHED = 2000
 _PLAINLY = 1.01  # growth that three digits tell
 _GONE = 100.0  # times the push: it does not come back
+# Of a push, that is left of it at most in twice as many cycles, if it fades.
+_FADED, _FADING = 0.9, (256, 512, 1024)
+_ONE_MODE = 1e-6  # of their size, up to which modes are apart that are taken as one
 
 
 class Cycle:
@@ -188,10 +192,13 @@ class Cycle:
 
     def one_of_many(self, growth: float) -> bool:
         """Whether a disturbance of a state lasts, and the mean force follows it."""
-        if not _LASTING <= growth <= UNSTABLE:
+        if not lasts(growth):
             return False
         # Drive and contact may both ring: which lasts a rounding longer says nothing.
-        return any(map(self._is_followed, _modes(self.jacobian, _LASTING)))
+        return any(
+            self._is_followed(mode) and not self._fades_after_all(mode)
+            for mode in _modes(self.jacobian, _LASTING)
+        )
 
     def _is_followed(self, mode: npt.NDArray[np.complex128]) -> bool:
         """Whether the mean force follows a disturbance that lasts."""
@@ -204,6 +211,24 @@ class Cycle:
             if all(abs(self._shift(part, _FEW, _FEW)) <= _CLEARLY * most for part in parts):
                 return False
         return not abs(self._shift(mode.real, _WATCHED)) <= most
+
+    def _fades_after_all(self, mode: npt.NDArray[np.complex128]) -> bool:
+        """Whether less and less is left of a push, though no multiplier tells that it fades.
+
+        By a power of the time: asperities of an exponent above 1 that are next to their limit. Of a
+        ring that lasts as much is left, however long.
+        """
+        share = _share_of(self.jacobian, mode)
+        for push in (_HARD_PUSH, -_HARD_PUSH):
+            pushed = self.pushed(push * mode.real, _FADING[-1])
+            before, most, done = math.inf, float(abs(push * (share @ mode.real))), 0
+            for cycles in _FADING:
+                left = [abs(share @ off) for off, _ in itertools.islice(pushed, cycles - done)]
+                most = max(most, float(np.max(left)))
+                if not most <= _FADED * before:
+                    return False
+                before, most, done = most, 0.0, cycles
+        return True
 
     def _shift(self, mode: FloatArray, cycles: int, since: int = 1) -> float:
         """How far the mean force of cycles after a push, from one of them on, is off the state's.
@@ -241,7 +266,8 @@ class Cycle:
         for push in (size, -size):
             # The mode may turn round slowly: the most of a time tells more than its end.
             most = [size, 0.0]
-            for n, (off, _) in enumerate(self.pushed(push * mode, 2 * half)):
+            for n, (apart, _) in enumerate(self.pushed(push * mode, 2 * half)):
+                off = float(np.abs(apart).max(initial=0.0))
                 if not off <= _GONE * size:
                     grown = off / size if math.isfinite(off) else _GONE
                     worst = max(worst, grown ** (1.0 / (n + 1)))
@@ -252,10 +278,10 @@ class Cycle:
                 left = max(left, most[1])
         return worst, left
 
-    def pushed(self, push: FloatArray, cycles: int) -> Iterator[tuple[float, float]]:
+    def pushed(self, push: FloatArray, cycles: int) -> Iterator[tuple[FloatArray, float]]:
         """March from the state, pushed in scaled unknowns.
 
-        Yields after each cycle how far it is off, and the mean force in it.
+        Yields after each cycle how far each of them is off, and the mean force in it.
         """
         body, p, q = self.body, self.body.p, self.q
         here, there, scales = (np.empty(most_unknowns(self.springs)) for _ in range(3))
@@ -268,8 +294,7 @@ class Cycle:
         for _ in range(cycles):
             run(state[0], springs, p, q, self.increments, self.rises, sums[0])
             read_unknowns(state[0], springs, p, q, there)
-            off = np.abs(there[:count] - here[:count]) / scales[:count]
-            yield float(off.max(initial=0.0)), self._mean_force(sums[0])
+            yield (there[:count] - here[:count]) / scales[:count], self._mean_force(sums[0])
 
     def record(self) -> FloatArray:
         """March over the cycle; returns what `history_of` takes, a row a step."""
@@ -297,6 +322,11 @@ class Cycle:
         self.body.state["velocity_x"] *= 1.0 + _PUSH
         if self.q is not None:
             self.body.state["rise"] += _PUSH * math.sqrt(self.q.mobility)
+
+
+def lasts(growth: float) -> bool:
+    """Whether what grows so much a cycle neither grows nor fades, as exact as differences are."""
+    return _LASTING <= growth <= UNSTABLE
 
 
 def times(growth: float) -> str:
@@ -335,6 +365,17 @@ def _map_of(jacobian: FloatArray) -> FloatArray:
     found = jacobian.copy()
     found.reshape(-1)[:: len(found) + 1] += 1.0
     return found
+
+
+def _share_of(jacobian: FloatArray, mode: npt.NDArray[np.complex128]) -> npt.NDArray[np.complex128]:
+    """Return what a disturbance has of a mode, as a row to multiply it by.
+
+    Modes that are next to each other have a share each: two of asperities that bend sideways are.
+    """
+    _, modes = np.linalg.eig(_map_of(jacobian))
+    shares = np.linalg.pinv(modes, rcond=_ONE_MODE)
+    share: npt.NDArray[np.complex128] = shares[int(np.argmax(np.abs(shares @ mode)))]
+    return share
 
 
 def _modes(jacobian: FloatArray, least: float = math.inf) -> list[npt.NDArray[np.complex128]]:

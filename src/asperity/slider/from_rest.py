@@ -6,17 +6,19 @@ to another: shaken near a resonance on its asperities, which bend the softer the
 it slides back and forth there or it does not, by where it comes from.
 """
 
+import dataclasses
 import math
 from typing import NamedTuple
 
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.slider.cycle_map import UNSTABLE, Cycle
+from asperity.slider.cycle_map import UNSTABLE, Cycle, lasts
 from asperity.slider.model import Model
 from asperity.slider.ringing import ringing_time
 from asperity.slider.shooting import run
 from asperity.slider.steady import fading_rate
+from asperity.slider.straight import goes_straight
 
 _SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
@@ -137,7 +139,9 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     if not may_come_elsewhere(cycle) or not loading <= _MOST_TAKEN_UP:
         return None
     there = ratio_of(cycle)
-    body = Cycle(model, (len(cycle.increments) - 1) // cycle.period, cycle.step)
+    # Nobody's vibration is quite along the way: what is unstable across it is no state to come to.
+    askew = dataclasses.replace(model, askew=1.0) if goes_straight(model) else model
+    body = Cycle(askew, (len(cycle.increments) - 1) // cycle.period, cycle.step)
     if body.body.p.rigid:
         body.body.state["velocity_x"] = body.body.p.drive
     mean, before, fades = 0.0, 0.0, _GONE * ringing_time(model) * model.frequency
@@ -153,7 +157,8 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
         if found is None:
             continue
         if (growth := found.multiplier()) <= UNSTABLE:
-            if abs(ratio_of(found) - there) <= _SAME:
+            # What fades by a power of the time repeats itself while it is on its way.
+            if abs(ratio_of(found) - there) <= (_COME if lasts(growth) else _SAME):
                 # It rings still, and may do so for ever; or the state is next to where it is, as
                 # one of a cycle is to one of four, and not what it comes to.
                 if body.run < fades or abs(last - there) > _OFF:
