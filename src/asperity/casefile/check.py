@@ -7,7 +7,8 @@ from typing import Any, NamedTuple
 
 import pydantic
 
-from asperity.casefile.case import Case, apply, listed, read_raw
+from asperity.casefile.case import Case, read_raw
+from asperity.casefile.setting import apply, listed
 from asperity.casefile.table import Table
 from asperity.errors import InputError, nearest
 

@@ -18,7 +18,8 @@ from asperity.slider.ringing import ringing_time
 from asperity.slider.shooting import run
 from asperity.slider.steady import fading_rate
 
-_SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
+SAME = 1e-4
+"""Of mu F_N, that the ratios of two states may be apart."""
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
 _NEAR = 0.02  # of mu F_N, that a march may be from the state that it comes to
 _OFF = 5e-3  # of mu F_N, from which on a march that is next to a state goes on
@@ -153,7 +154,7 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
         if found is None:
             continue
         if (growth := found.multiplier()) <= UNSTABLE:
-            if abs(ratio_of(found) - there) <= _SAME:
+            if abs(ratio_of(found) - there) <= SAME:
                 # It rings still, and may do so for ever; or the state is next to where it is, as
                 # one of a cycle is to one of four, and not what it comes to.
                 if body.run < fades or abs(last - there) > _OFF:

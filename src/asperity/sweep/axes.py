@@ -114,7 +114,7 @@ def read_grid(
         case = _elsewhere(subject, written, settings, read, InputError(message))
     axes = {axis.path for axis in written}
     own = {path: setting for path, setting in case.settings.items() if path not in axes}
-    case = dataclasses.replace(case, settings=own)
+    case = dataclasses.replace(case, settings=own, axes={a.path: a.text for a in written})
     return case, _within_bounds([_axis(axis) for axis in written])
 
 
