@@ -1,6 +1,14 @@
 """What is told of settings, of forms of one thing, and in which units and language."""
 
+import itertools
+import re
+
 import pytest
+
+from asperity.casefile.case import read_raw
+from asperity.casefile.overruled import overruled
+from asperity.casefile.setting import apply
+from asperity.commands import case_tables
 
 STEP = "spectrum.step=60 N m, 700 rpm, 10 h"
 CLASS = "spectrum.duty_class=EN 15714-2 A"
@@ -89,3 +97,68 @@ def test_a_wheel_that_no_standard_rates_is_not_sized(asperity, tmp_path):
     assert code == 2
     assert "gearsets are proposed by the efficiency of ISO/TR 14521: gearset.wheel_mat" in errors
     assert len(errors.strip().splitlines()) == 1
+
+
+def test_a_setting_that_takes_the_place_of_what_the_file_gives_is_named(tmp_path):
+    known, path, tried = case_tables(), tmp_path / "case.toml", 0
+    for name, table in known.items():
+        for group in (*table.alternatives, *table.required_alternatives):
+            for ours, theirs in itertools.permutations(group, 2):
+                path.write_text(f'[{name}]\n{ours} = "1"\n')
+                asked, _ = read_raw(path, known)
+                key = apply(asked.raw, f"{name}.{theirs}='x'", known)
+                asked.settings[key] = f"{key}='x'"
+                told = f"--set {key}='x' takes the place of {name}.{ours}, which {path} gives"
+                assert list(overruled(asked)) == [told]
+                tried += 1
+            same = f"{name}.{ours}='y'"
+            asked, _ = read_raw(path, known)
+            asked.settings[apply(asked.raw, same, known)] = same
+            assert not list(overruled(asked))
+    assert tried > 20
+
+
+def test_a_life_that_takes_the_place_of_a_duty_cycle_is_told_once(asperity):
+    life = ("--set", "operation.life=25000 h")
+    told = "takes the place of operation.duty_cycle, which actuator-shafts gives"
+    code, _, errors = asperity("rate", "actuator-shafts", *life)
+    assert code == 0
+    assert errors.count(told) == 1
+    for command in (
+        ("compare", "actuator-shafts", "gearset-3"),
+        ("size", "actuator-shafts", "--uncut"),
+        ("sweep", "actuator-shafts", "--over", "operation.output_torque=250,240 N m"),
+    ):
+        code, _, errors = asperity(*command, *life)
+        assert code == 0, errors
+        assert errors.count(told) == 1, command
+
+
+def test_so_is_an_axis_which_the_report_of_a_grid_shows_as_such(asperity, tmp_path):
+    over = "vibration.velocity_amplitude=1,2 mm/s"
+    code, _, errors = asperity(
+        "sweep", "table-4.3", "--set", "solve.method=periodic", "--over", over,
+        "--out", tmp_path / "out",
+    )  # fmt: skip
+    assert code == 0
+    told = f"--over {over} takes the place of vibration.velocity_ratio, which table-4.3 gives"
+    assert told in errors
+    text = (tmp_path / "out" / "report.html").read_text("utf-8")
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in text.split("<tr>")]
+    (row,) = [row for row in rows if row[:1] == ["vibration.velocity_amplitude"]]
+    assert row[1:] == ["1,2 mm/s", f"--over {over}"]
+
+
+def test_an_axis_from_a_file_of_points_is_shown_as_such_too(asperity, tmp_path):
+    (tmp_path / "points.csv").write_text("friction.mu,vibration.velocity_ratio\n0.1,2\n0.2,3\n")
+    points = tmp_path / "points.csv"
+    code, _, errors = asperity(
+        "sweep", "table-4.3", "--set", "solve.method=periodic", "--points", points,
+        "--out", tmp_path / "out",
+    )  # fmt: skip
+    assert code == 0, errors
+    text = (tmp_path / "out" / "report.html").read_text("utf-8")
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in text.split("<tr>")]
+    (row,) = [row for row in rows if row[:1] == ["friction.mu"]]
+    assert row[1] == "0.1, ..."
+    assert row[2].endswith("points.csv: the column friction.mu")

@@ -4,7 +4,7 @@
     derives from.
 :Data: the tables of each room, gathered by `asperity.commands.tables`.
 :Where: `check` (all mistakes at once), `schema` and `forms` (what may be said), `columns` (CSV),
-    `setting`, `overruled` (``--set``), `written` (a
+    `setting`, `overruled` (what is set), `written` (a
     case as text).
 :Tests: `unit/test_casefile*`, `property/test_casefile_schema`.
 """
