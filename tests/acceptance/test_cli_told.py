@@ -1,16 +1,21 @@
 """What is told of settings, of forms of one thing, and in which units and language."""
 
 import itertools
+import json
+import math
 import re
 
+import numpy as np
 import pytest
 
 from asperity.casefile.case import read_raw
 from asperity.casefile.overruled import overruled
 from asperity.casefile.setting import apply
 from asperity.commands import case_tables
+from asperity.results import read
 
 STEP = "spectrum.step=60 N m, 700 rpm, 10 h"
+UNITS = {"mm", "um", "deg", "rad", "N", "W", "degC"}
 CLASS = "spectrum.duty_class=EN 15714-2 A"
 
 
@@ -162,3 +167,26 @@ def test_an_axis_from_a_file_of_points_is_shown_as_such_too(asperity, tmp_path):
     (row,) = [row for row in rows if row[:1] == ["friction.mu"]]
     assert row[1] == "0.1, ..."
     assert row[2].endswith("points.csv: the column friction.mu")
+
+
+@pytest.mark.parametrize("cases", [("gearset-3", "gearset-3b"), ("table-4.3", "table-4.4")])
+def test_cases_side_by_side_are_the_same_in_netcdf_and_json(asperity, tmp_path, cases):
+    code, _, errors = asperity("compare", *cases, "--out", tmp_path)
+    assert code == 0, errors
+    answer = json.loads((tmp_path / "compare.json").read_text("utf-8"))
+    held = read(tmp_path / "compare.nc").to_dataset()
+    assert held["case"].values.tolist() == answer["cases"]
+    assert held.attrs["command"] == answer["command"]
+    for key, values in answer["inputs"].items():
+        assert held[f"inputs.{key}"].values.tolist() == [value or "" for value in values]
+    for key, values in answer["results"].items():
+        numbers = [math.nan if value is None else value for value in values]
+        np.testing.assert_array_equal(held[f"results.{key}"], numbers)
+        unit = held[f"results.{key}"].attrs["units"]
+        ending = key.rpartition("_")[2]
+        assert unit == {"rad": "mm/rad"}.get(ending, ending) or ending not in UNITS, key
+    if "settled" in answer:
+        assert held["settled"].values.tolist() == answer["settled"]
+    assert len(held.variables) == sum(map(len, (answer["inputs"], answer["results"]))) + (
+        2 if "settled" in answer else 1
+    )
