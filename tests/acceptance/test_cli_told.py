@@ -8,11 +8,12 @@ import re
 import numpy as np
 import pytest
 
-from asperity.casefile.case import read_raw
+from asperity.casefile.case import read_case, read_raw
 from asperity.casefile.overruled import overruled
 from asperity.casefile.setting import apply
 from asperity.commands import case_tables
 from asperity.results import read
+from asperity.start.compare import _inputs
 
 STEP = "spectrum.step=60 N m, 700 rpm, 10 h"
 UNITS = {"mm", "um", "deg", "rad", "N", "W", "degC"}
@@ -190,3 +191,31 @@ def test_cases_side_by_side_are_the_same_in_netcdf_and_json(asperity, tmp_path, 
     assert len(held.variables) == sum(map(len, (answer["inputs"], answer["results"]))) + (
         2 if "settled" in answer else 1
     )
+
+
+def test_a_comparison_tells_lists_of_tables_in_words_and_units(asperity):
+    code, output, errors = asperity("compare", "actuator-duty", "actuator-shafts", "--json")
+    assert code == 0, errors
+    asked = json.loads(output)["inputs"]
+    loads = (
+        "500 h, output torque 250 N m; 1500 h, output torque 150 N m; "
+        "3000 h, output torque 60 N m, 700 rpm"
+    )
+    assert asked["spectrum.step"] == [loads, None]
+    assert asked["worm_shaft.section"][1].startswith("length 20 mm, diameter 25 mm, fillet 1 mm, ")
+    assert asked["worm_shaft.load"][1] == "none"
+    for texts in asked.values():
+        assert not [text for text in texts if text and ("(" in text or "=" in text)]
+
+
+def test_long_lists_that_differ_behind_what_is_shown_differ(asperity):
+    steps = ["60 N m, 700 rpm, 10 h"] * 9
+    cases = []
+    for hours in (20, 30):
+        case = read_case("actuator-duty", case_tables(), [
+            f"spectrum.step={'; '.join(steps)}; 60 N m, 700 rpm, {hours} h"
+        ])  # fmt: skip
+        cases.append(case)
+    first, second = dict(_inputs(cases))["spectrum.step"]
+    assert first == second
+    assert first.endswith("; and 4 more")

@@ -377,7 +377,7 @@ def test_arrays_of_variants_follow_a_spectrum_with_turns_starts_and_loads_that_d
             {"step": [{"share": 0.6, "output_torque": "1 N m"}] * 2, "life": "9 h"},
             r"spectrum\.step\.share is 1\.2 in all",
         ),
-        ({"step": [{"output_torque": "1 N m"}]}, r"number 1 of the list: duration is missing; give one"),
+        ({"step": [{"output_torque": "1 N m"}]}, "number 1 of the list: duration is missing; give"),
         ({"step": [{"duration": "1 h"}]}, r"number 1 of the list: output_torque is missing; give"),
         (
             {"step": [{"duration": "1 h", "turns": 3, "output_torque": "1 N m"}]},

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from asperity.casefile.case import Case
+from asperity.casefile.written import worded
 from asperity.commands import COMMANDS, Command
 from asperity.drive.studies.gains import VELOCITY_RATIO, Gain, gain
 from asperity.errors import InputError
@@ -224,7 +225,8 @@ def _inputs(cases: Sequence[Case]) -> Iterator[tuple[str, tuple[str | None, ...]
         for key in model.model_fields if any(table in case for case in cases) else ():
             texts = tuple(_text(case, table, key) for case in cases)
             held = [getattr(case.tables[table], key) if table in case else None for case in cases]
-            if len(set(texts)) > 1 or (key == "duty_cycle" and len(set(map(str, held))) > 1):
+            # Of a long list the text is not all.
+            if len(set(texts)) > 1 or any(value != held[0] for value in held):
                 yield f"{table}.{key}", texts
 
 
@@ -233,13 +235,7 @@ def _text(case: Case, table: str, key: str) -> str | None:
         return None
     held = case.tables[table]
     value, quantity = getattr(held, key), quantity_of(type(held), key)
-    if value is None:
-        return None
-    if key == "duty_cycle":
-        return f"{len(value)} part{'s' if len(value) > 1 else ''}"
-    if isinstance(value, float) and quantity is not None:
-        return quantity.text(value) if quantity.unit else f"{value:.12g}"
-    return str(getattr(value, "name", "") or value)
+    return None if value is None else worded(value, quantity)
 
 
 def _numbers(answer: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, float | None]]:
