@@ -4,11 +4,15 @@ import json
 
 import pytest
 
+from asperity.casefile import read_case
 from asperity.casefile.check import check_case, lines_of, mistakes_of
 from asperity.casefile.schema import keys_of, schema
 from asperity.commands import case_tables
+from asperity.errors import InputError
 from asperity.files.shipped import case_file, shipped_cases
 from asperity.gearset import Gearset
+from asperity.rating.parameters import Operation
+from asperity.sweep import parse_axes
 
 EIGHT = """\
 # A gearset with eight mistakes
@@ -137,3 +141,18 @@ def test_a_part_of_a_text_is_counted_too():
     _, (mistake,) = check_case("gearset-3", case_tables(), [setting])
     assert "spectrum.step, number 2 of the list: output_torque is '-6 N m'" in mistake.text
     assert mistake.line is None
+
+
+@pytest.mark.parametrize("key", ["spectrum", "housing"])
+def test_a_table_beside_another_is_none_of_its_keys(key):
+    """A rating puts both into the operation, a case file beside it."""
+    assert key not in Operation.own_keys()
+    _, (mistake,) = check_case("gearset-3", case_tables(), ["operation.foo=1"])
+    assert "is not a key of [operation] (allowed: 'worm_speed', " in mistake.text
+    assert f"'{key}'" not in mistake.text
+    for value in ("1", '"S1"', "{ base = 0 }"):
+        _, (mistake,) = check_case("gearset-3", case_tables(), [f"operation.{key}={value}"])
+        said = f"operation.{key} is a table of its own; write it as [{key}]"
+        assert mistake.text == f"--set operation.{key}={value}: {said}"
+    with pytest.raises(InputError, match=rf"operation\.{key} is not a key of .*'worm_speed'"):
+        parse_axes([f"operation.{key}=1,2"], read_case("gearset-3", case_tables()))

@@ -105,6 +105,11 @@ class Table(pydantic.BaseModel):
             raise InputError(cls._one_line(error)) from None
 
     @classmethod
+    def own_keys(cls) -> list[str]:
+        """Return the keys that a case file may give; others are put there by the program alone."""
+        return [key for key, field in cls.model_fields.items() if not field.exclude]
+
+    @classmethod
     def each_of(cls, values: Sequence[Any], context: Any, path: str) -> tuple[Self, ...]:
         """Validate a list of tables at a ``table.key``; what is refused says which of them is."""
         made = []
@@ -148,9 +153,7 @@ class Table(pydantic.BaseModel):
     def __repr__(self) -> str:
         """Return what was given, quantities as text: what would make the table again."""
         given = (
-            f"{key}={self._written(key)}"
-            for key, field in type(self).model_fields.items()
-            if key in self.model_fields_set and not field.exclude
+            f"{key}={self._written(key)}" for key in self.own_keys() if key in self.model_fields_set
         )
         return f"{type(self).__name__}({', '.join(given)})"
 
@@ -243,7 +246,7 @@ class Table(pydantic.BaseModel):
         if reason.startswith((f"{key} ", f"{key}.")):
             return reason
         if detail["type"] == "extra_forbidden":
-            return f"{key} is not a key of [{cls.table}]{nearest(field, cls.model_fields)}"
+            return f"{key} is not a key of [{cls.table}]{nearest(field, cls.own_keys())}"
         if detail["type"] == "missing":
             quantity = quantity_of(cls, field)
             return f"{key} is missing" + (f"; {quantity.expected()}" if quantity else "")

@@ -160,7 +160,7 @@ class Operation(Table):
                 named["duty_cycle"], info.context, "operation.duty_cycle"
             )
         for key in ("spectrum", "housing"):
-            if isinstance(named.get(key), Mapping):
+            if not isinstance(named.get(key), Spectrum | Housing | None):
                 raise InputError(f"operation.{key} is a table of its own; write it as [{key}]")
         if "bearings" in named:
             try:

@@ -247,9 +247,9 @@ def _key_of(
             f"{choices(subject.tables)}"
         )
     model = tables[name]
-    if key not in model.model_fields:
+    if key not in model.own_keys():
         raise InputError(
-            f"{where}: {path} is not a key of [{name}]{nearest(key, model.model_fields)}"
+            f"{where}: {path} is not a key of [{name}]{nearest(key, model.own_keys())}"
         )
     return model, key
 
