@@ -240,7 +240,8 @@ def _line(
     if out.any():
         panel.plot(
             places[out], values[order][out], linestyle="", fillstyle="none",
-            marker="o" if style["marker"] in ("", _DASH) else style["marker"], markersize=6.0, color=style["color"],
+            marker="o" if style["marker"] in ("", _DASH) else style["marker"],
+            markersize=6.0, color=style["color"],
         )  # fmt: skip
 
 
