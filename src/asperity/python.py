@@ -270,7 +270,7 @@ def size(
     InputError
         A value without a unit or out of bounds, no ratio, or no gearset that does what is asked.
     """
-    from asperity.casefile.case import apply, listed
+    from asperity.casefile.setting import apply, listed
     from asperity.start.duty import complete, duty, run_at
     from asperity.start.gear import drop_begun_life, proposals, ratio_of
 

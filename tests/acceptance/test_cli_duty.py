@@ -176,7 +176,7 @@ def test_a_load_above_the_rated_torque_is_asked_for_again(monkeypatch, capsys, t
              "operation.lubricant=ISO VG 220 polyglycol")  # fmt: skip
     lines = ("300 N m, 1400 rpm, 5 h", "200 N m, 1400 rpm, 5 h", *[""] * 9)
     said = asked(monkeypatch, capsys, tmp_path, *lines, settings=known)
-    assert "spectrum.step has a part with 300 N m; none may exceed" in said
+    assert "spectrum.step has a part with 300 N m, number 1 of the list; none may exceed" in said
     assert '"200 N m, 1400 rpm, 5 h"' in (tmp_path / "duty.toml").read_text("utf-8")
 
 

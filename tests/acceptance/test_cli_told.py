@@ -1,8 +1,22 @@
 """What is told of settings, of forms of one thing, and in which units and language."""
 
+import itertools
+import json
+import math
+import re
+
+import numpy as np
 import pytest
 
+from asperity.casefile.case import read_case, read_raw
+from asperity.casefile.overruled import overruled
+from asperity.casefile.setting import apply
+from asperity.commands import case_tables
+from asperity.results import read
+from asperity.start.compare import _inputs
+
 STEP = "spectrum.step=60 N m, 700 rpm, 10 h"
+UNITS = {"mm", "um", "deg", "rad", "N", "W", "degC"}
 CLASS = "spectrum.duty_class=EN 15714-2 A"
 
 
@@ -89,3 +103,119 @@ def test_a_wheel_that_no_standard_rates_is_not_sized(asperity, tmp_path):
     assert code == 2
     assert "gearsets are proposed by the efficiency of ISO/TR 14521: gearset.wheel_mat" in errors
     assert len(errors.strip().splitlines()) == 1
+
+
+def test_a_setting_that_takes_the_place_of_what_the_file_gives_is_named(tmp_path):
+    known, path, tried = case_tables(), tmp_path / "case.toml", 0
+    for name, table in known.items():
+        for group in (*table.alternatives, *table.required_alternatives):
+            for ours, theirs in itertools.permutations(group, 2):
+                path.write_text(f'[{name}]\n{ours} = "1"\n')
+                asked, _ = read_raw(path, known)
+                key = apply(asked.raw, f"{name}.{theirs}='x'", known)
+                asked.settings[key] = f"{key}='x'"
+                told = f"--set {key}='x' takes the place of {name}.{ours}, which {path} gives"
+                assert list(overruled(asked)) == [told]
+                tried += 1
+            same = f"{name}.{ours}='y'"
+            asked, _ = read_raw(path, known)
+            asked.settings[apply(asked.raw, same, known)] = same
+            assert not list(overruled(asked))
+    assert tried > 20
+
+
+def test_a_life_that_takes_the_place_of_a_duty_cycle_is_told_once(asperity):
+    life = ("--set", "operation.life=25000 h")
+    told = "takes the place of operation.duty_cycle, which actuator-shafts gives"
+    code, _, errors = asperity("rate", "actuator-shafts", *life)
+    assert code == 0
+    assert errors.count(told) == 1
+    for command in (
+        ("compare", "actuator-shafts", "gearset-3"),
+        ("size", "actuator-shafts", "--uncut"),
+        ("sweep", "actuator-shafts", "--over", "operation.output_torque=250,240 N m"),
+    ):
+        code, _, errors = asperity(*command, *life)
+        assert code == 0, errors
+        assert errors.count(told) == 1, command
+
+
+def test_so_is_an_axis_which_the_report_of_a_grid_shows_as_such(asperity, tmp_path):
+    over = "vibration.velocity_amplitude=1,2 mm/s"
+    code, _, errors = asperity(
+        "sweep", "table-4.3", "--set", "solve.method=periodic", "--over", over,
+        "--out", tmp_path / "out",
+    )  # fmt: skip
+    assert code == 0
+    told = f"--over {over} takes the place of vibration.velocity_ratio, which table-4.3 gives"
+    assert told in errors
+    text = (tmp_path / "out" / "report.html").read_text("utf-8")
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in text.split("<tr>")]
+    (row,) = [row for row in rows if row[:1] == ["vibration.velocity_amplitude"]]
+    assert row[1:] == ["1,2 mm/s", f"--over {over}"]
+
+
+def test_an_axis_from_a_file_of_points_is_shown_as_such_too(asperity, tmp_path):
+    (tmp_path / "points.csv").write_text("friction.mu,vibration.velocity_ratio\n0.1,2\n0.2,3\n")
+    points = tmp_path / "points.csv"
+    code, _, errors = asperity(
+        "sweep", "table-4.3", "--set", "solve.method=periodic", "--points", points,
+        "--out", tmp_path / "out",
+    )  # fmt: skip
+    assert code == 0, errors
+    text = (tmp_path / "out" / "report.html").read_text("utf-8")
+    rows = [re.findall(r"<td[^>]*>(.*?)</td>", row) for row in text.split("<tr>")]
+    (row,) = [row for row in rows if row[:1] == ["friction.mu"]]
+    assert row[1] == "0.1, ..."
+    assert row[2].endswith("points.csv: the column friction.mu")
+
+
+@pytest.mark.parametrize("cases", [("gearset-3", "gearset-3b"), ("table-4.3", "table-4.4")])
+def test_cases_side_by_side_are_the_same_in_netcdf_and_json(asperity, tmp_path, cases):
+    code, _, errors = asperity("compare", *cases, "--out", tmp_path)
+    assert code == 0, errors
+    answer = json.loads((tmp_path / "compare.json").read_text("utf-8"))
+    held = read(tmp_path / "compare.nc").to_dataset()
+    assert held["case"].values.tolist() == answer["cases"]
+    assert held.attrs["command"] == answer["command"]
+    for key, values in answer["inputs"].items():
+        assert held[f"inputs.{key}"].values.tolist() == [value or "" for value in values]
+    for key, values in answer["results"].items():
+        numbers = [math.nan if value is None else value for value in values]
+        np.testing.assert_array_equal(held[f"results.{key}"], numbers)
+        unit = held[f"results.{key}"].attrs["units"]
+        ending = key.rpartition("_")[2]
+        assert unit == {"rad": "mm/rad"}.get(ending, ending) or ending not in UNITS, key
+    if "settled" in answer:
+        assert held["settled"].values.tolist() == answer["settled"]
+    assert len(held.variables) == sum(map(len, (answer["inputs"], answer["results"]))) + (
+        2 if "settled" in answer else 1
+    )
+
+
+def test_a_comparison_tells_lists_of_tables_in_words_and_units(asperity):
+    code, output, errors = asperity("compare", "actuator-duty", "actuator-shafts", "--json")
+    assert code == 0, errors
+    asked = json.loads(output)["inputs"]
+    loads = (
+        "500 h, output torque 250 N m; 1500 h, output torque 150 N m; "
+        "3000 h, output torque 60 N m, 700 rpm"
+    )
+    assert asked["spectrum.step"] == [loads, None]
+    assert asked["worm_shaft.section"][1].startswith("length 20 mm, diameter 25 mm, fillet 1 mm, ")
+    assert asked["worm_shaft.load"][1] == "none"
+    for texts in asked.values():
+        assert not [text for text in texts if text and ("(" in text or "=" in text)]
+
+
+def test_long_lists_that_differ_behind_what_is_shown_differ(asperity):
+    steps = ["60 N m, 700 rpm, 10 h"] * 9
+    cases = []
+    for hours in (20, 30):
+        case = read_case("actuator-duty", case_tables(), [
+            f"spectrum.step={'; '.join(steps)}; 60 N m, 700 rpm, {hours} h"
+        ])  # fmt: skip
+        cases.append(case)
+    first, second = dict(_inputs(cases))["spectrum.step"]
+    assert first == second
+    assert first.endswith("; and 4 more")

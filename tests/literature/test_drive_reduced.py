@@ -21,6 +21,8 @@ from asperity.drive.protocols.equations_of_motion import begin, system
 from asperity.drive.protocols.march import March
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.reduced.reduction import reduction
+from asperity.gearset import Gearset
+from asperity.rating import rate_case
 from asperity.runs import Run
 
 DUCTILE = "friction.max_deflection=2.8 um"
@@ -138,6 +140,36 @@ def test_a_gearset_that_nothing_shakes_holds_by_the_same_share(held):
     assert (found.threshold, found.creep, found.settled) == (None, None, None)
     assert found.headline() == ()
     assert any("with a [vibration]" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("mu", [0.07, 0.085, 0.0875, 0.09, 0.0925, 0.15])
+def test_where_a_rating_and_locking_differ_each_says_the_others_limit(mu):
+    """By where its teeth touch, 9.5 mm out of 9.15, it locks from less friction on."""
+    shaken = case(*LOCKING, f"friction.mu={mu}", f"rating.friction={mu}")
+    tables = {name: table for name, table in shaken.tables.items() if name != "vibration"}
+    still = dataclasses.replace(shaken, tables=tables)
+    found, rated = locking(prepare_locking(still), Run()), rate_case(still)
+    slope = 1.0 / 10.8
+    assert found.holding_share_rated == pytest.approx(
+        math.cos(math.radians(20.0)) * slope / mu, rel=1e-12
+    )
+    verdicts = {verdict.standard: verdict.locks for verdict in rated.self_locking}
+    assert verdicts == {"given": mu > slope, "agma6034": found.holding_share_rated < 1.0}
+    own = [note for note in found.notes if note.startswith("near its limit")]
+    other = [note for note in rated.notes if note.startswith("self-locking hangs on")]
+    differ = any(locks != found.locked for locks in verdicts.values())
+    assert differ == (0.08 < mu < 0.0926)
+    assert len(own) == differ
+    assert len(other) == (0.08 < mu < 0.1)
+    if differ:
+        here = mu * found.holding_share
+        assert f"a friction of {mu:.4g} counts, and {here:.4g} holds the load" in own[0]
+        assert "at 9.153 mm, as 0.09259 by ISO/TR 14521 and BS 721 and 0.08701 by AGMA" in own[0]
+        ends = still.require(Gearset).geometry
+        for radius in (0.5 * ends.worm_tip_diameter, ends.wheel_throat_radius):
+            point = MeshPoint.of(ends, 1e-3 * radius)
+            limit = point.holding_share(1.0) / math.cos(ends.pressure_angle)
+            assert f"{limit:.3g} at the" in other[0]
 
 
 def test_a_gearset_holds_until_vibration_bends_its_flanks_to_full_friction(held):

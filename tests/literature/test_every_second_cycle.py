@@ -204,3 +204,32 @@ def test_a_march_that_rings_beside_a_state_is_followed_to_where_it_comes():
     found = solve(Model.from_case(case), history=False)
     assert not found.settled
     assert "a body from rest stays at a ratio of -0.027" in found.settled_by
+
+
+@pytest.mark.parametrize(
+    ("case", "settings", "from_rest"),
+    [
+        pytest.param(HALVED, [], 0.54189, marks=pytest.mark.slow),
+        (THROWN, ["vibration.velocity_ratio=20"], 0.07714),
+    ],
+)
+def test_a_cycle_mean_law_says_that_a_body_from_rest_moves_otherwise(
+    body, case, settings, from_rest
+):
+    found = solve(body(case, "solve.method=homogenised", *settings), history=False)
+    assert not found.settled
+    assert found.ratio > from_rest + 0.04
+    assert found.ratio_from_rest == pytest.approx(from_rest, abs=2e-5)
+    other = f"another state than that of the law, with the ratio {found.ratio_from_rest:.5g}"
+    said = f"a body from rest comes to {other}"
+    assert said in found.settled_by
+    assert f"at the drive velocity {said}: see solve.method 'periodic' and 'march'" in found.notes
+    assert not [note for note in found.notes if "would do" in note]
+
+
+def test_a_cycle_mean_law_is_settled_where_a_body_from_rest_comes_to_its_state(body):
+    found = solve(
+        body(HALVED, "solve.method=homogenised", "vibration.frequency=27 kHz"), history=False
+    )
+    assert found.ratio_from_rest is None
+    assert "another state" not in found.settled_by

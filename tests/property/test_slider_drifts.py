@@ -12,7 +12,7 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve, solve_many
-from asperity.slider.batch import fits_batch
+from asperity.slider.batch_fits import fits_batch
 from asperity.slider.longer import STILL_GOES, lasting
 
 BAR = 1e-3

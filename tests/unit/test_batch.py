@@ -1,5 +1,6 @@
 import dataclasses
 import math
+import sys
 import threading
 import time
 
@@ -10,7 +11,7 @@ from asperity.casefile import read_case
 from asperity.errors import AsperityError, ConvergenceError, InputError
 from asperity.friction import Friction
 from asperity.slider import TABLES, Model, Slider, Solve, Stopped, batch, solve, solve_many
-from asperity.slider.batch import fits_batch
+from asperity.slider.batch_fits import fits_batch
 from asperity.slider.batch_kernels import BLOCK
 from asperity.slider.batch_rows import WIDTH
 from asperity.slider.march import march
@@ -295,6 +296,32 @@ def test_pressed_bodies_side_by_side_answer_as_each_alone(law, control, amplitud
         known = {name: v for name, v in dataclasses.asdict(alone.normal).items() if v is not None}
         found = {name: getattr(answer.normal, name) for name in known}
         assert found == pytest.approx(known, rel=1e-8, abs=1e-15)
+
+
+def test_lanes_know_how_far_friction_goes_across_in_each_half_of_the_window(monkeypatch):
+    """By which a motion across that still grows is told, of a body shaken nearly along its way."""
+    seen = []
+
+    def noted(judged):
+        def judge(model, window, sums, *rest, **told):
+            seen.append((window.across_at_most, sums["friction_y_max"], sums["friction_y_min"]))
+            return judged(model, window, sums, *rest, **told)
+
+        return judge
+
+    for place in (batch, sys.modules[march.__module__]):
+        monkeypatch.setattr(place, "judged_answer", noted(place.judged_answer))
+    turned = [{"vibration.direction": 3e-3}, {"vibration.direction": -8e-3}]
+    models = pressed(turned, "slider.lateral=free")
+    solve_many(models)
+    together = seen[:2]
+    seen.clear()
+    for model in models:
+        march(model, history=False)
+    for lane, alone in zip(together, seen[-2:], strict=True):
+        assert alone[0][0] != alone[0][1] > 0.0
+        np.testing.assert_allclose(np.hstack(lane), np.hstack(alone), rtol=1e-6)
+        assert lane[0][1] <= max(lane[1], -lane[2])
 
 
 def test_pressed_bodies_that_a_batch_cannot_take_are_solved_alone_in_their_place():

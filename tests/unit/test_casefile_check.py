@@ -4,11 +4,15 @@ import json
 
 import pytest
 
+from asperity.casefile import read_case
 from asperity.casefile.check import check_case, lines_of, mistakes_of
 from asperity.casefile.schema import keys_of, schema
 from asperity.commands import case_tables
-from asperity.files.shipped import shipped_cases
+from asperity.errors import InputError
+from asperity.files.shipped import case_file, shipped_cases
 from asperity.gearset import Gearset
+from asperity.rating.parameters import Operation
+from asperity.sweep import parse_axes
 
 EIGHT = """\
 # A gearset with eight mistakes
@@ -95,3 +99,60 @@ def test_the_schema_is_one_of_json_with_units_choices_and_meanings():
     assert gears["properties"]["pressure_angle"]["default"] == "20 deg"
     assert gears["required"] == ["starts", "wheel_teeth", "worm_material", "wheel_material"]
     assert "Number of threads" in gears["properties"]["starts"]["description"]
+
+
+BAD_PARTS = [
+    ('worm_speed = "700 rpm"', 'worm_speed = "700"', "number 3 of the list: worm_speed is '700'"),
+    ('duration = "3000 h"', 'duratoin = "3000 h"', "number 3 of the list: duratoin is not a key"),
+    ('output_torque = "60 N m"', 'output_torque = "-6 N m"', "number 3 of the list: output_torque"),
+    ('diameter = "30 mm"', 'diameter = "30 kg"', "number 2 of the list: section.diameter is"),
+    ('dynamic_rating = "36 kN"', 'dynamic_rating = "36 kg"', "number 1 of the list: bearing.dyn"),
+    ('at = "180 mm"', "at = 180", "number 2 of the list: bearing.at is 180"),
+]
+
+
+@pytest.mark.parametrize(("right", "wrong", "said"), BAD_PARTS)
+def test_of_a_list_of_tables_the_part_is_named_and_its_line(tmp_path, right, wrong, said):
+    text = case_file("actuator-shafts").read_text("utf-8")
+    path = tmp_path / "own.toml"
+    path.write_text(text.replace(right, wrong, 1))
+    line = text[: text.index(right)].count("\n") + 1
+    _, (mistake,) = check_case(path, case_tables())
+    assert said in mistake.text
+    assert mistake.line == line
+
+
+def test_a_part_that_is_too_great_or_lacks_something_is_told_by_its_heading(tmp_path):
+    text = case_file("actuator-shafts").read_text("utf-8")
+    heading = text[: text.index('duration = "1500 h"')].count("\n")
+    for right, wrong, said in (
+        ('"150 N m"', '"650 N m"', "has a part with 650 N m, number 2 of the list; none may"),
+        ('duration = "1500 h"', "", "number 2 of the list: duration is missing; give one of"),
+    ):
+        path = tmp_path / "own.toml"
+        path.write_text(text.replace(right, wrong, 1))
+        _, (mistake,) = check_case(path, case_tables())
+        assert said in mistake.text
+        assert (mistake.key, mistake.line) == ("operation.duty_cycle", heading)
+
+
+def test_a_part_of_a_text_is_counted_too():
+    setting = "spectrum.step=60 N m, 700 rpm, 10 h; -6 N m, 700 rpm, 10 h"
+    _, (mistake,) = check_case("gearset-3", case_tables(), [setting])
+    assert "spectrum.step, number 2 of the list: output_torque is '-6 N m'" in mistake.text
+    assert mistake.line is None
+
+
+@pytest.mark.parametrize("key", ["spectrum", "housing"])
+def test_a_table_beside_another_is_none_of_its_keys(key):
+    """A rating puts both into the operation, a case file beside it."""
+    assert key not in Operation.own_keys()
+    _, (mistake,) = check_case("gearset-3", case_tables(), ["operation.foo=1"])
+    assert "is not a key of [operation] (allowed: 'worm_speed', " in mistake.text
+    assert f"'{key}'" not in mistake.text
+    for value in ("1", '"S1"', "{ base = 0 }"):
+        _, (mistake,) = check_case("gearset-3", case_tables(), [f"operation.{key}={value}"])
+        said = f"operation.{key} is a table of its own; write it as [{key}]"
+        assert mistake.text == f"--set operation.{key}={value}: {said}"
+    with pytest.raises(InputError, match=rf"operation\.{key} is not a key of .*'worm_speed'"):
+        parse_axes([f"operation.{key}=1,2"], read_case("gearset-3", case_tables()))

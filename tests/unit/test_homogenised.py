@@ -8,7 +8,7 @@ from apparatus.grid import grid, slow
 
 from asperity.casefile import read_case
 from asperity.errors import ConvergenceError, InputError
-from asperity.slider import TABLES, Model, homogenise, homogenised, pieces, solve
+from asperity.slider import TABLES, Model, homogenise, homogenised, law_states, pieces, solve
 from asperity.slider import cycle_mean_law as hl
 from asperity.slider.closed_forms import transverse_ratio
 from asperity.slider.homogenised import interpolate
@@ -334,8 +334,8 @@ def test_the_law_names_the_velocities_whose_state_does_not_stay(monkeypatch, law
         stays = model.slider.drive_velocity not in few
         return dataclasses.replace(found, settled=found.settled and stays)
 
-    solved = hl.solve_periodic
-    monkeypatch.setattr(hl, "solve_periodic", attempt)
+    solved = law_states.solve_periodic
+    monkeypatch.setattr(law_states, "solve_periodic", attempt)
     loose = homogenise(body("table-4.3"))
     assert sorted(loose.unsettled) == sorted([*few, *-few])
     assert loose.velocity == pytest.approx(law.velocity)
@@ -406,8 +406,8 @@ def failing(monkeypatch, fails):
             raise ConvergenceError("no periodic state found", reached={"residual": 1e-3})
         return solved(model, **asked)
 
-    solved = hl.solve_periodic
-    monkeypatch.setattr(hl, "solve_periodic", attempt)
+    solved = law_states.solve_periodic
+    monkeypatch.setattr(law_states, "solve_periodic", attempt)
 
 
 def test_the_note_counts_what_is_missing_and_names_the_nearest_first(monkeypatch, law):

@@ -58,7 +58,7 @@ def test_a_share_is_of_the_life():
         ("250 N m, 3 m", "'3 m' is no torque, time, speed, power, number of turns or share"),
         ("250", "'250' is no torque"),
         ("3 h, 4 h, 9 N m", "says duration twice"),
-        ("250 N m", "spectrum.step.duration is missing"),
+        ("250 N m", "spectrum.step, number 1 of the list: duration is missing"),
         ("", "is no torque"),
         ("1 h; ; 2 h", "is no torque"),
         ("torque=250 N m, 3 h", "'torque=250 N m' is no torque"),

@@ -83,7 +83,9 @@ def test_a_rated_torque_below_a_part_is_no_variant():
 
 
 def test_a_part_above_the_rated_torque_is_refused():
-    with pytest.raises(InputError, match=r"duty_cycle has a part with 260 N m; none may exceed"):
+    with pytest.raises(
+        InputError, match=r"duty_cycle has a part with 260 N m, number . of .*; none may exceed"
+    ):
         Operation(**RUN, duty_cycle=steps((260, 1400, 10)))
 
 
@@ -188,7 +190,7 @@ def test_a_part_whose_wheel_is_beyond_the_speeds_of_bs_721_leaves_it_without_an_
 
 
 def test_a_part_that_carries_next_to_nothing_is_refused():
-    with pytest.raises(InputError, match=r"part with 1e-300 N m; it must be at least 1e-09 of"):
+    with pytest.raises(InputError, match=r"1e-300 N m, number 1 of the list; it must be at least"):
         Operation(**RUN, duty_cycle=steps((1e-300, 1400, 10)))
     lightest = rated(duty_cycle=steps((250, 1400, 500), (2.6e-7, 1400, 500)))
     assert all(np.isfinite(value) for value in safeties(lightest).values())

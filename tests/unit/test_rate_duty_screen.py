@@ -43,6 +43,41 @@ def test_the_parts_of_a_duty_in_which_the_load_drives_are_marked():
     assert [part.get("load_drives") for part in found.to_json()["duty_cycle"]] == [None, True]
 
 
+BACK = "1 h, 300 N m, load drives; 9 h, 150 N m, 700 rpm, load drives"
+
+
+def test_where_the_load_drives_in_all_parts_the_efficiency_is_that_of_the_load():
+    duty = "operation.duty_cycle=" + BACK
+    found = rate_case(
+        read_case("gearset-3", case_tables(), [duty, "operation.output_torque=300 N m"])
+    )
+    iso, text = found.iso14521, found.brief()
+    assert f"efficiency {100 * iso['eta_ges2_1']:.1f} % of the gearbox" in text
+    assert f"{100 * iso['eta_z2_1']:.1f} % of the teeth (the load driving" in text
+    # By its definition: what leaves at the worm over what comes in at the wheel.
+    lost = iso["loss_total_W"] - iso["loss_meshing_W"] + iso["loss_meshing_back_W"]
+    assert iso["eta_ges2_1"] == pytest.approx(1.0 - lost / iso["output_power_W"], rel=1e-12)
+    assert f"losses {lost:.4g} W of {iso['output_power_W']:.4g} W: teeth " in text
+    assert found.of_power[0] in [str(line) for line in found.sections()[0].texts]
+
+
+@pytest.mark.parametrize("duty", ["1 h, 300 N m; 9 h, 150 N m, 700 rpm, load drives", None])
+def test_where_the_worm_drives_at_times_it_is_that_of_the_worm(duty):
+    settings = ["operation.output_torque=300 N m"]
+    settings += [] if duty is None else [f"operation.duty_cycle={duty}"]
+    found = rate_case(read_case("gearset-3", case_tables(), settings))
+    assert f"efficiency {100 * found.iso14521['eta_ges']:.1f} % of the gearbox" in found.brief()
+    assert "the load driving" not in found.brief()
+
+
+def test_a_gearset_that_locks_itself_has_no_efficiency_under_a_load_that_is_to_drive():
+    duty = "operation.duty_cycle=9 h, 15 N m, load drives"
+    found = rate_case(read_case("gearset-2", case_tables(), [duty]))
+    assert found.iso14521["eta_ges2_1"] < 0.0
+    (said,) = [line for line in found.brief().splitlines() if "efficiency" in line]
+    assert said.startswith("no efficiency: the load is to drive, which the gearset does not let it")
+
+
 def test_measured_losses_and_a_given_oil_are_told_as_such():
     text = actuator("housing.idle_loss=30 W", "operation.oil_temperature=60 degC").brief()
     assert "60 as given; idling 30 W measured" in text

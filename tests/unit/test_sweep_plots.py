@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.markers import MarkerStyle
 
-from asperity.sweep.axis import by_factors
+from asperity.sweep.axis import POINT, by_factors
 from asperity.sweep.plots import plot_along, plot_branches, plot_sweep
 
 FACTORS = (1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)
@@ -68,6 +69,20 @@ def test_no_line_goes_through_what_has_not_settled(count, others):
     assert all(line.get_xdata().tolist() == [3.0, 5.0] for line in hollow)
     # The fourth, between them, has its mark also where a line has none.
     assert all(line.get_marker() == "o" and line.get_markevery() in (None, [3]) for line in solid)
+
+
+@pytest.mark.parametrize(("count", "others"), [(7, 1), (60, 1), (60, 9)])
+def test_of_points_without_lines_too_what_has_not_settled_is_hollow(count, others):
+    # Of many points a dash is the mark, which is as full as it is hollow.
+    found = swept(np.arange(1.0, count + 1.0), np.arange(1.0, others + 1.0), POINT)
+    loose = np.isin(found[POINT], (3.0, 5.0))
+    found["settled"] = found["ratio"] * np.where(loose, 0.0, 1.0)[:, None]
+    lines = plot_sweep(found).axes[0].lines
+    hollow = [line for line in lines if line.get_fillstyle() == "none"]
+    assert len(hollow) == others
+    for line in hollow:
+        assert MarkerStyle(line.get_marker()).is_filled()
+        assert line.get_xdata().tolist() == [3.0, 5.0]
 
 
 def test_so_have_the_colours_of_many_lines():

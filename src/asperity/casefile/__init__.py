@@ -4,11 +4,13 @@
     derives from.
 :Data: the tables of each room, gathered by `asperity.commands.tables`.
 :Where: `check` (all mistakes at once), `schema` and `forms` (what may be said), `columns` (CSV),
-    `written` (a case as text).
+    `setting`, `overruled` (what is set), `written` (a
+    case as text).
 :Tests: `unit/test_casefile*`, `property/test_casefile_schema`.
 """
 
-from asperity.casefile.case import Case, bare_unit, naming_source, read_case
+from asperity.casefile.case import Case, naming_source, read_case
+from asperity.casefile.setting import bare_unit
 from asperity.casefile.table import MOST_DIGITS, Table, names_file, same_thing
 
 __all__ = [

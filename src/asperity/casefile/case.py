@@ -6,22 +6,18 @@ import hashlib
 import json
 import numbers
 import os
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeVar, overload
 
-from asperity.casefile.table import Table, names_file, same_thing, trouble_with
+from asperity.casefile.setting import PATH, Raw, apply, known_table, listed
+from asperity.casefile.table import Table, same_thing
 from asperity.errors import InputError, nearest, plain, shown
 from asperity.files import store
 from asperity.files.shipped import SPEAKING, case_file, shipped_cases
-from asperity.units import Quantity, quantity_of, split_unit
-
-Raw = dict[str, Any]
+from asperity.units import quantity_of
 
 _TEXT_ONLY = {"text_only": True}
-_KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
-_INNER_KEY = re.compile(rf"({_KEY.pattern})\.([\w.-]+)")
 
 
 T = TypeVar("T", bound=Table)
@@ -45,6 +41,10 @@ class Case:
         Every table a case file may have.
     settings : dict of str to str
         The setting that gave a ``table.key``, for those that did not come from the file.
+    axes : dict of str to str
+        What gave a ``table.key`` all the values of a grid, of which the case has one.
+    written : frozenset of str
+        The ``table.key`` that the file gives, whatever came of it.
     """
 
     source: str
@@ -53,6 +53,8 @@ class Case:
     raw: Raw
     known: Mapping[str, type[Table]] = dataclasses.field(repr=False)
     settings: dict[str, str] = dataclasses.field(default_factory=dict)
+    axes: dict[str, str] = dataclasses.field(default_factory=dict)
+    written: frozenset[str] = frozenset()
 
     def __repr__(self) -> str:
         return f"Case({self.source!r}: {', '.join(f'[{name}]' for name in self.tables)})"
@@ -149,7 +151,7 @@ class Case:
         case = dataclasses.replace(self, tables={}, raw=raw, settings=given)
         with naming_source(case):
             for name, entries in raw.items():
-                model = _known_table(name, self.known)
+                model = known_table(name, self.known)
                 case.tables[name] = model.model_validate(entries, context=_TEXT_ONLY)
         return case
 
@@ -179,7 +181,7 @@ class Case:
         for path, value in values.items():
             name, _, key = path.partition(".")
             with naming_source(self):
-                model = _known_table(name, self.known)
+                model = known_table(name, self.known)
             if name not in changed:
                 old = self.tables.get(name)
                 changed[name] = {k: getattr(old, k) for k in old.model_fields_set} if old else {}
@@ -251,7 +253,7 @@ def naming_source(case: Case, *others: str) -> Iterator[None]:
         text = str(error)
         names = [f"{plain(n)}{end}" for o in others for n in (o, str(Path(o))) for end in ": "]
         if not text.startswith((f"{case.source}: ", f"{case.source} ", "--", *names)):
-            key = _KEY.match(text)
+            key = PATH.match(text)
             origin = case.origin(key.group()) if key else case.source
             error.args = (f"{origin}: {text}", *error.args[1:])
         raise
@@ -312,77 +314,10 @@ def read_raw(
             raise
         known = nearest(plain(path.name).removesuffix(".toml"), (*shipped_cases(), *SPEAKING))
         raise InputError(f"{source} is neither a file nor a case that ships{known}") from None
-    return Case(source, path.parent.absolute(), {}, raw, tables), text
-
-
-def _known_table(name: str, known: Mapping[str, type[Table]]) -> type[Table]:
-    if name not in known:
-        raise InputError(f"[{name}] is not a table of a case file{nearest(name, known)}")
-    return known[name]
-
-
-def listed(settings: Iterable[str]) -> Iterable[str]:
-    """Return settings as they are; raises InputError for a single text, whose parts are letters."""
-    if isinstance(settings, str):
-        raise InputError(f"settings is {shown(settings)}; it must be a list: [{shown(settings)}]")
-    return settings
-
-
-def apply(raw: Raw, setting: str, known: Mapping[str, type[Table]]) -> str:
-    """Apply a ``table.key=value`` to what is to be validated; returns the key."""
-    path, equals, text = setting.partition("=")
-    parts = _KEY.fullmatch(path.strip())
-    if not equals or not parts:
-        if equals and (inner := _INNER_KEY.fullmatch(path.strip())):
-            value = json.dumps(_toml_value(text.strip()), ensure_ascii=False, default=str)
-            raise InputError(
-                f"--set {setting}: {inner[1]} is set as a whole, as "
-                f"{inner[1]}={{ {inner[4]} = {value} }}"
-            )
-        raise InputError(f"--set {setting}: it must be table.key=value, as in friction.mu=0.1")
-    name, key = parts.groups()
-    try:
-        model = _known_table(name, known)
-    except InputError as error:
-        raise InputError(f"--set {setting}: {error}") from None
-    entries = raw.setdefault(name, {})
-    value = _with_unit(model, key, _toml_value(text.strip()), setting)
-    if isinstance(value, str) and names_file(model, key):
-        value = str(Path(value).absolute())
-    for other in same_thing(model, key):
-        entries.pop(other, None)
-    entries[key] = value
-    return f"{name}.{key}"
-
-
-def _toml_value(text: str) -> Any:
-    try:
-        parsed = store.parse_toml(f"value = {text}")
-    except ValueError:
-        return text
-    return text if len(parsed) > 1 or trouble_with(parsed) else parsed["value"]
-
-
-def _with_unit(model: type[Table], key: str, value: Any, setting: str) -> Any:
-    quantity = quantity_of(model, key)
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    written = setting.partition("=")[2].strip()
-    number = written if split_unit(written) == (written, "") else repr(value)
-    parts = (number, "") if is_number else split_unit(value) if isinstance(value, str) else None
-    if not (quantity and quantity.unit and parts and not parts[1]):
-        return value
-    unit = bare_unit(quantity)
-    if not unit:
-        path = f"{model.table}.{key}"
-        raise InputError(
-            f"--set {setting}: {path} is {parts[0]} without a unit; {quantity.expected()}"
-        )
-    return f"{parts[0]} {unit}"
-
-
-def bare_unit(quantity: Quantity) -> str:
-    """Return the unit of a number without one on the command line: deg for an angle, else none."""
-    return "deg" if quantity.unit == "rad" else ""
+    case = Case(source, path.parent.absolute(), {}, raw, tables)
+    tabled = ((name, entries) for name, entries in raw.items() if isinstance(entries, dict))
+    keys = frozenset(f"{name}.{key}" for name, entries in tabled for key in entries)
+    return dataclasses.replace(case, written=keys), text
 
 
 def _as_text(model: type[Table], key: str, value: object) -> object:

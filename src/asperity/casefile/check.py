@@ -7,14 +7,16 @@ from typing import Any, NamedTuple
 
 import pydantic
 
-from asperity.casefile.case import Case, apply, listed, read_raw
+from asperity.casefile.case import Case, read_raw
+from asperity.casefile.setting import apply, listed
 from asperity.casefile.table import Table
 from asperity.errors import InputError, nearest
 
 _KEY = re.compile(r"([A-Za-z_][\w-]*)\.([A-Za-z_][\w-]*)")
 _MEANT = re.compile(r"\(did you mean '([^']*)'\?\)")
-_HEADING = re.compile(r"\s*\[\s*([^\[\]]+?)\s*\]")
+_HEADING = re.compile(r"\s*\[\[?\s*([^\[\]]+?)\s*\]")
 _ENTRY = re.compile(r"""\s*["']?([\w-]+)["']?\s*(?:\.\s*["']?([\w-]+)["']?\s*)?[.=]""")
+_NUMBERED = re.compile(r"number (\d+) of the list(?:: (?:\w+\.)*(\w+) )?")
 _FENCES = ('"' * 3, "'" * 3)
 
 
@@ -86,10 +88,19 @@ def check_case(
                 )
     made = []
     for key, sentence in found:
-        line = None if key in case.settings else lines.get(key, lines.get(key.partition(".")[0]))
+        line = None if key in case.settings else _line_of(key, sentence, lines)
         given = case.settings.get(key)
         made.append(Mistake(line, key, f"--set {given}: {sentence}" if given else sentence))
     return case, tuple(sorted(made, key=lambda mistake: mistake.line or 0))
+
+
+def _line_of(key: str, sentence: str, lines: Mapping[str, int]) -> int | None:
+    """Return the line of what is wrong, in a list of tables that of the one that is named."""
+    places = [key, key.partition(".")[0]]
+    if numbered := _NUMBERED.search(sentence):
+        place = f"{key}.{numbered[1]}"
+        places = [f"{place}.{numbered[2]}", place, *places]
+    return next((lines[place] for place in places if place in lines), None)
 
 
 def mistakes_of(model: type[Table], entries: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
@@ -170,9 +181,14 @@ def _key_of(sentence: str, model: type[Table]) -> str:
 
 
 def lines_of(text: str) -> dict[str, int]:
-    """Return in which line of a TOML text each table and each ``table.key`` begins."""
+    """Return in which line of a TOML text each table and each ``table.key`` begins.
+
+    Of a list of tables as well each ``table.key.number`` and each key in it, the first number 1.
+    """
     lines: dict[str, int] = {}
+    counts: dict[str, int] = {}
     table, fence, depth = "", "", 0
+    place = ""  # in a list of tables
     for number, line in enumerate(text.splitlines(), 1):
         if fence:
             fence = "" if fence in line else fence
@@ -181,11 +197,19 @@ def lines_of(text: str) -> dict[str, int]:
             table = heading[1].strip("[] \"'").partition(".")[0].strip(" \"'")
             lines.setdefault(table, number)
             inner = heading[1].partition(".")[2].strip(" \"'")
+            place = ""
             if inner:
-                lines.setdefault(f"{table}.{inner.partition('.')[0]}", number)
+                path = f"{table}.{inner.partition('.')[0]}"
+                lines.setdefault(path, number)
+                if line.lstrip().startswith("[["):
+                    counts[path] = counts.get(path, 0) + 1
+                if path in counts:
+                    place = f"{path}.{counts[path]}"
+                    lines.setdefault(place, number)
             continue
         if depth <= 0 and (entry := _ENTRY.match(line)):
             path = f"{table}.{entry[1]}" if table else ".".join(filter(None, entry.groups()))
+            path = f"{place}.{entry[1]}" if place else path
             lines.setdefault(path, number)
             lines.setdefault(path.partition(".")[0], number)
         bare = re.sub(r"""\"[^\"]*\"|'[^']*'|#.*""", "", line)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from asperity.casefile.case import apply
+from asperity.casefile.setting import apply
 from asperity.casefile.table import Table, names_file
 
 

@@ -98,9 +98,8 @@ def keys_of(model: type[Table]) -> tuple[Key, ...]:
     """Return the keys of a table in their order."""
     meanings = _meanings(model)
     keys = []
-    for name, field in model.model_fields.items():
-        if field.exclude:
-            continue
+    for name in model.own_keys():
+        field = model.model_fields[name]
         quantity = quantity_of(model, name)
         made = _schema(field.annotation, field.metadata)
         meaning = meanings.get(name, "")

@@ -4,7 +4,7 @@ import json
 import math
 import re
 import threading
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar, Self, get_args
 
@@ -104,6 +104,25 @@ class Table(pydantic.BaseModel):
         except pydantic.ValidationError as error:
             raise InputError(cls._one_line(error)) from None
 
+    @classmethod
+    def own_keys(cls) -> list[str]:
+        """Return the keys that a case file may give; others are put there by the program alone."""
+        return [key for key, field in cls.model_fields.items() if not field.exclude]
+
+    @classmethod
+    def each_of(cls, values: Sequence[Any], context: Any, path: str) -> tuple[Self, ...]:
+        """Validate a list of tables at a ``table.key``; what is refused says which of them is."""
+        made = []
+        for place, each in enumerate(values, 1):
+            try:
+                made.append(
+                    each if isinstance(each, cls) else cls.model_validate(each, context=context)
+                )
+            except InputError as error:
+                said = str(error).replace(f"{path}.", "")
+                raise InputError(f"{path}, {numbered(place)}: {said}") from None
+        return tuple(made)
+
     def model_copy(
         self, *, update: Mapping[str, Any] | None = None, deep: bool = False, units: Any = None
     ) -> Self:
@@ -134,9 +153,7 @@ class Table(pydantic.BaseModel):
     def __repr__(self) -> str:
         """Return what was given, quantities as text: what would make the table again."""
         given = (
-            f"{key}={self._written(key)}"
-            for key, field in type(self).model_fields.items()
-            if key in self.model_fields_set and not field.exclude
+            f"{key}={self._written(key)}" for key in self.own_keys() if key in self.model_fields_set
         )
         return f"{type(self).__name__}({', '.join(given)})"
 
@@ -229,7 +246,7 @@ class Table(pydantic.BaseModel):
         if reason.startswith((f"{key} ", f"{key}.")):
             return reason
         if detail["type"] == "extra_forbidden":
-            return f"{key} is not a key of [{cls.table}]{nearest(field, cls.model_fields)}"
+            return f"{key} is not a key of [{cls.table}]{nearest(field, cls.own_keys())}"
         if detail["type"] == "missing":
             quantity = quantity_of(cls, field)
             return f"{key} is missing" + (f"; {quantity.expected()}" if quantity else "")
@@ -245,7 +262,7 @@ class Table(pydantic.BaseModel):
         elif cause is None:
             reason = reason.partition(", ")[0].replace("Input should be", "it must be", 1)
         place = detail["loc"][1] if len(detail["loc"]) > 1 else None
-        where = f", number {place + 1} of the list" if isinstance(place, int) else ""
+        where = f", {numbered(place + 1)}" if isinstance(place, int) else ""
         return f"{key} is {shown(given)}{where}; {reason}"
 
 
@@ -278,6 +295,11 @@ def trouble_with(value: object, most: float = MOST_DIGITS) -> str:
     if isinstance(value, list | tuple):
         return next(filter(None, (trouble_with(each, most) for each in value)), "")
     return ""
+
+
+def numbered(place: int) -> str:
+    """Return which of a list is meant, the first of it number 1."""
+    return f"number {place} of the list"
 
 
 def same_thing(model: type[Table], key: str) -> set[str]:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from asperity.casefile.case import Case, naming_source, read_case
+from asperity.casefile.overruled import overruled
 from asperity.casefile.project import Project
 from asperity.cli import show
 from asperity.commands import Command, case_tables
@@ -28,6 +29,8 @@ def compare(
     """
     check_shown(*shown)
     cases = [read_case(name, case_tables(), settings) for name in names]
+    for line in (line for case in cases for line in overruled(case)):
+        show.note(line)
     found = side_by_side(cases, _answered)
     first = cases[0]
 

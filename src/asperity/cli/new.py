@@ -5,7 +5,8 @@ import sys
 from collections.abc import Collection, Iterable, Mapping, Sequence, Set
 from pathlib import Path
 
-from asperity.casefile.case import Case, apply
+from asperity.casefile.case import Case
+from asperity.casefile.setting import apply
 from asperity.cli import show
 from asperity.commands import case_tables
 from asperity.errors import InputError, plain

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from asperity import __version__
-from asperity.casefile.case import Case, naming_source
+from asperity.casefile.case import Case, naming_source, read_raw
 from asperity.casefile.overruled import overruled
 from asperity.casefile.project import Project
 from asperity.cli import show
@@ -46,7 +46,9 @@ def size(
     given_to(values, operation_options, settings)
     wanted = ratio_of(ratio) if ratio else None
     origin = {setting.partition("=")[0].strip(): setting for setting in settings}
-    asking = Case(case or "size", Path(), {}, values, case_tables(), origin)
+    known = case_tables()
+    written = read_raw(case, known)[0].written if case else frozenset()
+    asking = Case(case or "size", Path(), {}, values, known, origin, written=written)
     for line in overruled(asking):
         show.note(line)
     with naming_source(asking):
@@ -54,12 +56,12 @@ def size(
         found = proposals(values, wanted, rank, cut=cut, locks=locks)
     folder = Path(case).parent if case else Path()
 
-    def written(to: Path) -> None:
+    def saved(to: Path) -> None:
         show.note(show.said(_written(found, asking, to, ratio)))
 
     with (
         shown_as(Project.model_validate(values.get("project", {})), folder, *shown),
-        show.files_first(None if out is None else lambda: written(out)),
+        show.files_first(None if out is None else lambda: saved(out)),
     ):
         if as_json:
             show.print_json(found.to_json())

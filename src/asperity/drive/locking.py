@@ -72,6 +72,9 @@ class Locking(Result):
     problem: DriveProblem
     locked: bool = quantity("", "", "holds its load without vibration")
     holding_share: float = quantity("phi", "", "share of full friction that holds it")
+    holding_share_rated: float = quantity(
+        "", "", "the same on the reference circle, where a rating has it"
+    )
     elastic_slip: float = quantity(
         "s_eff", "m", "way along the flank from none to full friction, asperities and teeth"
     )
@@ -152,8 +155,9 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     locked = share < 1.0
     force = point.normal_force(problem.load, -min(share, 1.0) * at_rest)
     slip = model.elastic_slip * force / model.normal_force
+    notes = [*reduced.notes, *_near_limit(problem, point, at_rest)]
     if problem.vibration is None:
-        return _at_rest(problem, reduced, share, slip)
+        return _at_rest(problem, model, notes, share, slip)
     # Way along the flank for a displacement of the vibration, and the wheel's turn for a way.
     along = _along(problem, model)
     turn = 1.0 / (point.length * point.ratio)
@@ -164,7 +168,6 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     marched = search.marches([*amplitudes, problem.amplitude] if locked else [problem.amplitude])
     own = marched[-1]
     over = marched[:-1] if locked else marched
-    notes = list(reduced.notes)
     if not own.settled:
         notes.append(f"the creep under the case's vibration has not settled: {own.settled_by}")
     threshold = None
@@ -184,6 +187,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         problem=problem,
         locked=locked,
         holding_share=share,
+        holding_share_rated=problem.point(None).holding_share(at_rest),
         elastic_slip=slip,
         threshold=threshold,
         threshold_closed_form=closed,
@@ -200,13 +204,16 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     )
 
 
-def _at_rest(problem: DriveProblem, reduced: Reduction, share: float, slip: float) -> Locking:
+def _at_rest(
+    problem: DriveProblem, model: ReducedModel, notes: Sequence[str], share: float, slip: float
+) -> Locking:
     """Return whether a gearset holds that nothing shakes, which takes no march."""
     none = np.zeros(0)
     return Locking(
         problem=problem,
         locked=share < 1.0,
         holding_share=share,
+        holding_share_rated=problem.point(None).holding_share(model.holding),
         elastic_slip=slip,
         threshold=None,
         threshold_closed_form=None,
@@ -217,7 +224,22 @@ def _at_rest(problem: DriveProblem, reduced: Reduction, share: float, slip: floa
         creep_over=none,
         creep_limit=none,
         settled_over=np.zeros(0, np.int8),
-        notes=(*reduced.notes, _NOT_SHAKEN if share < 1.0 else _DRIVES),
+        notes=(*notes, _NOT_SHAKEN if share < 1.0 else _DRIVES),
+    )
+
+
+def _near_limit(problem: DriveProblem, point: MeshPoint, friction: float) -> tuple[str, ...]:
+    """Return that a rating has another limit, where the friction is between that and its own."""
+    rated = math.tan(problem.geometry.lead_angle)
+    across = friction * problem.point(None).holding_share(friction)
+    here = friction * point.holding_share(friction)
+    if not min(here, across) <= friction <= max(here, rated):
+        return ()
+    return (
+        f"near its limit: a friction of {friction:.4g} counts, and {here:.4g} holds the load where "
+        f"its teeth touch, {1e3 * point.radius:.4g} mm from the worm's axis; asperity rate has the "
+        f"limit on the reference circle, at {1e3 * problem.reference_radius:.4g} mm, as "
+        f"{rated:.4g} by ISO/TR 14521 and BS 721 and {across:.4g} by AGMA 6034",
     )
 
 

@@ -98,10 +98,7 @@ def steps_of(
             f"{key} is {shown(value)}; it must be a list of tables with "
             f"'duration', 'output_torque' and perhaps 'worm_speed', or as {_EXAMPLE!r}"
         )
-    return tuple(
-        step if isinstance(step, LoadStep) else kind.model_validate(step, context=context)
-        for step in value
-    )
+    return kind.each_of(value, context, key)
 
 
 _EXAMPLE = "250 N m, 1400 rpm, 500 h; 60 N m, 700 rpm, 3000 h"

@@ -1,7 +1,6 @@
 """The `[operation]` and `[rating]` tables: how a worm gearset is run, and how it is to be rated."""
 
 import functools
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -10,6 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import BeforeValidator, Field, ValidationInfo, model_validator
 
 from asperity.casefile import Table
+from asperity.casefile.table import numbered
 from asperity.errors import InputError
 from asperity.gearset.bearings import Bearings
 from asperity.gearset.library import find, resolve
@@ -160,7 +160,7 @@ class Operation(Table):
                 named["duty_cycle"], info.context, "operation.duty_cycle"
             )
         for key in ("spectrum", "housing"):
-            if isinstance(named.get(key), Mapping):
+            if not isinstance(named.get(key), Spectrum | Housing | None):
                 raise InputError(f"operation.{key} is a table of its own; write it as [{key}]")
         if "bearings" in named:
             try:
@@ -185,20 +185,16 @@ class Operation(Table):
             raise InputError("operation.duty_cycle and [spectrum] are given; keep one of them")
         key = "spectrum.step" if self.spectrum is not None else "operation.duty_cycle"
         # Those that what drives is given for are looked at once it is known.
-        torques = [step.output_torque for step in self.steps or () if step.output_torque]
-        most, least = max(torques, default=0.0), min(torques, default=math.inf)
-        if most > self.output_torque * _ROUNDING:
-            raise InputError(
-                f"{key} has a part with {most:g} N m; none may exceed "
-                f"operation.output_torque, {self.output_torque:g} N m: raise that, by which "
-                "strength is judged"
-            )
-        if least < self.output_torque * _LEAST_SHARE:
-            raise InputError(
-                f"{key} has a part with {least:g} N m; it must be at least "
-                f"{_LEAST_SHARE:g} of operation.output_torque, {self.output_torque:g} N m: leave "
-                "out what carries nothing"
-            )
+        torques = {n: step.output_torque or 0.0 for n, step in enumerate(self.steps or (), 1)}
+        for n, torque in sorted(torques.items(), key=lambda each: -each[1]):
+            has = f"{key} has a part with {torque:g} N m, {numbered(n)}"
+            rated = f"operation.output_torque, {self.output_torque:g} N m"
+            if torque > self.output_torque * _ROUNDING:
+                more = "raise that, by which strength is judged"
+                raise InputError(f"{has}; none may exceed {rated}: {more}")
+            if 0.0 < torque < self.output_torque * _LEAST_SHARE:
+                least = f"it must be at least {_LEAST_SHARE:g} of {rated}"
+                raise InputError(f"{has}; {least}: leave out what carries nothing")
         return self
 
     @functools.cached_property

@@ -15,7 +15,7 @@ from asperity.rating.inputs import Inputs
 from asperity.rating.parameters import Operation, RatingOptions
 from asperity.rating.rated import Rated
 from asperity.rating.result import Rating
-from asperity.rating.self_locking import self_locking
+from asperity.rating.self_locking import near_limit, self_locking
 from asperity.rating.standards import STANDARDS, known_standards, rate_by, tables_of
 from asperity.rating.tables import operation_of
 
@@ -95,6 +95,7 @@ def rated_of(
                 raise
             notes.append(f"{name}: {error}")
             unanswered[name] = str(error)
+    locking = self_locking(inputs, found, tables)
     return Rated(
         levers=(),
         alternatives=(),
@@ -108,8 +109,13 @@ def rated_of(
         iso14521=found.get("iso14521"),
         bs721=found.get("bs721"),
         agma6034=found.get("agma6034"),
-        self_locking=self_locking(inputs, found, tables),
-        notes=(*torque_notes(as_run, inputs.operation), *told, *notes),
+        self_locking=locking,
+        notes=(
+            *torque_notes(as_run, inputs.operation),
+            *told,
+            *notes,
+            *near_limit(locking, gearset.geometry),
+        ),
         rows=rows,
         assumed=assumptions(inputs),
     )

@@ -18,6 +18,7 @@ from asperity.rating.holding import Holding, held_table, holding
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521.housed import uncounted
 from asperity.rating.levers import Alternative, Lever
+from asperity.rating.power_words import power_lines
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
 from asperity.rating.standards import PROMISED, STANDARDS
@@ -132,6 +133,12 @@ class Rated(Result):
         return starting(self.rating_inputs, self.iso14521, self.self_locking, self.holding)
 
     @property
+    def of_power(self) -> tuple[str, ...]:
+        """What the verdict says of efficiency and losses."""
+        iso = self.iso14521
+        return () if iso is None else tuple(power_lines(self.rating_inputs, iso))
+
+    @property
     def of_duty(self) -> tuple[str, ...]:
         """What the verdict says of spectrum and housing."""
         inputs = self.rating_inputs
@@ -212,7 +219,7 @@ class Rated(Result):
         play: tuple[str, ...] = () if self.backlash is None else (self.backlash.sentence(),)
         play += self.shafts.lacking if self.shafts else ()
         shown = self.verdict, self.found, self.self_locking, len(self.assumed), self.notes
-        return screen(*shown, self.of_duty, play)
+        return screen(*shown, power=self.of_power, duty=self.of_duty, play=play)
 
     def tables(self, *, sources: bool = False) -> tuple[Table, ...]:
         """Return a table a standard, the self-locking and the notes."""

@@ -13,7 +13,7 @@ from asperity.rating.power_flow import power_flow
 from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
-from asperity.rating.verdict import bar, locking_line, power_lines
+from asperity.rating.verdict import bar, locking_line
 from asperity.rating.verdict_rows import beside
 from asperity.results.report import Picture, Section
 from asperity.results.table import Bar, Column, Table
@@ -117,8 +117,7 @@ def _come_to(rated: Reported) -> Iterator[str]:
     """Yield the sentences of the verdict: strength, power, film, self-locking."""
     verdict = rated.verdict
     yield from verdict.sentences()
-    if rated.iso14521 is not None:
-        yield from power_lines(rated.iso14521)
+    yield from rated.of_power
     if verdict.film is not None:
         yield verdict.film.sentence("verdict.film")
     yield locking_line(rated.self_locking)

@@ -19,6 +19,7 @@ import numpy as np
 
 from asperity.arrays import Real
 from asperity.formulas import formula
+from asperity.gearset import Geometry
 from asperity.rating.agma6034 import mesh
 from asperity.rating.bs721 import torque
 from asperity.rating.bs721.tables import Tables, read_tables
@@ -27,7 +28,7 @@ from asperity.rating.iso14521 import efficiency
 from asperity.rating.iso14521 import friction as iso_friction
 from asperity.rating.iso14521.symbols import alpha_n, gamma_m1
 from asperity.rating.result import Rating
-from asperity.rating.standing import NAMES
+from asperity.rating.standing import NAMES, listed
 from asperity.results.quantity import Quantities, labelled, quantity
 from asperity.results.table import Table, table_of_rows
 
@@ -185,6 +186,41 @@ def self_locking(inputs: Inputs, ratings: Mapping[str, Rating], tables: Tables) 
             for state, mu in _friction(inputs, "agma6034", ratings["agma6034"], tables)
         ]
     return SelfLocking(inputs.lead_angle, inputs.friction_factor, tuple(verdicts))
+
+
+def near_limit(locking: SelfLocking, geometry: Geometry) -> tuple[str, ...]:
+    """Return that a verdict hangs on where the teeth touch, where it does; none elsewhere.
+
+    Standards judge on the reference circle. Loaded teeth touch anywhere between the wheel's tip and
+    the worm's, and the further out, the less friction locks.
+    """
+    angle, lead = geometry.pressure_angle, geometry.reduced_lead
+    reference = 0.5 * geometry.worm_pitch_diameter
+    inner, outer = geometry.wheel_throat_radius, 0.5 * geometry.worm_tip_diameter
+
+    def of_reference(radius: float) -> float:
+        squares = radius**2 + lead**2, reference**2 + lead**2
+        return (reference / radius) ** 2 * math.sqrt(squares[0] / squares[1])
+
+    least = float(locking_friction(locking.lead_angle, angle)) * of_reference(outer)
+    near = {
+        (verdict.friction, verdict.state): NAMES.get(verdict.standard, "as given")
+        for verdict in reversed(locking.verdicts)
+        if least <= verdict.friction <= verdict.limit * of_reference(inner)
+    }
+    if not near:
+        return ()
+    frictions = [
+        f"{mu:.3g} {'at rest' if state == 'static' else 'in motion'} ({whose})"
+        for (mu, state), whose in reversed(near.items())
+    ]
+    at = float(locking_friction(locking.lead_angle))
+    tip, bottom = at * of_reference(outer), at * of_reference(inner)
+    return (
+        f"self-locking hangs on where loaded teeth touch, with the friction {listed(frictions)}: "
+        f"it takes {at:.3g} on the reference circle, as here, {tip:.3g} at the worm's tip and "
+        f"{bottom:.3g} at the wheel's; asperity locking goes by where they do",
+    )
 
 
 def friction_share(inputs: Inputs, name: str) -> Real:

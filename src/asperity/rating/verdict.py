@@ -10,7 +10,7 @@ from asperity.rating.levers import Alternative, Lever
 from asperity.rating.regime import Film
 from asperity.rating.result import Rating
 from asperity.rating.self_locking import SelfLocking
-from asperity.rating.standing import NAMES, WIDTH, Standing, efficiency_outside, listed, wrapped
+from asperity.rating.standing import NAMES, WIDTH, Standing, listed, wrapped
 from asperity.rating.verdict_rows import Row
 from asperity.results.language import said
 from asperity.results.unit_systems import shown_text
@@ -299,30 +299,6 @@ def bar(margin: float) -> str:
     return "".join(signs) + (">" if margin > _LONGEST else " ")
 
 
-def power_lines(iso: Rating) -> Iterator[str]:
-    """Yield efficiency and losses of a rating by ISO/TR 14521."""
-
-    def number(key: str, form: str, times: float = 1.0) -> Number:
-        return Number.of(float(iso[key]), form, f"iso14521.{key}", times)
-
-    parts = {"teeth": "meshing", "idling": "idle", "bearings": "bearing", "seals": "seal"}
-    keys = {name: f"loss_{key}_W" for name, key in parts.items()}
-    # Three digits say enough, and the line stays one.
-    shares = (
-        Sentence(f"{name} ", number(key, ".0f" if float(iso[key]) >= 100.0 else ".3g"))
-        for name, key in keys.items()
-    )
-    where = "OUTSIDE ITS RANGE" if efficiency_outside(iso) else "ISO/TR 14521"
-    yield Sentence(
-        "efficiency ", number("eta_ges", ".1f", 100.0), " % of the gearbox, ",
-        number("eta_z1_2", ".1f", 100.0), f" % of the teeth ({where})",
-    )  # fmt: skip
-    yield Sentence(
-        "losses ", number("loss_total_W", ".4g"), " W of ", number("input_power_W", ".4g"), " W: ",
-        Sentence.joined(shares, " + "),
-    )  # fmt: skip
-
-
 def locking_line(locking: SelfLocking) -> str:
     """Return whether the worm locks itself, in a sentence."""
     said = []
@@ -347,6 +323,8 @@ def screen(
     locking: SelfLocking,
     assumed: int,
     notes: Iterable[str],
+    *,
+    power: Iterable[str],
     duty: Iterable[str] = (),
     play: Iterable[str] = (),
 ) -> str:
@@ -354,9 +332,7 @@ def screen(
 
     At most 23 lines, unless the verdict itself takes more; what has no room is left to ``--full``.
     """
-    iso = ratings.get("iso14521")
     first, best = verdict.nearest(), verdict.best()
-    power = power_lines(iso) if iso is not None else ()
     film = () if verdict.film is None else (verdict.film.sentence(),)
     # What is nearer to the verdict stays where there is no room for all.
     said = {f"{one.standard}: {reason}" for one in verdict.standing for reason in one.reasons}

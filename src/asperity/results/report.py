@@ -122,6 +122,8 @@ class Heading:
         What the case says, as it is written, by ``table.key``.
     settings : mapping of str to str
         The settings among it, by the same.
+    axes : mapping of str to str
+        What gave all the values of a grid, by the same.
     version : str
         Of this package.
     date : datetime.date
@@ -132,6 +134,7 @@ class Heading:
     case: str = ""
     given: Mapping[str, str] = dataclasses.field(default_factory=dict)
     settings: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    axes: Mapping[str, str] = dataclasses.field(default_factory=dict)
     version: str = ""
     date: datetime.date = dataclasses.field(default_factory=lambda: datetime.datetime.now().date())
 
@@ -145,7 +148,7 @@ class Heading:
             if table != Project.table
             for key, value in entries.items()
         }
-        return cls(project, case.source, given, case.settings, version)
+        return cls(project, case.source, given, case.settings, case.axes, version)
 
     @property
     def made_with(self) -> str:
@@ -173,11 +176,15 @@ class Heading:
 
     def table(self) -> Table:
         """Return what the case says."""
-        rows = [
-            (key, value, f"--set {self.settings[key]}" if key in self.settings else "case file")
-            for key, value in self.given.items()
-        ]
+        rows = [self._row(key, value) for key, value in self.given.items()]
         return Table.of(("key", "as written", "from"), rows, left=3)
+
+    def _row(self, key: str, value: str) -> tuple[str, str, str]:
+        if key in self.axes:
+            # The case has the first of its values.
+            _, equals, values = self.axes[key].partition("=")
+            return key, values if equals else f"{value}, ...", self.axes[key]
+        return key, value, f"--set {self.settings[key]}" if key in self.settings else "case file"
 
 
 def _written(value: Any) -> str:

@@ -222,15 +222,7 @@ def _listed(model: type[P], path: str, value: Any, context: Any) -> tuple[P, ...
     wanted = isinstance(value, list | tuple) and len(value) > 0
     if not wanted or not all(isinstance(each, Mapping | model) for each in value):
         raise InputError(f"{path} is {shown(value)}; it must be a list of tables, as [[{path}]]")
-    made = []
-    for place, each in enumerate(value, 1):
-        try:
-            made.append(
-                each if isinstance(each, model) else model.model_validate(each, context=context)
-            )
-        except InputError as error:
-            raise InputError(f"{path}, number {place} of the list: {error}") from None
-    return tuple(made)
+    return model.each_of(value, context, path)
 
 
 class _Shaft(Table):

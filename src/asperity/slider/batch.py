@@ -11,12 +11,11 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.errors import AsperityError, ConvergenceError
-from asperity.friction.dahl import VECTOR
-from asperity.friction.loaded import STIFFNESS
-from asperity.normal import HERTZ, LINEAR, elastic_force
+from asperity.normal import elastic_force
 from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
 from asperity.slider.astray import goes_alone
+from asperity.slider.batch_fits import FORCES, fits_batch
 from asperity.slider.batch_kernels import BLOCK, march_batch
 from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.fading import quarter_means
@@ -44,8 +43,6 @@ from asperity.vibration.waveform import displacement_at
 # Steps in one call of a kernel, whole blocks: a fraction of a second, then Ctrl-C is heard.
 _STRETCH = 16384 * BLOCK
 _FEWEST = 2  # a batch of two costs no more than two single marches
-# Elastic force over the penetration: a number, and one times its root.
-_FORCES = {LINEAR: (1.0, 0.0), HERTZ: (0.0, 1.5**-1.5)}
 # Rows of what the single-body kernels carry, by its name there.
 _STATE_ROWS = {
     "stretch": row.STRETCH,
@@ -85,6 +82,8 @@ _SUM_ROWS = {
     "gain": (row.SUM_GAIN, 1.0),
     "wear": (row.SUM_WEAR, 1.0),
 }
+
+_ACROSS = [row.MAX_FY, row.MIN_FY]
 
 
 class _Body(NamedTuple):
@@ -174,28 +173,6 @@ def _refined(
         return error
 
 
-def fits_batch(model: Model) -> bool:
-    """Whether the model can be marched in a batch, in vector instructions."""
-    return (
-        model.solve.method == "march"
-        and model.solve.scheme == "exponential"
-        and model.friction.model == "dahl"
-        and model.friction.exponent == 1.0
-        and model.slider.drive_damping == 0.0
-        and (model.normal is None or _fits_pressed(model))
-    )
-
-
-def _fits_pressed(model: Model) -> bool:
-    return (
-        model.normal is not None
-        and model.normal.code in _FORCES
-        and model.friction.law_code == VECTOR
-        and model.friction.keeps_code == STIFFNESS
-        and model.friction.load_exponent == 1.0
-    )
-
-
 def _batches(
     members: list[tuple[int, Timetable]],
 ) -> Iterator[list[tuple[int, Timetable]]]:
@@ -229,8 +206,10 @@ def _march(
     done = 0
     start_energies: list[tuple[float, float]] = [(0.0, 0.0)] * len(bodies)
     start_free = np.zeros(len(bodies))
-    # Sums of the drive force up to where the first three quarters of the window end.
+    # Sums of the drive force up to where the first three quarters of the window end, and the
+    # extremes of the friction across in its first half.
     quarters = np.zeros((3, len(bodies)))
+    early = np.zeros((2, len(bodies)))
     edges = {t.window_start for t in tables}.union(*(t.quarters for t in tables))
     first_window = min(t.window_start for t in tables)
     for edge in sorted(edges | {tables[0].steps}):
@@ -263,10 +242,15 @@ def _march(
             for n, end in enumerate(table.quarters):
                 if end == edge:
                     quarters[n, place] = _drive_sum(column, body.p, start_free[place])
+            if table.middle == edge:
+                early[:, place] = column[_ACROSS]
+                column[_ACROSS] = -1e300, 1e300
     seconds = (time.perf_counter() - began) / len(bodies)
     return [
-        _answer(buffer[:, place], body, start_energies[place], start_free[place], sums, seconds)
-        for place, (body, sums) in enumerate(zip(bodies, quarters.T, strict=True))
+        _answer(
+            buffer[:, place], body, start_energies[place], start_free[place], sums, across, seconds
+        )
+        for place, (body, sums, across) in enumerate(zip(bodies, quarters.T, early.T, strict=True))
     ]
 
 
@@ -276,12 +260,15 @@ def _answer(
     start: tuple[float, float],
     start_free: float,
     quarters: FloatArray,
+    early_across: FloatArray,
     seconds: float,
 ) -> SlideResult | AsperityError:
     """Result of a body whose march is at its end."""
     model, table = body.model, body.table
     if not np.all(np.isfinite(column)):
         return beyond_numbers(model, table.step, table.steps)
+    late_across = column[_ACROSS].copy()
+    column[_ACROSS] = max(early_across[0], late_across[0]), min(early_across[1], late_across[1])
     sums = _sums(column, body, start_free)
     early, to_the_middle, late = map(float, quarters)
     begin, (first, middle, third) = table.window_start, table.quarters
@@ -293,7 +280,8 @@ def _answer(
     change = halves[1][0] / halves[1][1] - halves[0][0] / halves[0][1]
     broke = bool(column[row.WAITING] == 0.0) and not model.slider.rigid
     across = pull_across(model, sums["friction_y"] / sums["steps"])
-    window = WindowMeans(model, table, change, means, broke, across)
+    greatest = float(np.abs(early_across).max()), float(np.abs(late_across).max())
+    window = WindowMeans(model, table, change, means, broke, across, greatest)
 
     def at_end() -> Integrator:
         there = integrator(model, table.step)
@@ -326,7 +314,7 @@ def _load(column: FloatArray, body: _Body) -> None:
     column[row.WAITING] = 1.0
     if q is None:
         return
-    column[[row.LINEAR, row.ROOT]] = _FORCES[q.law]
+    column[[row.LINEAR, row.ROOT]] = FORCES[q.law]
     column[row.BASE_Z] = q.base
     column[row.MOBILITY_Z] = q.mobility
     column[row.LOSS] = q.damping

@@ -8,7 +8,7 @@ little with the base) is in the table.
 import dataclasses
 import functools
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, overload
 
 import numpy as np
@@ -19,6 +19,7 @@ from asperity.formulas import real
 from asperity.friction.lugre import stribeck_share
 from asperity.results.settled import Standing
 from asperity.slider.cycle_mean_normal import remarks_of, told_by
+from asperity.slider.law_states import as_fine_as_asked, beside_rest, states
 from asperity.slider.model import Model
 from asperity.slider.parameters import in_proportion
 from asperity.slider.periodic import solve_periodic
@@ -31,8 +32,8 @@ _POINTS_ABOVE = 56
 _LEAST_PEAK = 1e-2  # of the drive velocity
 _HIGHEST = 50.0
 _LOWEST = 1e-4
-_MOST_MISSING = 0.2
 _NAMED = 4
+_SEE = "see solve.method 'periodic' and 'march'"
 
 # Columns of the table.
 (
@@ -89,6 +90,11 @@ class HomogenisedLaw:
         What a reader should know of a pressed body's state at the drive velocity.
     step_error : float or None
         Of the ratio at the drive velocity, see `asperity.slider.step_error`.
+    elsewhere : str
+        What else a body from rest comes to at the drive velocity; empty where it comes to the
+        state of the law.
+    ratio_from_rest : float or None
+        Its ratio there, where that is another and settles.
     """
 
     velocity: FloatArray = dataclasses.field(repr=False)
@@ -101,6 +107,8 @@ class HomogenisedLaw:
     pressed: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
     step_error: float | None = None
+    elsewhere: str = ""
+    ratio_from_rest: float | None = None
 
     @functools.cached_property
     def arguments(self) -> tuple[FloatArray, FloatArray, float]:
@@ -160,17 +168,21 @@ class HomogenisedLaw:
         return dict(zip(self.pressed, found.T, strict=True))
 
     def standing(self, velocity: float) -> Standing:
-        """Return whether the law at a tabulated mean velocity is that of a state that stays."""
+        """Return whether the law at the drive velocity is that of a state that a body stays in."""
         if velocity in self.missing:
             return Standing(False, "no periodic state was found at the drive velocity")
         if velocity in self.unsettled:
             return Standing(False, "the periodic state at the drive velocity does not stay")
-        return Standing(True, f"the law's states repeat themselves to {ACCEPTED:g}")
+        repeat = f"the law's states repeat themselves to {ACCEPTED:g}"
+        if self.elsewhere:
+            return Standing(False, f"{repeat}, but {self.elsewhere}")
+        return Standing(True, repeat)
 
     @property
     def notes(self) -> tuple[str, ...]:
         """What a reader of the law's numbers should know."""
-        return (*self._of_missing(), *self._of_unsettled())
+        there = f"at the drive velocity {self.elsewhere}: {_SEE}"
+        return (*self._of_missing(), *self._of_unsettled(), *((there,) if self.elsewhere else ()))
 
     def _of_unsettled(self) -> Iterator[str]:
         if self.unsettled:
@@ -229,7 +241,7 @@ def homogenise(model: Model) -> HomogenisedLaw:
     sampled = model.vibration is not None and model.vibration.waveform == "sampled"
     symmetric = not (oblique or sampled)
     tried = speeds if symmetric else np.concatenate([speeds, -speeds])
-    answers, missing = _states(_finely(model), tried)
+    answers, missing = states(as_fine_as_asked(model), tried)
     rows = {v: _row(model, answer) for v, answer in answers.items()}
     front = {v: row for v, row in rows.items() if v > 0.0}
     back = {v: _backwards(row) for v, row in rows.items() if v < 0.0}
@@ -248,6 +260,7 @@ def homogenise(model: Model) -> HomogenisedLaw:
     _reach_to_rest(back, [v for v in missing if v < 0.0])
     found = np.array(sorted([*back, 0.0, *front]))
     rest = 0.5 * (front[min(front)] + back[max(back)])
+    beside = beside_rest(answers.get(drive))
     return HomogenisedLaw(
         velocity=found,
         table=np.array([(rest if v == 0.0 else front[v] if v > 0.0 else back[v]) for v in found]),
@@ -258,7 +271,9 @@ def homogenise(model: Model) -> HomogenisedLaw:
         missing=tuple(sorted(missing, key=lambda v: abs(v - drive))),
         unsettled=tuple(sorted(loose, key=lambda v: abs(v - drive))),
         pressed=tuple(told_by(answers[max(front)])),
-        remarks=remarks_of(answers[drive]) if drive in answers else (),
+        remarks=remarks_of(answers[drive]) + beside.remarks if drive in answers else (),
+        elsewhere=beside.otherwise,
+        ratio_from_rest=beside.ratio,
     )
 
 
@@ -294,63 +309,6 @@ def _with_drive(speeds: FloatArray, drive: float) -> FloatArray:
     # A steady march ends at the drive velocity, where the table is then exact.
     speeds[np.argmin(np.abs(speeds - drive))] = drive
     return speeds
-
-
-def _finely(model: Model) -> Model:
-    """Return the model with the step that the state at the drive velocity asks for."""
-    if model.solve.step is not None:
-        return model
-    try:
-        at_drive = solve_periodic(_at(model, model.slider.drive_velocity), history=False)
-    except (ConvergenceError, InputError):
-        return model
-    return dataclasses.replace(model, finer=at_drive.model.finer)
-
-
-def _states(
-    model: Model, velocities: Iterable[float]
-) -> tuple[dict[float, SlideResult], list[float]]:
-    """Periodic states by mean velocity, and the velocities without one."""
-    velocities = [float(v) for v in velocities]
-    drive = model.slider.drive_velocity
-    model = _at(model, drive)  # of a given amplitude, which the others share
-    found: dict[float, SlideResult] = {}
-    missing: list[float] = []
-    for velocity in velocities:
-        try:
-            there = _at(model, velocity)
-            found[velocity] = solve_periodic(there, history=False, judged=velocity == drive)
-        except (ConvergenceError, InputError) as error:
-            # A step can be too coarse at the table's ends; at the drive velocity it is the case's.
-            if isinstance(error, InputError) and velocity == drive:
-                raise
-            missing.append(velocity)
-            if len(missing) > _MOST_MISSING * len(velocities):
-                raise ConvergenceError(
-                    f"no periodic state was found at more than a fifth of {len(velocities)} mean "
-                    f"velocities, at {velocity:.4g} m/s: {error}",
-                    reached=getattr(error, "reached", None),
-                ) from None
-    return found, missing
-
-
-def _at(model: Model, velocity: float) -> Model:
-    """Return the model with a mean velocity; backwards its vibration is turned by half a turn."""
-    if model.vibration is None:
-        raise InputError("nothing vibrates")
-    slider = model.slider.model_copy(update={"drive_velocity": abs(velocity)}, units="SI")
-    if velocity > 0.0 and model.vibration.displacement_amplitude is not None:
-        return dataclasses.replace(model, slider=slider)
-    vibration = model.vibration.model_copy(
-        update={
-            "velocity_ratio": None,
-            "velocity_amplitude": None,
-            "displacement_amplitude": model.amplitude,
-            "direction": model.direction + (math.pi if velocity < 0.0 else 0.0),
-        },
-        units="SI",
-    )
-    return dataclasses.replace(model, slider=slider, vibration=vibration)
 
 
 def _row(model: Model, answer: SlideResult) -> FloatArray:

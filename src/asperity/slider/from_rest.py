@@ -20,7 +20,8 @@ from asperity.slider.shooting import run
 from asperity.slider.steady import fading_rate
 from asperity.slider.straight import goes_straight
 
-_SAME = 1e-4  # of mu F_N, that the ratios of two states may be apart
+SAME = 1e-4
+"""Of mu F_N, that the ratios of two states may be apart."""
 _COME = 1e-3  # of mu F_N, that the means of a march may be from a state that it has come to
 _NEAR = 0.02  # of mu F_N, that a march may be from the state that it comes to
 _OFF = 5e-3  # of mu F_N, from which on a march that is next to a state goes on
@@ -158,7 +159,7 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
             continue
         if (growth := found.multiplier()) <= UNSTABLE:
             # What fades by a power of the time repeats itself while it is on its way.
-            if abs(ratio_of(found) - there) <= (_COME if lasts(growth) else _SAME):
+            if abs(ratio_of(found) - there) <= (_COME if lasts(growth) else SAME):
                 # It rings still, and may do so for ever; or the state is next to where it is, as
                 # one of a cycle is to one of four, and not what it comes to.
                 if body.run < fades or abs(last - there) > _OFF:

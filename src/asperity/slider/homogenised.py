@@ -202,7 +202,7 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
         f"{marched.settled_by}; {answer.settled_by}",
     )
     notes = march_notes(come_to)
-    if not marched.settled:
+    if answer.settled and not marched.settled:  # no duration makes up for what the law lacks
         notes += (advice(needed(come_to), model),)
     return dataclasses.replace(
         answer, cycles=table.cycles, history=record, notes=(*answer.notes, *notes),
@@ -336,6 +336,7 @@ def _result(
         normal=normal,
         wear=wear,
         step_error=law.step_error,
+        ratio_from_rest=law.ratio_from_rest,
         residual=law.residual,
         steps=steps,
         cycles=0,

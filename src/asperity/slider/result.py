@@ -51,8 +51,9 @@ class SlideResult(Result):
     step_error : float or None
         Estimated error of the ratio that the time step makes; None where it is not estimated.
     ratio_from_rest : float or None
-        Ratio at which a march from rest settles, where the periodic state is unstable; None where
-        it is the same to 1e-3 of it, where that march has not settled, and where none was made.
+        Ratio at which a march from rest settles, where the periodic state is unstable, or where
+        that of a homogenised law is another; None where it is the same to 1e-3 of it, where that
+        march has not settled, and where none was made.
     residual : float
         How far from an answer it may be. ``march``: change of the mean drive force from the first
         to the second half of the window over :math:`\mu F_N` (steadiness), above 1e-3 also where a

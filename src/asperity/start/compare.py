@@ -1,24 +1,33 @@
 """Cases side by side: what differs in what they ask and in what they come to."""
 
+import dataclasses
 import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
 
 from asperity.casefile.case import Case
+from asperity.casefile.written import worded
 from asperity.commands import COMMANDS, Command
 from asperity.drive.studies.gains import VELOCITY_RATIO, Gain, gain
 from asperity.errors import InputError
 from asperity.gearset import Gearset
 from asperity.results import Result
+from asperity.results.dataset import Described, described
 from asperity.results.language import Spoken
 from asperity.results.language import said as in_language
+from asperity.results.quantity import unit_suffix
 from asperity.results.settled import MARK, told, unsettled
 from asperity.results.table import Table
 from asperity.results.words import text_of
 from asperity.units import quantity_of
 from asperity.units.measures import measure
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 COMPARED = ("rate", "block", "slide")
 """Commands whose answers are compared, the first that all cases have the tables of."""
@@ -48,6 +57,8 @@ class Comparison(Result):
         What is to be said, with the case that it is said of, empty where it is of all.
     settled : tuple of bool or None
         Whether the answer of each has settled; None of what is no march and no state.
+    units : mapping of str to str
+        Of the numbers that have one, by key.
     """
 
     title: ClassVar[str] = "Cases side by side"
@@ -59,6 +70,7 @@ class Comparison(Result):
     numbers: tuple[tuple[str, str, tuple[float | None, ...]], ...]
     said: tuple[tuple[str, str], ...] = ()
     settled: tuple[bool | None, ...] = ()
+    units: Mapping[str, str] = dataclasses.field(default_factory=dict)
 
     def to_json(self) -> dict[str, Any]:
         """Return what differs by key."""
@@ -70,6 +82,26 @@ class Comparison(Result):
             **({"settled": list(self.settled)} if any(s is not None for s in self.settled) else {}),
             "notes": list(self.notes),
         }
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return what differs over the cases; a number that is left out is NaN, a text empty."""
+        over, attributes = ("case",), {"command": self.command, "notes": "; ".join(self.notes)}
+        columns: dict[str, Described] = {
+            "case": (over, np.array(self.cases, dtype=object), "1", "case")
+        }
+        for (
+            key,
+            values,
+        ) in self.asked:
+            texts = np.array([value or "" for value in values], dtype=object)
+            columns[f"inputs.{key}"] = over, texts, "1", f"{key}, as it is asked for"
+        for key, what, numbers in self.numbers:
+            unit = self.units.get(key, "1")
+            columns[f"results.{key}"] = over, np.array(numbers, dtype=float), unit, what or key
+        if any(stays is not None for stays in self.settled):
+            stays = np.array(self.settled, dtype=float)
+            columns["settled"] = over, stays, "1", "whether it has settled"
+        return described(self.title, **columns).assign_attrs(attributes)
 
     def tables(self) -> tuple[Table, ...]:
         """Return a table of inputs and one of results."""
@@ -161,7 +193,22 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         numbers=tuple(_differing(flat, meanings)),
         said=tuple(said),
         settled=tuple(getattr(result, "settled", None) for result in answers),
+        units=_units(answers, flat),
     )
+
+
+def _units(answers: Sequence[Result], flat: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """Return the units of numbers, by key: what an answer puts together has its in that alone."""
+    own = {key: entry.label.unit for result in answers for key, entry in result.keyed()}
+    endings = {
+        unit_suffix(unit): unit for unit in (*own.values(), "mm", "mm/rad", "um", "deg") if unit
+    }
+    longest = sorted(endings, key=len, reverse=True)
+    for key in dict.fromkeys(key for numbers in flat for key in numbers):
+        if key not in own:
+            ending = next((each for each in longest if each and key.endswith(each)), "")
+            own[key] = endings.get(ending, "")
+    return {key: unit for key, unit in own.items() if unit}
 
 
 def _command(cases: Sequence[Case]) -> Command:
@@ -178,7 +225,8 @@ def _inputs(cases: Sequence[Case]) -> Iterator[tuple[str, tuple[str | None, ...]
         for key in model.model_fields if any(table in case for case in cases) else ():
             texts = tuple(_text(case, table, key) for case in cases)
             held = [getattr(case.tables[table], key) if table in case else None for case in cases]
-            if len(set(texts)) > 1 or (key == "duty_cycle" and len(set(map(str, held))) > 1):
+            # Of a long list the text is not all.
+            if len(set(texts)) > 1 or any(value != held[0] for value in held):
                 yield f"{table}.{key}", texts
 
 
@@ -187,13 +235,7 @@ def _text(case: Case, table: str, key: str) -> str | None:
         return None
     held = case.tables[table]
     value, quantity = getattr(held, key), quantity_of(type(held), key)
-    if value is None:
-        return None
-    if key == "duty_cycle":
-        return f"{len(value)} part{'s' if len(value) > 1 else ''}"
-    if isinstance(value, float) and quantity is not None:
-        return quantity.text(value) if quantity.unit else f"{value:.12g}"
-    return str(getattr(value, "name", "") or value)
+    return None if value is None else worded(value, quantity)
 
 
 def _numbers(answer: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, float | None]]:

@@ -1,16 +1,44 @@
 """Worm gearsets that are proposed, and how they are told."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
 
 from asperity.rating.demands import DEMANDS
 from asperity.rating.standing import NAMES
 from asperity.rating.verdict_rows import Row
 from asperity.results import Result, quantity
+from asperity.results.dataset import Described, described
 from asperity.results.table import Table
 
+if TYPE_CHECKING:
+    import xarray as xr
+
 _OF_SHAFTS = ("rows", "bearings")
+# What files say of each proposal: the field with its unit and meaning.
+_NUMBERS = {
+    "starts": ("1", "threads of the worm"),
+    "wheel_teeth": ("1", "teeth of the wheel"),
+    "centre_distance_mm": ("mm", "centre distance"),
+    "axial_module_mm": ("mm", "axial module"),
+    "diameter_factor": ("1", "diameter factor"),
+    "profile_shift": ("1", "profile shift of the wheel"),
+    "efficiency": ("1", "efficiency of the gearbox by ISO/TR 14521"),
+    "margin": ("1", "least of all safeties over what is asked"),
+    "holds": ("1", "whether every safety is enough"),
+    "mass_kg": ("kg", "mass of worm and wheel as full bodies"),
+    "rim_kg": ("kg", "mass of the wheel's rim with its teeth"),
+}
+_TEXTS = {
+    "limited_by": "safety that is the least",
+    "locks_at_rest": "standards by which it locks itself at rest",
+    "locks_in_motion": "standards by which it locks itself in motion",
+    "locks": "whether it locks itself, by all standards",
+    "hob": "hob of the shelf",
+    "settings": "what makes a case it",
+}
 MOST = 20
 """Proposals that are shown."""
 
@@ -126,6 +154,27 @@ class Proposals(Result):
         ]
         return super().to_json() | {"proposals": found}
 
+    def to_dataset(self) -> "xr.Dataset":
+        """Return the same over the proposals; a number that is not there is NaN, a text empty."""
+        over, found = ("proposal",), self.found
+        columns: dict[str, Described] = {}
+        for name, (unit, meaning) in _NUMBERS.items():
+            values = [getattr(p, name) for p in found]
+            if any(value is not None for value in values):
+                variable = name.removesuffix(f"_{unit}")
+                columns[variable] = over, np.array(values, dtype=float), unit, meaning
+        for name, meaning in _TEXTS.items():
+            texts = [_joined(getattr(p, name)) for p in found]
+            columns[name] = over, np.array(texts, dtype=object), "1", meaning
+        if any(p.backlash_arcmin for p in found):
+            ends = [p.backlash_arcmin or (np.nan, np.nan) for p in found]
+            meaning = "least and greatest backlash at the wheel"
+            columns["backlash"] = (*over, "end"), np.array(ends), "arcmin", meaning
+        if any(p.bearings for p in found):
+            named = [_joined(f"{k} = {name}" for k, name in p.bearings.items()) for p in found]
+            columns["bearings"] = over, np.array(named, dtype=object), "1", "bearings of the shelf"
+        return super().to_dataset().assign(described(**columns, **_rows_of(found)))
+
     def tables(self) -> tuple[Table, ...]:
         """Return a row for each proposal."""
         headings = ("", "a (mm)", "z_1", "z_2", "u", "m_x1 (mm)", "q_1", "x_2", "eta (%)", "margin",
@@ -196,6 +245,42 @@ class Proposals(Result):
             columns["backlash (arcmin)"] = [_backlash(p) for p in shown]
         rows = list(zip(*columns.values(), strict=True))
         yield Table.of(tuple(columns), rows, title="Worm and wheel as full bodies")
+
+
+def _joined(value: str | Iterable[str]) -> str:
+    return value if isinstance(value, str) else "; ".join(value)
+
+
+def _rows_of(found: Sequence[Proposal]) -> dict[str, Described]:
+    """Return what files say of the shafts and bearings of proposals, as `described` takes it."""
+    told = [{row.name: row for row in p.rows} for p in found]
+    known = {name: row for rows in told for name, row in rows.items()}
+    if not known:
+        return {}
+
+    def texts(values: Iterable[str]) -> Any:
+        return np.array(list(values), dtype=object)
+
+    def of_each(what: Callable[[Row], Any], absent: Any, kind: type) -> Any:
+        values = [[what(rows[n]) if n in rows else absent for n in known] for rows in told]
+        return np.array(values, dtype=kind)
+
+    both, along = ("proposal", "row"), ("row",)
+    units = texts(row.unit or "1" for row in known.values())
+    in_its = "in the unit of the row"
+    return {
+        "row": (along, texts(known), "1", "shaft or bearing"),
+        "row_standard": (along, texts(row.standard for row in known.values()), "1", "standard"),
+        "row_unit": (along, units, "1", "unit: a life has h"),
+        "row_value": (
+            both,
+            of_each(lambda row: row.value, np.nan, float),
+            "",
+            f"what is, {in_its}",
+        ),
+        "row_asked": (both, of_each(lambda row: row.asked, np.nan, float), "", f"asked, {in_its}"),
+        "row_by": (both, of_each(lambda row: row.by, "", object), "1", "what decides on it"),
+    }
 
 
 def _grouped(rows: Sequence[Row]) -> dict[str, Row]:

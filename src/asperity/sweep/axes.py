@@ -114,7 +114,7 @@ def read_grid(
         case = _elsewhere(subject, written, settings, read, InputError(message))
     axes = {axis.path for axis in written}
     own = {path: setting for path, setting in case.settings.items() if path not in axes}
-    case = dataclasses.replace(case, settings=own)
+    case = dataclasses.replace(case, settings=own, axes={a.path: a.text for a in written})
     return case, _within_bounds([_axis(axis) for axis in written])
 
 
@@ -247,9 +247,9 @@ def _key_of(
             f"{choices(subject.tables)}"
         )
     model = tables[name]
-    if key not in model.model_fields:
+    if key not in model.own_keys():
         raise InputError(
-            f"{where}: {path} is not a key of [{name}]{nearest(key, model.model_fields)}"
+            f"{where}: {path} is not a key of [{name}]{nearest(key, model.own_keys())}"
         )
     return model, key
 

@@ -9,7 +9,8 @@ from asperity.casefile import Case, Table
 from asperity.errors import AsperityError
 from asperity.results import Result
 from asperity.results.quantity import Entry
-from asperity.slider.batch import fits_batch, solve_many
+from asperity.slider.batch import solve_many
+from asperity.slider.batch_fits import fits_batch
 from asperity.slider.batch_rows import WIDTH
 from asperity.slider.cost import estimate
 from asperity.slider.model import Model

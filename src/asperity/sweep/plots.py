@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _MOST_MARKED = 40
+_DASH = "_"  # which cannot be hollow
 _FEW = 8  # values that are all told on an axis
 _ROOM = 0.04  # above the greatest value, over what is drawn
 _LABELS = {
@@ -234,12 +235,13 @@ def _line(
     else:
         line = ""
         style = {name: how for name, how in style.items() if name != "dashes"}
-        style["marker"] = style["marker"] or "_"
+        style["marker"] = style["marker"] or _DASH
     panel.plot(places, firm, markersize=4.0, linestyle=line, **style)
     if out.any():
         panel.plot(
-            places[out], values[order][out], linestyle="", marker=style["marker"] or "o",
-            fillstyle="none", markersize=6.0, color=style["color"],
+            places[out], values[order][out], linestyle="", fillstyle="none",
+            marker="o" if style["marker"] in ("", _DASH) else style["marker"],
+            markersize=6.0, color=style["color"],
         )  # fmt: skip
 
 

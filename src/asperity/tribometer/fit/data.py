@@ -224,8 +224,8 @@ def _column(index: int, text: str, case: Case, name: str) -> _Column:
         if table not in case.known:
             raise InputError(f"{name}: [{table}] is not a table{nearest(table, case.known)}")
     model = case.known[table]
-    if own not in model.model_fields:
-        raise InputError(f"{name}: {key} is not a key{nearest(own, model.model_fields)}")
+    if own not in model.own_keys():
+        raise InputError(f"{name}: {key} is not a key{nearest(own, model.own_keys())}")
     quantity = quantity_of(model, own)
     if quantity is not None and quantity.unit and not unit:
         raise InputError(

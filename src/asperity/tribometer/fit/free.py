@@ -41,7 +41,7 @@ class Free:
                 raise InputError(
                     f"--free {key}: it must be table.key, as in friction.max_deflection"
                 )
-            fields = case.known[table].model_fields
+            fields = case.known[table].own_keys()
             if own not in fields:
                 raise InputError(f"--free {key} is not a key of [{table}]{nearest(own, fields)}")
         quantity = quantity_of(case.known[table], own)
