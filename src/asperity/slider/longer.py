@@ -16,14 +16,14 @@ from asperity.slider.fading import (
     windows_in_time,
 )
 from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.nearby import Nearby, comes_there
 from asperity.slider.result import SlideResult
+from asperity.slider.ring_on_drive import Ring, ring_of, rings_on_drive, rung_out
 from asperity.slider.ringing import (
     FARTHEST,
     WHEN_SETTLED,
     faded_after,
     ringing_time,
-    rings_on_drive,
-    rung_out,
     still_rings,
     upward,
 )
@@ -124,18 +124,34 @@ def lasting(model: M, duration: float) -> M:
     return dataclasses.replace(model, solve=solve)
 
 
-def needed(window: WindowMeans) -> float | None:
-    """Return the duration in s that a march needs to settle; None where none is foreseen."""
+def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | None:
+    """Return the duration in s that a march needs to settle; None where none is foreseen.
+
+    Parameters
+    ----------
+    window : WindowMeans
+        What it has come to.
+    end : Nearby or Ring, optional
+        The state next to its end, or the ring that it has there, where one is known.
+    """
     model, table, means, across = window.model, window.table, window.quarters, window.across
     residual = window.residual
-    if math.isinf(ringing_time(model)) or rings_on_drive(model):
+    if math.isinf(ringing_time(model)):
         return None
     slider = model.slider
     spans = model.window / WINDOW_SHARE
-    up = taken_up_after(model)
-    if up is None:
+    near = end if isinstance(end, Nearby) else None
+    there = None if near is None else comes_there(near, model, most_off(near.ratio))
+    least = [1.0 * model.duration]
+    if there is not None and near is not None:
+        if still_loads(model, table, residual):
+            # The drive is stretched no faster than it goes; what is linear comes after that.
+            there += _stretching(model, near.ratio - means[-1])
+        least.append(there)
+    elif (up := taken_up_after(model)) is not None:
+        least.append(up)
+    else:
         return None
-    least = [1.0 * model.duration, up]
     if (bent := bending(model)) > 0.0:
         least.append(_SPARE * WAYS * bent / slider.drive_velocity)
     if still_rings(model, model.duration):
@@ -155,8 +171,17 @@ def needed(window: WindowMeans) -> float | None:
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
     if lags or window.holds:
         least.append(loaded)
-    if residual > UNSTEADY or still_to_come(means) > FAR:
-        fading = _fading(window)
+    changes = residual > UNSTEADY or still_to_come(means) > FAR
+    ringing = end if isinstance(end, Ring) else None
+    if there is None:
+        if ringing is None:
+            unsteady = residual > UNSTEADY and not steadily(means)
+            ringing = ring_of(model, with_friction=unsteady and model.vibrates)
+        if ringing is not None:
+            least.append(rung_out(model, ringing))
+    if changes and there is None:
+        # Quarters of a ring that is known tell nothing of what fades otherwise.
+        fading = _fading(window) if ringing is None or steadily(means) else None
         if fading is not None:
             # Asperities with an exponent above 1 slow down as they come nearer to their limit.
             slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
@@ -166,24 +191,27 @@ def needed(window: WindowMeans) -> float | None:
         if fading is None and max(least) <= model.duration:
             return None
     far = still_to_bend(window)
-    if far > FAR and up <= model.duration:
+    if far > FAR and there is None and max(least) <= model.duration:
         times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)
         least.append(model.start + (model.duration - model.start) * times)
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
-    longest = max(
-        longest, rung_out(model, with_friction=residual > UNSTEADY and not steadily(means))
-    )
-    return longest if longest > model.duration else None
+    return longest if model.duration < longest < math.inf else None
 
 
 def _loading(model: Model) -> float:
     """Time in which the drive is stretched to what friction holds, s."""
-    slider, friction = model.slider, model.friction
+    friction = model.friction
+    return _SPARE * _stretching(model, (friction.static_mu or friction.mu) / friction.mu)
+
+
+def _stretching(model: Model, forces: float) -> float:
+    """Time in which a drive is stretched by so much of mu F_N under a body at rest, s."""
+    slider = model.slider
     if slider.drive_stiffness is None:
         return 0.0
-    held = (friction.static_mu or friction.mu) * slider.normal_force
-    return _SPARE * held / (slider.drive_stiffness * slider.drive_velocity)
+    speed = slider.drive_stiffness * slider.drive_velocity
+    return max(forces, 0.0) * model.full_friction / speed
 
 
 def _fading(of: WindowMeans) -> float | None:
@@ -257,18 +285,25 @@ def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> f
     return model.duration + max(model.window - span, 0.0) + fades
 
 
-def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> bool:
-    """Whether a mean ratio is further than 5e-3 of it from where it goes to: it has not settled.
+def most_off(comes_to: float) -> float:
+    """Return how far from where it goes to a mean ratio may be that has settled.
 
-    Of a ratio that is none to four digits, further than that is. That which rings may change the
-    other way from half to half. One that moves by nothing of the way is in a state of its own, such
-    as one of several cycles. Parameters are those of `brought_home`.
+    5e-3 of it, and no more than 2e-3; of a ratio that is none to four digits 1e-4.
     """
-    if comes_to is None or abs(comes_to - ratio) <= _FAR_OFF * allowed_at(comes_to):
+    most = min(_FAR_OFF * allowed_at(comes_to), FAR)
+    return max(most, _NOTHING) if abs(comes_to) <= _NOTHING else most
+
+
+def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> bool:
+    """Whether a mean ratio is too far from where it goes to, see `most_off`: it has not settled.
+
+    That which rings may change the other way from half to half. One that moves by nothing of the
+    way is in a state of its own, such as one of several cycles. Parameters are those of
+    `brought_home`.
+    """
+    if comes_to is None or abs(comes_to - ratio) <= most_off(comes_to):
         return False
     left = comes_to - ratio
-    if max(abs(comes_to), abs(left)) <= _NOTHING:
-        return False
     moves = abs(window.change) > _MOVES * abs(left)
     return moves or windows_in_time(window.change, left) is not None
 

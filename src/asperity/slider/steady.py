@@ -14,6 +14,7 @@ is linear about :math:`v = v_d`, :math:`z = g(v_d)/k_t`.
 import math
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.slider.model import Model
 
@@ -43,8 +44,25 @@ def fading_rate(model: Model) -> float | None:
     return -rate if falls and rate is not None and rate < 0.0 else None
 
 
+def ring_rate(model: Model) -> float:
+    """Return the rate at which the ring of a steadily sliding body on its drive fades, 1/s."""
+    slider, rates = model.slider, _rates(model)
+    if slider.mass is None:
+        return math.inf
+    if rates is None:
+        return 0.5 * (slider.drive_damping + (model.friction.viscous_damping or 0.0)) / slider.mass
+    rings = rates[rates.imag != 0.0]
+    return float(-(rings if rings.size else rates).real.max())
+
+
 def _slowest(model: Model) -> float | None:
     """Largest real part of the rates of steady sliding, 1/s; None where friction is constant."""
+    rates = _rates(model)
+    return None if rates is None else float(rates.real.max())
+
+
+def _rates(model: Model) -> npt.NDArray[np.complex128] | None:
+    """Rates of steady sliding, 1/s; None where friction is constant."""
     slider, friction = model.slider, model.friction
     if slider.mass is None or slider.drive_stiffness is None or friction.model != "lugre":
         return None
@@ -66,7 +84,8 @@ def _slowest(model: Model) -> float | None:
     with np.errstate(all="ignore"):
         if not np.all(np.isfinite(matrix)):
             return None
-        return float(np.linalg.eigvals(np.array(matrix)).real.max())
+        found: npt.NDArray[np.complex128] = np.linalg.eigvals(np.array(matrix)).astype(complex)
+        return found
 
 
 def _falling(model: Model) -> tuple[float, float]:

@@ -1,0 +1,120 @@
+r"""Durations foreseen from the state next to which a shaken body is at the end of a march.
+
+What a body's map makes of a cycle is linear there: what it is off the state by is a sum of modes,
+each of which a cycle multiplies by a number :math:`\lambda`, and so is what the mean drive forces
+of the cycles to come are off that of the state.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.slider.from_rest import ratio_of
+from asperity.slider.integrators import Integrator
+from asperity.slider.march_end import (
+    at_the_end,
+    cycle_after,
+    map_at,
+    ratios_of,
+    read,
+    scales_at,
+)
+from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.ring_on_drive import SURELY
+from asperity.slider.timetable import UNSTEADY, Timetable
+
+_MOST_UNKNOWNS = 9
+_FADES = 1.0 - 1e-6  # a multiplier: by differences it is no more exact
+_NEXT, _TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one, at most
+_LOOKED_AT = 36  # cycles, the later half of which tell what goes by a square
+_LITTLE = 1e-2  # of a state's scales, a ring whose square tells nothing
+
+
+class Nearby(NamedTuple):
+    """The state next to the end of a march, and how a body goes there.
+
+    Attributes
+    ----------
+    ratio : float
+        Of the state.
+    growths : ndarray of complex
+        What a cycle multiplies each mode by.
+    sizes : ndarray
+        How far each puts the mean drive force of the next cycle off, over mu F_N.
+    """
+
+    ratio: float
+    growths: npt.NDArray[np.complex128]
+    sizes: FloatArray
+
+
+def next_to(body: Integrator, table: Timetable) -> Nearby | None:
+    """Return the state next to a march's end; None where none is found that a body goes to."""
+    model = body.model
+    if not model.vibrates or model.solve.scheme == "two-phase" or model.slider.rigid:
+        return None
+    end = at_the_end(body, table)
+    at_end, there = read(end), end.copied()
+    if not 0 < at_end.size <= _MOST_UNKNOWNS:
+        return None
+    if not there.find(-1):
+        there = cycle_after(model, table)
+        if not there.find(0):
+            return None
+    jacobian, slopes = map_at(there)
+    growths, modes = np.linalg.eig(jacobian + np.eye(at_end.size))
+    if not np.abs(growths).max() < _FADES:
+        return None
+    off = np.linalg.lstsq(modes, (at_end - read(there)) / scales_at(there), rcond=None)[0]
+    sizes = slopes @ modes * off
+    # A ring does by its square what some cycles show beside that, and it fades twice as fast;
+    # before the rest has faded they show nothing of it.
+    cycles = np.arange(_LOOKED_AT // 2, _LOOKED_AT)
+    shown = float(np.mean(ratios_of(end, _LOOKED_AT)[_LOOKED_AT // 2 :])) - ratio_of(there)
+    linear = float((sizes @ growths[:, None] ** cycles).real.mean())
+    swings = np.where(growths.imag == 0.0, 0.0, np.abs(off) * np.abs(modes).max(axis=0))
+    slowest = np.abs(growths[swings > _LITTLE]).max(initial=0.0) ** 2
+    square = abs(shown - linear) if abs(linear) < abs(shown - linear) else 0.0
+    return Nearby(
+        ratio_of(there), np.append(growths, slowest).astype(complex),
+        np.append(np.abs(sizes), min(square, float(swings.max(initial=0.0)) ** 2)),
+    )  # fmt: skip
+
+
+def comes_there(near: Nearby, model: Model, most: float) -> float | None:
+    """Return the duration in s in whose window a mean is at most so far off that of the state.
+
+    And its halves steady. None where none of up to 1000 usual durations is.
+    """
+    longest = _TIMES * max(model.usual_duration, model.duration)
+    tried = math.ceil(math.log(longest / model.duration) / math.log(_NEXT))
+    durations = model.duration * _NEXT ** np.arange(tried)
+    windows = np.minimum(model.window, WINDOW_SHARE * (durations - model.start))
+    cycles = np.maximum(np.floor(windows * model.frequency + 1e-9), 2.0)
+    half = np.floor(cycles / 2.0)
+    begin = np.maximum((durations - model.duration) * model.frequency - cycles, 0.0)
+    early, late = np.zeros(durations.size), np.zeros(durations.size)
+    # In a shorter window than the usual one it is not known what part of a ring it ends with.
+    whole = windows >= model.window
+    for growth, size in zip(near.growths, near.sizes, strict=True):
+        if size == 0.0:
+            continue
+        at, turns = size * np.abs(growth) ** begin, growth.imag != 0.0
+        middle, last = growth**half, growth**cycles
+        first, second = (1.0 - middle) / half, (middle - last) / (cycles - half)
+        apart = np.abs(second - first)
+        off = np.abs(1.0 - last) / cycles
+        if turns:
+            apart = np.where(whole, apart, (1.0 + np.abs(middle)) ** 2 / half)
+            off = np.where(whole, off, (1.0 + np.abs(last)) / cycles)
+        early += at * apart / abs(1.0 - growth)
+        late += at * off / abs(1.0 - growth)
+    does = (early <= SURELY * UNSTEADY) & (late <= SURELY * most)
+    # All of the window is still to come: what has been is not known by cycles.
+    does &= (durations - model.duration) * model.frequency >= cycles
+    if not does.any():
+        return None
+    return float(durations[int(np.argmax(does))])
