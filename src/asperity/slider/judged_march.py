@@ -16,6 +16,7 @@ from asperity.slider.nearby import comes_there, next_to
 from asperity.slider.result import SlideResult
 from asperity.slider.ring_on_drive import ring_at_end
 from asperity.slider.ringing import heard, ringing_notes, rings
+from asperity.slider.steady import off_steady
 from asperity.slider.summary import summarise
 from asperity.slider.timetable import WindowMeans, march_notes
 
@@ -62,9 +63,10 @@ def judged_answer(
     table = window.table
     wanders: tuple[str, ...] = ()
     end = MarchEnd(None)
+    ratio = float(sums["drive_force"] / sums["steps"])
     standing, steady, means = standing_by_cycles(window, body, sums)
-    if standing.settled and leaves:
-        standing = Standing(False, leaves)
+    if standing.settled and (lacks := leaves or off_steady(model, ratio)):
+        standing = Standing(False, lacks)
     standing = heard(standing, model, window.model.duration)
     across = motion_across(body, window) if standing.settled else None
     if across is not None:
@@ -74,7 +76,6 @@ def judged_answer(
         standing, wanders = judged(standing, at_end, table, sums, means)
         if standing.settled:
             end = end_of_march(at_end, table, sums, window)
-    ratio = float(sums["drive_force"] / sums["steps"])
     follows = True
     if standing.settled and rings(model):
         # Its mean goes nowhere.

@@ -27,7 +27,7 @@ from asperity.slider.ringing import (
     still_rings,
     upward,
 )
-from asperity.slider.steady import growth_rate
+from asperity.slider.steady import growth_rate, steadying
 from asperity.slider.step_error import allowed_at
 from asperity.slider.taken_up import taken_up_after
 from asperity.slider.timetable import (
@@ -50,6 +50,7 @@ _FAR_OFF = 5.0  # times what may go untold, that a mean may be off by which has 
 _NOTHING = 1e-4  # a ratio that is none to four digits, and what may be left to it
 _NEXT, _MOST_TRIED = 1.02, 400
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
+_NONE_FORESEEN = "no solve.duration is foreseen that would do"
 STILL_GOES = "the halves of the window agree, but the mean still goes on as it fades"
 """How it begins what is said of a mean that is not yet where it goes to."""
 
@@ -140,13 +141,14 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
         return None
     slider = model.slider
     spans = model.window / WINDOW_SHARE
-    near = end if isinstance(end, Nearby) else None
-    there = None if near is None else comes_there(near, model, most_off(near.ratio))
+    there = None
+    if isinstance(end, Nearby):
+        lags = still_loads(model, table, residual)
+        # A drive is stretched no faster than it goes, whatever friction does.
+        stretching = _stretching(model, end.ratio - means[-1]) if lags else 0.0
+        there = comes_there(end, model, most_off(end.ratio), stretching)
     least = [1.0 * model.duration]
-    if there is not None and near is not None:
-        if still_loads(model, table, residual):
-            # The drive is stretched no faster than it goes; what is linear comes after that.
-            there += _stretching(model, near.ratio - means[-1])
+    if there is not None:
         least.append(there)
     elif (up := taken_up_after(model)) is not None:
         least.append(up)
@@ -169,7 +171,8 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
     if slips and window.broke:
         return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
-    if lags or window.holds:
+    far_away = isinstance(end, Nearby) and not end.linear
+    if lags or window.holds or far_away:
         least.append(loaded)
     changes = residual > UNSTEADY or still_to_come(means) > FAR
     ringing = end if isinstance(end, Ring) else None
@@ -320,23 +323,41 @@ def _does(duration: float) -> str:
 
 def advice(duration: float | None, model: Model, instead: str | None = "periodic") -> str:
     """Say what duration would do; or, where none is foreseen, what would instead."""
+    falls = (model.friction.static_mu or 0.0) > model.friction.mu
+    falls = falls and model.slider.drive_stiffness is not None
+    if duration is None and falls and (model.vibrates or growth_rate(model) > 0.0):
+        return f"{_NONE_FORESEEN}: {_at_its_own_rate(model)}"
     if duration is None and rings_on_drive(model):
         return (
-            "no solve.duration is foreseen that would do: nothing damps the body's ring on its "
-            "drive; give slider.drive_damping"
-        )
-    if duration is None and not model.vibrates and growth_rate(model) > 0.0:
-        return (
-            "no solve.duration is foreseen that would do: the mean follows where in a slip its "
-            f"window of {model.window:.2g} s begins and ends; take it over whole slips from the "
-            "drive force over time (drive_force in slide.nc of --out, or history in Python)"
+            f"{_NONE_FORESEEN}: nothing damps the body's ring on its drive; give "
+            "slider.drive_damping"
         )
     if duration is None:
         other = (
             "" if instead is None else f": solve.method '{instead}' looks for a state that lasts"
         )
-        return f"no solve.duration is foreseen that would do{other}"
-    friction = model.friction
-    falls = (friction.static_mu or 0.0) > friction.mu and model.slider.drive_stiffness is not None
+        return f"{_NONE_FORESEEN}{other}"
     unless = "; a body whose friction falls with the speed may never settle" if falls else ""
     return f"{_does(duration)}, by the means{unless}"
+
+
+def _at_its_own_rate(model: Model) -> str:
+    """Say why a mean does not settle of a body whose friction falls with the speed."""
+    rest = (
+        "take it over whole slips from the drive force over time (drive_force in slide.nc of "
+        "--out, or history in Python)"
+    )
+    if model.vibrates:
+        return (
+            "friction falls with the speed, and a body that sticks and slips, or rings, at a rate "
+            "of its own has no steady state; its mean follows where in a slip its window begins "
+            f"and ends: {rest}, or give more slider.drive_damping"
+        )
+    damping = steadying(model)
+    steady = ""
+    if damping is not None:
+        steady = f"; with a slider.drive_damping of {upward(damping):g} N s/m it slides steadily"
+    return (
+        f"the mean follows where in a slip its window of {model.window:.2g} s begins and ends; "
+        f"{rest}{steady}"
+    )

@@ -30,6 +30,7 @@ _MOST_UNKNOWNS = 9
 _FADES = 1.0 - 1e-6  # a multiplier: by differences it is no more exact
 _NEXT, _TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one, at most
 _LOOKED_AT = 36  # cycles, the later half of which tell what goes by a square
+_LINEAR = 0.2  # of what is foreseen of some cycles, that they may be beside it
 _LITTLE = 1e-2  # of a state's scales, a ring whose square tells nothing
 
 
@@ -44,11 +45,14 @@ class Nearby(NamedTuple):
         What a cycle multiplies each mode by.
     sizes : ndarray
         How far each puts the mean drive force of the next cycle off, over mu F_N.
+    linear : bool
+        Whether some cycles after the end go as that says.
     """
 
     ratio: float
     growths: npt.NDArray[np.complex128]
     sizes: FloatArray
+    linear: bool = True
 
 
 def next_to(body: Integrator, table: Timetable) -> Nearby | None:
@@ -77,17 +81,28 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
     linear = float((sizes @ growths[:, None] ** cycles).real.mean())
     swings = np.where(growths.imag == 0.0, 0.0, np.abs(off) * np.abs(modes).max(axis=0))
     slowest = np.abs(growths[swings > _LITTLE]).max(initial=0.0) ** 2
-    square = abs(shown - linear) if abs(linear) < abs(shown - linear) else 0.0
-    return Nearby(
-        ratio_of(there), np.append(growths, slowest).astype(complex),
-        np.append(np.abs(sizes), min(square, float(swings.max(initial=0.0)) ** 2)),
-    )  # fmt: skip
+    beside = abs(shown - linear)
+    square = beside if abs(linear) < beside else 0.0
+    sizes = np.append(np.abs(sizes), min(square, float(swings.max(initial=0.0)) ** 2))
+    growths = np.append(growths, slowest).astype(complex)
+    return Nearby(ratio_of(there), growths, sizes, beside <= max(_LINEAR * abs(linear), UNSTEADY))
 
 
-def comes_there(near: Nearby, model: Model, most: float) -> float | None:
-    """Return the duration in s in whose window a mean is at most so far off that of the state.
+def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> float | None:
+    """Return the duration in s in whose window a mean has come to that of a state.
 
-    And its halves steady. None where none of up to 1000 usual durations is.
+    None where none of up to 1000 usual durations does.
+
+    Parameters
+    ----------
+    near : Nearby
+        The state.
+    model : Model
+        The body, with the duration that it has been marched for.
+    most : float
+        How far the mean may be off, of steady halves.
+    later : float
+        Time after that duration from which on it goes there as it is linear, s.
     """
     longest = _TIMES * max(model.usual_duration, model.duration)
     tried = math.ceil(math.log(longest / model.duration) / math.log(_NEXT))
@@ -95,7 +110,10 @@ def comes_there(near: Nearby, model: Model, most: float) -> float | None:
     windows = np.minimum(model.window, WINDOW_SHARE * (durations - model.start))
     cycles = np.maximum(np.floor(windows * model.frequency + 1e-9), 2.0)
     half = np.floor(cycles / 2.0)
-    begin = np.maximum((durations - model.duration) * model.frequency - cycles, 0.0)
+    # All of the window is still to come: what has been is not known by cycles.
+    begin = (durations - model.duration - later) * model.frequency - cycles
+    to_come = begin >= 0.0
+    begin = np.maximum(begin, 0.0)
     early, late = np.zeros(durations.size), np.zeros(durations.size)
     # In a shorter window than the usual one it is not known what part of a ring it ends with.
     whole = windows >= model.window
@@ -112,9 +130,7 @@ def comes_there(near: Nearby, model: Model, most: float) -> float | None:
             off = np.where(whole, off, (1.0 + np.abs(last)) / cycles)
         early += at * apart / abs(1.0 - growth)
         late += at * off / abs(1.0 - growth)
-    does = (early <= SURELY * UNSTEADY) & (late <= SURELY * most)
-    # All of the window is still to come: what has been is not known by cycles.
-    does &= (durations - model.duration) * model.frequency >= cycles
+    does = to_come & (early <= SURELY * UNSTEADY) & (late <= SURELY * most)
     if not does.any():
         return None
     return float(durations[int(np.argmax(does))])

@@ -20,10 +20,10 @@ from asperity.arrays import FloatArray
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.timetable import FAR, UNSTEADY, turns_back
 
-_LEFT = 0.5  # of what is steady enough, that is let be
+_LEFT = 0.8  # of what is steady enough, that is let be
 _LACKS = np.geomspace(1.0, 1e-7, 4001)  # of the limit
 _SPARE = 1.02
-_NEXT, _MOST_TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one
+_NEXT, _MOST_TIMES = 1.001, 1e3  # times a duration: the next that is tried; the usual one
 
 
 def taken_up_after(model: Model) -> float | None:
