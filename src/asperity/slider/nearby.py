@@ -74,18 +74,19 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
         return None
     off = np.linalg.lstsq(modes, (at_end - read(there)) / scales_at(there), rcond=None)[0]
     sizes = slopes @ modes * off
-    # A ring does by its square what some cycles show beside that, and it fades twice as fast;
-    # before the rest has faded they show nothing of it.
-    cycles = np.arange(_LOOKED_AT // 2, _LOOKED_AT)
-    shown = float(np.mean(ratios_of(end, _LOOKED_AT)[_LOOKED_AT // 2 :])) - ratio_of(there)
-    linear = float((sizes @ growths[:, None] ** cycles).real.mean())
+    shown = np.array(ratios_of(end, _LOOKED_AT)) - ratio_of(there)
+    foreseen = (sizes @ growths[:, None] ** np.arange(_LOOKED_AT)).real
+    linear = np.abs(shown - foreseen).sum() <= max(_LINEAR * np.abs(foreseen).sum(), UNSTEADY)
+    # A ring does by its square what cycles show beside that, and it fades twice as fast; before the
+    # rest has faded they show nothing of it.
+    late = foreseen[_LOOKED_AT // 2 :].mean()
+    beside = abs(shown[_LOOKED_AT // 2 :].mean() - late)
     swings = np.where(growths.imag == 0.0, 0.0, np.abs(off) * np.abs(modes).max(axis=0))
     slowest = np.abs(growths[swings > _LITTLE]).max(initial=0.0) ** 2
-    beside = abs(shown - linear)
-    square = beside if abs(linear) < beside else 0.0
+    square = beside if abs(late) < beside else 0.0
     sizes = np.append(np.abs(sizes), min(square, float(swings.max(initial=0.0)) ** 2))
     growths = np.append(growths, slowest).astype(complex)
-    return Nearby(ratio_of(there), growths, sizes, beside <= max(_LINEAR * abs(linear), UNSTEADY))
+    return Nearby(ratio_of(there), growths, sizes, bool(linear))
 
 
 def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> float | None:
