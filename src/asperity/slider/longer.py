@@ -168,10 +168,12 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
     loaded = model.usual_duration + _loading(model)
     # Who sticks and slips has a mean that follows where in a slip the window ends, and fades never.
     slips = not model.vibrates and growth_rate(model) > 0.0
+    if isinstance(end, Nearby) and end.unstable:
+        slips = (model.friction.static_mu or 0.0) > model.friction.mu
     if slips and window.broke:
         return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
-    far_away = isinstance(end, Nearby) and not end.linear
+    far_away = there is not None and isinstance(end, Nearby) and not end.linear
     if lags or window.holds or far_away:
         least.append(loaded)
     changes = residual > UNSTEADY or still_to_come(means) > FAR

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.slider.cycle_map import UNSTABLE
 from asperity.slider.from_rest import ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import (
@@ -54,9 +55,14 @@ class Nearby(NamedTuple):
     sizes: FloatArray
     linear: bool = True
 
+    @property
+    def unstable(self) -> bool:
+        """Whether a disturbance of the state grows."""
+        return bool(np.abs(self.growths).max() > UNSTABLE)
+
 
 def next_to(body: Integrator, table: Timetable) -> Nearby | None:
-    """Return the state next to a march's end; None where none is found that a body goes to."""
+    """Return the state next to a march's end; None where none is found."""
     model = body.model
     if not model.vibrates or model.solve.scheme == "two-phase" or model.slider.rigid:
         return None
@@ -70,8 +76,6 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
             return None
     jacobian, slopes = map_at(there)
     growths, modes = np.linalg.eig(jacobian + np.eye(at_end.size))
-    if not np.abs(growths).max() < _FADES:
-        return None
     off = np.linalg.lstsq(modes, (at_end - read(there)) / scales_at(there), rcond=None)[0]
     sizes = slopes @ modes * off
     shown = np.array(ratios_of(end, _LOOKED_AT)) - ratio_of(there)
@@ -92,7 +96,7 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
 def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> float | None:
     """Return the duration in s in whose window a mean has come to that of a state.
 
-    None where none of up to 1000 usual durations does.
+    None where none of up to 1000 usual durations does, or a disturbance of it does not fade.
 
     Parameters
     ----------
@@ -105,6 +109,8 @@ def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> 
     later : float
         Time after that duration from which on it goes there as it is linear, s.
     """
+    if not np.abs(near.growths).max() < _FADES:
+        return None
     longest = _TIMES * max(model.usual_duration, model.duration)
     tried = math.ceil(math.log(longest / model.duration) / math.log(_NEXT))
     durations = model.duration * _NEXT ** np.arange(tried)
