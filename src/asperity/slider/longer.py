@@ -37,6 +37,7 @@ from asperity.slider.timetable import (
     WindowMeans,
     bending,
     drifts_for,
+    in_whose_window,
     still_grows,
     still_loads,
     still_to_bend,
@@ -170,6 +171,8 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
     slips = not model.vibrates and growth_rate(model) > 0.0
     if isinstance(end, Nearby) and end.unstable:
         slips = (model.friction.static_mu or 0.0) > model.friction.mu
+        grown = model.duration + end.grows / model.frequency
+        least.append(in_whose_window(model, grown) if end.grows > 0.0 else 0.0)
     if slips and window.broke:
         return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)

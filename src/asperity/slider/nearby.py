@@ -24,7 +24,7 @@ from asperity.slider.march_end import (
     scales_at,
 )
 from asperity.slider.model import WINDOW_SHARE, Model
-from asperity.slider.ring_on_drive import SURELY
+from asperity.slider.ring_on_drive import SURELY, force_of
 from asperity.slider.timetable import UNSTEADY, Timetable
 
 _MOST_UNKNOWNS = 9
@@ -32,6 +32,7 @@ _FADES = 1.0 - 1e-6  # a multiplier: by differences it is no more exact
 _NEXT, _TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one, at most
 _LOOKED_AT = 36  # cycles, the later half of which tell what goes by a square
 _LINEAR = 0.2  # of what is foreseen of some cycles, that they may be beside it
+_ROUNDING = 1e-12
 _LITTLE = 1e-2  # of a state's scales, a ring whose square tells nothing
 
 
@@ -48,12 +49,15 @@ class Nearby(NamedTuple):
         How far each puts the mean drive force of the next cycle off, over mu F_N.
     linear : bool
         Whether some cycles after the end go as that says.
+    grows : float
+        Cycles in which a disturbance that grows comes to the size of the state.
     """
 
     ratio: float
     growths: npt.NDArray[np.complex128]
     sizes: FloatArray
     linear: bool = True
+    grows: float = 0.0
 
     @property
     def unstable(self) -> bool:
@@ -78,6 +82,9 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
     growths, modes = np.linalg.eig(jacobian + np.eye(at_end.size))
     off = np.linalg.lstsq(modes, (at_end - read(there)) / scales_at(there), rcond=None)[0]
     sizes = slopes @ modes * off
+    swings = np.abs(off) * np.abs(modes).max(axis=0)
+    grows = _until_grown(growths, swings)
+    swings = np.where(_turns(growths), swings, 0.0)
     shown = np.array(ratios_of(end, _LOOKED_AT)) - ratio_of(there)
     foreseen = (sizes @ growths[:, None] ** np.arange(_LOOKED_AT)).real
     linear = np.abs(shown - foreseen).sum() <= max(_LINEAR * np.abs(foreseen).sum(), UNSTEADY)
@@ -85,12 +92,35 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
     # rest has faded they show nothing of it.
     late = foreseen[_LOOKED_AT // 2 :].mean()
     beside = abs(shown[_LOOKED_AT // 2 :].mean() - late)
-    swings = np.where(growths.imag == 0.0, 0.0, np.abs(off) * np.abs(modes).max(axis=0))
     slowest = np.abs(growths[swings > _LITTLE]).max(initial=0.0) ** 2
     square = beside if abs(late) < beside else 0.0
-    sizes = np.append(np.abs(sizes), min(square, float(swings.max(initial=0.0)) ** 2))
+    sizes = np.maximum(np.abs(sizes), _of_rings(model, growths, np.abs(modes[:2] * off)))
+    sizes = np.append(sizes, min(square, float(swings.max(initial=0.0)) ** 2))
     growths = np.append(growths, slowest).astype(complex)
-    return Nearby(ratio_of(there), growths, sizes, bool(linear))
+    return Nearby(ratio_of(there), growths, sizes, bool(linear), grows)
+
+
+def _turns(growths: npt.NDArray[np.complex128]) -> npt.NDArray[np.bool_]:
+    """Which modes turn round from cycle to cycle, or from side to side."""
+    turns: npt.NDArray[np.bool_] = (growths.imag != 0.0) | (growths.real < 0.0)
+    return turns
+
+
+def _until_grown(growths: npt.NDArray[np.complex128], swings: FloatArray) -> float:
+    """Return the cycles in which the modes that grow come to the size of the state."""
+    grow = np.abs(growths) > UNSTABLE
+    swings = np.clip(swings[grow], _ROUNDING, 1.0)
+    return float((-np.log(swings) / np.log(np.abs(growths[grow]))).max(initial=0.0))
+
+
+def _of_rings(model: Model, growths: npt.NDArray[np.complex128], swings: FloatArray) -> FloatArray:
+    """Return how far modes that turn put the mean drive force of a cycle off wherever it begins.
+
+    By the scaled swings of the drive's stretch and of the body's velocity in each.
+    """
+    force = np.hypot(swings[0], swings[1] * force_of(model, model.slider.drive_velocity))
+    turned = 2.0 * math.pi / (model.ring_period * model.frequency)
+    return np.where(_turns(growths), force * np.minimum(np.abs(1.0 - growths) / turned, 1.0), 0.0)
 
 
 def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> float | None:
@@ -120,14 +150,15 @@ def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> 
     # All of the window is still to come: what has been is not known by cycles.
     begin = (durations - model.duration - later) * model.frequency - cycles
     to_come = begin >= 0.0
-    begin = np.maximum(begin, 0.0)
+    # It begins somewhere in a cycle.
+    begin = np.floor(np.maximum(begin, 0.0))
     early, late = np.zeros(durations.size), np.zeros(durations.size)
     # In a shorter window than the usual one it is not known what part of a ring it ends with.
     whole = windows >= model.window
     for growth, size in zip(near.growths, near.sizes, strict=True):
         if size == 0.0:
             continue
-        at, turns = size * np.abs(growth) ** begin, growth.imag != 0.0
+        at, turns = size * np.abs(growth) ** begin, _turns(growth)
         middle, last = growth**half, growth**cycles
         first, second = (1.0 - middle) / half, (middle - last) / (cycles - half)
         apart = np.abs(second - first)
