@@ -262,7 +262,7 @@ def test_a_ring_is_of_many_states_only_where_the_ratio_follows_it(law, friction,
 
 
 def test_drive_and_contact_that_both_ring_are_both_asked_whether_the_ratio_follows(monkeypatch):
-    """It follows the contact's ring alone; which of the two is the larger is a matter of rounding."""
+    """It follows the contact's ring alone; which of the two is larger is a matter of rounding."""
     undamped = "normal.damping_ratio=0", "normal.law=rough", "friction.model=springs"
     model = model_of("normal-pin", *undamped, "vibration.velocity_ratio=2")
     steps = cycle_steps(model)
