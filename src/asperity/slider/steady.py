@@ -123,11 +123,11 @@ def _falling(model: Model) -> tuple[float, float]:
     return falling, -2.0 * x * x * falling
 
 
-def still_leaves(model: Model, half: float, swings: tuple[float, float]) -> str:
+def still_leaves(model: Model, half: float, swings: tuple[float, float], time: float = 0.0) -> str:
     r"""Return what a march from unstable steady sliding lacks; empty where it lacks nothing.
 
-    Nothing lacks where friction swings as a body that sticks and slips has it swing, or where the
-    swing grows no more.
+    Nothing lacks where friction swings as a body that sticks and slips has it swing, where the
+    swing grows no more, or where rounding itself has had time to grow to it.
 
     Parameters
     ----------
@@ -137,11 +137,13 @@ def still_leaves(model: Model, half: float, swings: tuple[float, float]) -> str:
         Half the window of the march, s.
     swings : tuple of 2 floats
         Of friction over :math:`\mu F_N` in either half.
+    time : float
+        That it has been marched for, s.
     """
     rate = growth_rate(model)
     first, second = swings
     above = (model.friction.static_mu or model.friction.mu) / model.friction.mu - 1.0
-    if rate == 0.0 or second >= _STICKS * above:
+    if rate == 0.0 or second >= _STICKS * above or rate * time >= math.log(above / _LEAST):
         return ""
     grown = math.expm1(min(rate * half, _MOST))
     if grown > _SEEN and second <= (1.0 + _STILL * grown) * first:
