@@ -36,6 +36,7 @@ from asperity.slider.timetable import (
     WAYS,
     WindowMeans,
     bending,
+    bends_ever_more,
     drifts_for,
     in_whose_window,
     still_grows,
@@ -149,12 +150,14 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
         stretching = _stretching(model, end.ratio - means[-1]) if lags else 0.0
         there = comes_there(end, model, most_off(end.ratio), stretching)
     least = [1.0 * model.duration]
+    far_away = there is not None and isinstance(end, Nearby) and not end.linear
+    up = taken_up_after(model)
     if there is not None:
         least.append(there)
-    elif (up := taken_up_after(model)) is not None:
-        least.append(up)
-    else:
+    elif up is None:
         return None
+    if up is not None and (there is None or (far_away and not bends_ever_more(model))):
+        least.append(up)
     if (bent := bending(model)) > 0.0:
         least.append(_SPARE * WAYS * bent / slider.drive_velocity)
     if still_rings(model, model.duration):
@@ -176,7 +179,6 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
     if slips and window.broke:
         return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
-    far_away = there is not None and isinstance(end, Nearby) and not end.linear
     if lags or window.holds or far_away:
         least.append(loaded)
     changes = residual > UNSTEADY or still_to_come(means) > FAR

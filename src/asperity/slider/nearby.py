@@ -25,7 +25,7 @@ from asperity.slider.march_end import (
 )
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.ring_on_drive import SURELY, force_of
-from asperity.slider.timetable import UNSTEADY, Timetable
+from asperity.slider.timetable import FAR, UNSTEADY, Timetable, bends_ever_more
 
 _MOST_UNKNOWNS = 9
 _FADES = 1.0 - 1e-6  # a multiplier: by differences it is no more exact
@@ -168,7 +168,12 @@ def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> 
             off = np.where(whole, off, (1.0 + np.abs(last)) / cycles)
         early += at * apart / abs(1.0 - growth)
         late += at * off / abs(1.0 - growth)
-    does = to_come & (early <= SURELY * UNSTEADY) & (late <= SURELY * most)
+    steady = np.full(durations.size, UNSTEADY)
+    if bends_ever_more(model):
+        # It is not known that they do not come to their limit by a power, see `still_to_bend`.
+        times = (durations - model.start) / (0.5 * windows)
+        steady = np.minimum(steady, FAR / ((model.friction.exponent - 1.0) * times))
+    does = to_come & (early <= SURELY * steady) & (late <= SURELY * most)
     if not does.any():
         return None
     return float(durations[int(np.argmax(does))])
