@@ -144,7 +144,7 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
     slider = model.slider
     spans = model.window / WINDOW_SHARE
     there = None
-    if isinstance(end, Nearby):
+    if isinstance(end, Nearby) and (end.linear or not bends_ever_more(model)):
         lags = still_loads(model, table, residual)
         # A drive is stretched no faster than it goes, whatever friction does.
         stretching = _stretching(model, end.ratio - means[-1]) if lags else 0.0
