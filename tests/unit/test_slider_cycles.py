@@ -38,7 +38,7 @@ def cycles(monkeypatch):
         return means
 
     monkeypatch.setattr(chance, "at_the_end", lambda body, table: body)
-    monkeypatch.setattr(chance, "_marched", marched)
+    monkeypatch.setattr(chance, "ratios_of", marched)
     return means
 
 
@@ -101,7 +101,7 @@ def test_what_lacks_anything_else_is_not_settled_by_its_cycles(cycles, settings,
 
 def test_cycles_that_are_known_are_not_marched_again(monkeypatch):
     window = window_of()
-    monkeypatch.setattr(chance, "_marched", lambda *_: pytest.fail("marched"))
+    monkeypatch.setattr(chance, "ratios_of", lambda *_: pytest.fail("marched"))
     off, why = chance.scatter(None, window.table, RATIO, [RATIO, RATIO + 1e-3] * 18)
     assert off == pytest.approx(5e-4)
     assert why.startswith("the motion repeats itself after 2 cycles")

@@ -39,6 +39,10 @@ def test_a_march_beside_unstable_steady_sliding_has_not_settled_until_it_has_lef
     assert still_leaves(body, half, (0.3 / grown, 0.3)) == ""
     # Too short for its growth to be seen, what swings little may be on its way.
     assert still_leaves(body, 0.01 / rate, (1e-4, 1e-4))
+    # But not after so long that rounding has grown to what sticks: such a body keeps a small swing.
+    longest = math.log(0.5 / 1e-12) / rate
+    assert still_leaves(body, 0.01 / rate, (1e-4, 1e-4), 0.99 * longest)
+    assert still_leaves(body, 0.01 / rate, (1e-4, 1e-4), 1.01 * longest) == ""
     assert until_it_sticks(body, 1e-4) == pytest.approx(math.log(0.5 / 1e-4) / rate)
     steady = falling(1.0).__class__(
         body.slider, body.friction.model_copy(update={"static_mu": 0.1})

@@ -44,7 +44,7 @@ def test_a_body_that_never_bears_all_of_its_friction_slides_for_all_that():
 
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 1.5, 2.0])
 def test_asperities_are_taken_up_when_their_law_says_so(exponent):
-    """The equation by small steps: halves of the window within 5e-4, its mean within 1e-3."""
+    """The equation by small steps: halves of the window within 8e-4, its mean within 1.6e-3."""
     body = still(f"friction.exponent={exponent}", "friction.max_deflection=400 um", *SLOW)
     bends, velocity = 400e-6, body.slider.drive_velocity
     stretch = body.full_friction / body.slider.drive_stiffness
@@ -55,8 +55,8 @@ def test_asperities_are_taken_up_when_their_law_says_so(exponent):
     window = min(body.window, 0.75 * found)
     times = found - window + window * (np.arange(1000) + 0.5) / 1000
     early, late = np.interp(times * velocity, way, lacks).reshape(2, 500).mean(axis=1)
-    worst = max(early - late, 0.5 * (early + late) - 5e-4)
-    assert worst == pytest.approx(5e-4, rel=0.05)
+    worst = max(early - late, 0.5 * (early + late) - 8e-4)
+    assert worst == pytest.approx(8e-4, rel=0.05)
 
 
 def test_nothing_is_waited_for_that_does_not_bend_or_is_bent_back():

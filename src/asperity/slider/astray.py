@@ -16,11 +16,11 @@ from asperity.errors import AsperityError, ConvergenceError
 from asperity.slider.cycle_map import UNSTABLE, Cycle, times
 from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import at_the_end
-from asperity.slider.model import ASKEW, WINDOW_SHARE, Model
+from asperity.slider.model import ASKEW, Model
 from asperity.slider.result import SlideResult
 from asperity.slider.step_error import friction_of, power_missing, run_once
 from asperity.slider.straight import goes_straight
-from asperity.slider.timetable import WindowMeans
+from asperity.slider.timetable import WindowMeans, in_whose_window
 
 # Of the deflection limit, or of the velocity that gives the body as much energy. Low exponents have
 # smaller ones grow, up to where the mean drive force tells nothing of them.
@@ -95,8 +95,7 @@ def greatest_across(sums: np.void) -> float:
 def come_to_its_size(growing: Growing, model: Model) -> float:
     """Return the duration in s in whose window a motion across has its size."""
     grown = model.duration + growing.cycles / model.frequency
-    share, start = WINDOW_SHARE, model.start
-    return min(grown + model.window, (grown - share * start) / (1.0 - share))
+    return in_whose_window(model, grown)
 
 
 def growth_of_pushes(cycle: Cycle) -> float:

@@ -14,12 +14,10 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from asperity.results.settled import Standing
-from asperity.slider.cycle_map import Cycle
-from asperity.slider.from_rest import alike_after, ratio_of
+from asperity.slider.from_rest import alike_after
 from asperity.slider.integrators import Integrator
-from asperity.slider.march_end import at_the_end
+from asperity.slider.march_end import at_the_end, ratios_of
 from asperity.slider.model import Model
-from asperity.slider.step_error import run_once
 from asperity.slider.timetable import (
     FAR,
     SHORT,
@@ -70,13 +68,13 @@ def scatter(
     """
     if not (period := _period(means)):
         there = at_the_end(body, table)
-        means = _marched(there, _LOOKED_AT)
+        means = ratios_of(there, _LOOKED_AT)
         period = _period(means)
     if period:
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
     cycles = max(table.cycles // _BLOCKS, _LEAST)
-    means = [*means, *_marched(there, _BLOCKS * cycles - len(means))]
+    means = [*means, *ratios_of(there, _BLOCKS * cycles - len(means))]
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
@@ -155,7 +153,7 @@ def comes_again(
         return None
     if not march_standing(window._replace(change=0.0)).settled:
         return None
-    means = _marched(at_the_end(body(), table), _LOOKED_AT)
+    means = ratios_of(at_the_end(body(), table), _LOOKED_AT)
     period = _period(means)
     if period < 2:
         return None
@@ -180,14 +178,6 @@ def _by_the_power(model: Model, table: Timetable, cycles: int) -> float:
         1.0 / (model.friction.exponent - 1.0)
     )
     return 1.0 / (1.0 - left)
-
-
-def _marched(cycle: Cycle, cycles: int) -> list[float]:
-    means = []
-    for _ in range(cycles):
-        run_once(cycle)
-        means.append(ratio_of(cycle))
-    return means
 
 
 def judged(

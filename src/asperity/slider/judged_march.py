@@ -9,11 +9,14 @@ from asperity.results.settled import Standing
 from asperity.slider.astray import come_to_its_size, motion_across
 from asperity.slider.chance import judged, standing_by_cycles
 from asperity.slider.integrators import Integrator
-from asperity.slider.longer import brought_home, far_from_home, needed, still_goes
+from asperity.slider.longer import brought_home, far_from_home, most_off, needed, still_goes
 from asperity.slider.march_end import MarchEnd, end_of_march, rings_unheard
 from asperity.slider.model import Model
+from asperity.slider.nearby import comes_there, next_to
 from asperity.slider.result import SlideResult
+from asperity.slider.ring_on_drive import ring_at_end
 from asperity.slider.ringing import heard, ringing_notes, rings
+from asperity.slider.steady import off_steady
 from asperity.slider.summary import summarise
 from asperity.slider.timetable import WindowMeans, march_notes
 
@@ -60,9 +63,10 @@ def judged_answer(
     table = window.table
     wanders: tuple[str, ...] = ()
     end = MarchEnd(None)
+    ratio = float(sums["drive_force"] / sums["steps"])
     standing, steady, means = standing_by_cycles(window, body, sums)
-    if standing.settled and leaves:
-        standing = Standing(False, leaves)
+    if standing.settled and (lacks := leaves or off_steady(model, ratio)):
+        standing = Standing(False, lacks)
     standing = heard(standing, model, window.model.duration)
     across = motion_across(body, window) if standing.settled else None
     if across is not None:
@@ -72,7 +76,6 @@ def judged_answer(
         standing, wanders = judged(standing, at_end, table, sums, means)
         if standing.settled:
             end = end_of_march(at_end, table, sums, window)
-    ratio = float(sums["drive_force"] / sums["steps"])
     follows = True
     if standing.settled and rings(model):
         # Its mean goes nowhere.
@@ -95,4 +98,11 @@ def judged_answer(
     )  # fmt: skip
     if across is not None:
         return answer, come_to_its_size(across, window.model)
-    return answer, home if is_far or answer.settled else needed(window)
+    if answer.settled:
+        return answer, home
+    if is_far and home is not None:
+        return answer, home
+    near = next_to(body(), table)
+    if is_far and near is not None:
+        return answer, comes_there(near, window.model, most_off(near.ratio))
+    return answer, needed(window, near or ring_at_end(window, body()))

@@ -16,18 +16,18 @@ from asperity.slider.fading import (
     windows_in_time,
 )
 from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.nearby import Nearby, comes_there
 from asperity.slider.result import SlideResult
+from asperity.slider.ring_on_drive import Ring, ring_of, rings_on_drive, rung_out
 from asperity.slider.ringing import (
     FARTHEST,
     WHEN_SETTLED,
     faded_after,
     ringing_time,
-    rings_on_drive,
-    rung_out,
     still_rings,
     upward,
 )
-from asperity.slider.steady import growth_rate
+from asperity.slider.steady import growth_rate, steadying
 from asperity.slider.step_error import allowed_at
 from asperity.slider.taken_up import taken_up_after
 from asperity.slider.timetable import (
@@ -36,7 +36,9 @@ from asperity.slider.timetable import (
     WAYS,
     WindowMeans,
     bending,
+    bends_ever_more,
     drifts_for,
+    in_whose_window,
     still_grows,
     still_loads,
     still_to_bend,
@@ -50,6 +52,7 @@ _FAR_OFF = 5.0  # times what may go untold, that a mean may be off by which has 
 _NOTHING = 1e-4  # a ratio that is none to four digits, and what may be left to it
 _NEXT, _MOST_TRIED = 1.02, 400
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
+_NONE_FORESEEN = "no solve.duration is foreseen that would do"
 STILL_GOES = "the halves of the window agree, but the mean still goes on as it fades"
 """How it begins what is said of a mean that is not yet where it goes to."""
 
@@ -124,18 +127,37 @@ def lasting(model: M, duration: float) -> M:
     return dataclasses.replace(model, solve=solve)
 
 
-def needed(window: WindowMeans) -> float | None:
-    """Return the duration in s that a march needs to settle; None where none is foreseen."""
+def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | None:
+    """Return the duration in s that a march needs to settle; None where none is foreseen.
+
+    Parameters
+    ----------
+    window : WindowMeans
+        What it has come to.
+    end : Nearby or Ring, optional
+        The state next to its end, or the ring that it has there, where one is known.
+    """
     model, table, means, across = window.model, window.table, window.quarters, window.across
     residual = window.residual
-    if math.isinf(ringing_time(model)) or rings_on_drive(model):
+    if math.isinf(ringing_time(model)):
         return None
     slider = model.slider
     spans = model.window / WINDOW_SHARE
+    there = None
+    if isinstance(end, Nearby) and (end.linear or not bends_ever_more(model)):
+        lags = still_loads(model, table, residual)
+        # A drive is stretched no faster than it goes, whatever friction does.
+        stretching = _stretching(model, end.ratio - means[-1]) if lags else 0.0
+        there = comes_there(end, model, most_off(end.ratio), stretching)
+    least = [1.0 * model.duration]
+    far_away = there is not None and isinstance(end, Nearby) and not end.linear
     up = taken_up_after(model)
-    if up is None:
+    if there is not None:
+        least.append(there)
+    elif up is None:
         return None
-    least = [1.0 * model.duration, up]
+    if up is not None and (there is None or (far_away and not bends_ever_more(model))):
+        least.append(up)
     if (bent := bending(model)) > 0.0:
         least.append(_SPARE * WAYS * bent / slider.drive_velocity)
     if still_rings(model, model.duration):
@@ -150,13 +172,26 @@ def needed(window: WindowMeans) -> float | None:
     loaded = model.usual_duration + _loading(model)
     # Who sticks and slips has a mean that follows where in a slip the window ends, and fades never.
     slips = not model.vibrates and growth_rate(model) > 0.0
+    if isinstance(end, Nearby) and end.unstable:
+        slips = (model.friction.static_mu or 0.0) > model.friction.mu
+        grown = model.duration + end.grows / model.frequency
+        least.append(in_whose_window(model, grown) if end.grows > 0.0 else 0.0)
     if slips and window.broke:
         return loaded if loaded > model.duration else None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
-    if lags or window.holds:
+    if lags or window.holds or far_away:
         least.append(loaded)
-    if residual > UNSTEADY or still_to_come(means) > FAR:
-        fading = _fading(window)
+    changes = residual > UNSTEADY or still_to_come(means) > FAR
+    ringing = end if isinstance(end, Ring) else None
+    if there is None:
+        if ringing is None:
+            unsteady = residual > UNSTEADY and not steadily(means)
+            ringing = ring_of(model, with_friction=unsteady and model.vibrates)
+        if ringing is not None:
+            least.append(rung_out(model, ringing))
+    if changes and there is None:
+        # Quarters of a ring that is known tell nothing of what fades otherwise.
+        fading = _fading(window) if ringing is None or steadily(means) else None
         if fading is not None:
             # Asperities with an exponent above 1 slow down as they come nearer to their limit.
             slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
@@ -166,24 +201,27 @@ def needed(window: WindowMeans) -> float | None:
         if fading is None and max(least) <= model.duration:
             return None
     far = still_to_bend(window)
-    if far > FAR and up <= model.duration:
+    if far > FAR and there is None and max(least) <= model.duration:
         times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)
         least.append(model.start + (model.duration - model.start) * times)
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
-    longest = max(
-        longest, rung_out(model, with_friction=residual > UNSTEADY and not steadily(means))
-    )
-    return longest if longest > model.duration else None
+    return longest if model.duration < longest < math.inf else None
 
 
 def _loading(model: Model) -> float:
     """Time in which the drive is stretched to what friction holds, s."""
-    slider, friction = model.slider, model.friction
+    friction = model.friction
+    return _SPARE * _stretching(model, (friction.static_mu or friction.mu) / friction.mu)
+
+
+def _stretching(model: Model, forces: float) -> float:
+    """Time in which a drive is stretched by so much of mu F_N under a body at rest, s."""
+    slider = model.slider
     if slider.drive_stiffness is None:
         return 0.0
-    held = (friction.static_mu or friction.mu) * slider.normal_force
-    return _SPARE * held / (slider.drive_stiffness * slider.drive_velocity)
+    speed = slider.drive_stiffness * slider.drive_velocity
+    return max(forces, 0.0) * model.full_friction / speed
 
 
 def _fading(of: WindowMeans) -> float | None:
@@ -257,18 +295,25 @@ def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> f
     return model.duration + max(model.window - span, 0.0) + fades
 
 
-def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> bool:
-    """Whether a mean ratio is further than 5e-3 of it from where it goes to: it has not settled.
+def most_off(comes_to: float) -> float:
+    """Return how far from where it goes to a mean ratio may be that has settled.
 
-    Of a ratio that is none to four digits, further than that is. That which rings may change the
-    other way from half to half. One that moves by nothing of the way is in a state of its own, such
-    as one of several cycles. Parameters are those of `brought_home`.
+    5e-3 of it, and no more than 2e-3; of a ratio that is none to four digits 1e-4.
     """
-    if comes_to is None or abs(comes_to - ratio) <= _FAR_OFF * allowed_at(comes_to):
+    most = min(_FAR_OFF * allowed_at(comes_to), FAR)
+    return max(most, _NOTHING) if abs(comes_to) <= _NOTHING else most
+
+
+def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> bool:
+    """Whether a mean ratio is too far from where it goes to, see `most_off`: it has not settled.
+
+    That which rings may change the other way from half to half. One that moves by nothing of the
+    way is in a state of its own, such as one of several cycles. Parameters are those of
+    `brought_home`.
+    """
+    if comes_to is None or abs(comes_to - ratio) <= most_off(comes_to):
         return False
     left = comes_to - ratio
-    if max(abs(comes_to), abs(left)) <= _NOTHING:
-        return False
     moves = abs(window.change) > _MOVES * abs(left)
     return moves or windows_in_time(window.change, left) is not None
 
@@ -285,23 +330,41 @@ def _does(duration: float) -> str:
 
 def advice(duration: float | None, model: Model, instead: str | None = "periodic") -> str:
     """Say what duration would do; or, where none is foreseen, what would instead."""
+    falls = (model.friction.static_mu or 0.0) > model.friction.mu
+    falls = falls and model.slider.drive_stiffness is not None
+    if duration is None and falls and (model.vibrates or growth_rate(model) > 0.0):
+        return f"{_NONE_FORESEEN}: {_at_its_own_rate(model)}"
     if duration is None and rings_on_drive(model):
         return (
-            "no solve.duration is foreseen that would do: nothing damps the body's ring on its "
-            "drive; give slider.drive_damping"
-        )
-    if duration is None and not model.vibrates and growth_rate(model) > 0.0:
-        return (
-            "no solve.duration is foreseen that would do: the mean follows where in a slip its "
-            f"window of {model.window:.2g} s begins and ends; take it over whole slips from the "
-            "drive force over time (drive_force in slide.nc of --out, or history in Python)"
+            f"{_NONE_FORESEEN}: nothing damps the body's ring on its drive; give "
+            "slider.drive_damping"
         )
     if duration is None:
         other = (
             "" if instead is None else f": solve.method '{instead}' looks for a state that lasts"
         )
-        return f"no solve.duration is foreseen that would do{other}"
-    friction = model.friction
-    falls = (friction.static_mu or 0.0) > friction.mu and model.slider.drive_stiffness is not None
+        return f"{_NONE_FORESEEN}{other}"
     unless = "; a body whose friction falls with the speed may never settle" if falls else ""
     return f"{_does(duration)}, by the means{unless}"
+
+
+def _at_its_own_rate(model: Model) -> str:
+    """Say why a mean does not settle of a body whose friction falls with the speed."""
+    rest = (
+        "take it over whole slips from the drive force over time (drive_force in slide.nc of "
+        "--out, or history in Python)"
+    )
+    if model.vibrates:
+        return (
+            "friction falls with the speed, and a body that sticks and slips, or rings, at a rate "
+            "of its own has no steady state; its mean follows where in a slip its window begins "
+            f"and ends: {rest}, or give more slider.drive_damping"
+        )
+    damping = steadying(model)
+    steady = ""
+    if damping is not None:
+        steady = f"; with a slider.drive_damping of {upward(damping):g} N s/m it slides steadily"
+    return (
+        f"the mean follows where in a slip its window of {model.window:.2g} s begins and ends; "
+        f"{rest}{steady}"
+    )

@@ -241,7 +241,7 @@ class March:
         )  # fmt: skip
         swings = _swing(first_half), _swing(self.sums)
         half = 0.5 * table.window * table.step
-        leaves = "" if model.vibrates else still_leaves(model, half, swings)
+        leaves = "" if model.vibrates else still_leaves(model, half, swings, self.duration)
         answer, foreseen = judged_answer(
             model, window, sums, (start, self.energies()), lambda: self._body,
             leaves=leaves, notes=self._beside(swings), seconds=self.seconds,

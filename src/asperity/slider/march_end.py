@@ -37,6 +37,7 @@ from asperity.slider.unknowns import most_unknowns, read_unknowns, unknown_scale
 _MOST_AGAIN = 50  # cycles at most that are run again
 _SHARE = 0.1  # of a march's cycles that may be run again
 _RING = 0.1  # of a state's scales, that a ring is looked at as
+_SEEN = 10.0  # times a change from half to half, that may still be left to come
 _AGREE = 0.02  # of mu F_N, that a march's ratio and that of the state at its end may be apart
 
 
@@ -72,7 +73,7 @@ def end_of_march(
         What it has come to.
     """
     mean = float(sums["drive_force"] / sums["steps"])
-    drifts = max(window.residual, window.across) > allowed_at(mean)
+    drifts = max(_SEEN * window.residual, window.across) > allowed_at(mean)
     error, ratio = _end_of(body, table, mean, drifts=drifts)
     if error is not None:
         error += at_corners.of_moved_flanks(body.model, table.step)
@@ -89,16 +90,10 @@ def _end_of(body: Integrator, table: Timetable, ratio: float, *, drifts: bool) -
         again = max(1, int(_SHARE * steps / 2.0))
         return MarchEnd(_marched_again(model, step, state, springs, again))
     end, comes_to = at_the_end(body, table), None
-    unknowns = _unknowns(end)
-    cheap = unknowns + _beside(model) * CLOSING <= _SHARE * cycles
+    cheap = _unknowns(end) + _beside(model) * CLOSING <= _SHARE * cycles
     if cheap or drifts:
-        found, part = np.zeros((unknowns + 1, unknowns)), part_of_difference(model)
-        if unknowns:
-            at_state(
-                end.body.kept["state"], end.springs, end.body.p, end.q, end.increments, end.rises,
-                end.body.no_sums(), found, 0, on_twice.DIFFERENTIATE,
-            )  # fmt: skip
-        jacobian, slopes = found[:unknowns], found[unknowns]
+        part = part_of_difference(model)
+        jacobian, slopes = map_at(end)
         there = end.copied()
         left, one = closed(there, jacobian)
         if left <= LEFT and abs(one - ratio) <= _AGREE:
@@ -119,34 +114,69 @@ def rings_unheard(body: Integrator, table: Timetable, ratio: float) -> bool:
     ring of a tenth of the state's scales, if what it does goes by its square.
     """
     there = at_the_end(body, table)
-    count = _unknowns(there)
-    at_end = _read(there)
+    at_end = read(there)
     if not there.find(-1):
         return False
-    scales = np.empty(at_end.size)
-    unknown_scales(there.body.kept["state"], there.springs, there.body.p, there.q, scales)
-    ring = float((np.abs(at_end - _read(there))[:count] / scales[:count]).max(initial=0.0))
+    ring = float((np.abs(at_end - read(there)) / scales_at(there)).max(initial=0.0))
     off = abs(ratio_of(there) - ratio)
     return off * max(_RING / ring, 1.0) ** 2 <= allowed_at(ratio) if ring > 0.0 else False
 
 
-def _read(cycle: Cycle) -> FloatArray:
+def map_at(cycle: Cycle) -> tuple[FloatArray, FloatArray]:
+    """Return the Jacobian less one of a cycle's map where its body is, and of its mean the slopes.
+
+    Of the mean drive force over mu F_N.
+    """
+    unknowns, body = _unknowns(cycle), cycle.body
+    found = np.zeros((unknowns + 1, unknowns))
+    if unknowns:
+        at_state(
+            body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
+            body.no_sums(), found, 0, on_twice.DIFFERENTIATE,
+        )  # fmt: skip
+    return found[:unknowns], found[unknowns]
+
+
+def read(cycle: Cycle) -> FloatArray:
+    """Return the unknowns of a body where it is."""
     unknowns = np.zeros(most_unknowns(cycle.springs))
     state = cycle.body.kept["state"][0]
-    read_unknowns(state, cycle.springs, cycle.body.p, cycle.q, unknowns)
-    return unknowns
+    count = read_unknowns(state, cycle.springs, cycle.body.p, cycle.q, unknowns)
+    return unknowns[:count]
+
+
+def scales_at(cycle: Cycle) -> FloatArray:
+    """Return the sizes that its unknowns are measured by."""
+    scales = np.empty(most_unknowns(cycle.springs))
+    state = cycle.body.kept["state"]
+    count = unknown_scales(state, cycle.springs, cycle.body.p, cycle.q, scales)
+    return scales[:count]
 
 
 def at_the_end(body: Integrator, table: Timetable) -> Cycle:
     """Return the map of a body over the cycle that follows its march."""
-    model, step = body.model, table.step
+    end = cycle_after(body.model, table)
+    put(end, table.step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
+    return end
+
+
+def ratios_of(cycle: Cycle, cycles: int) -> list[float]:
+    """March on over so many cycles; returns the ratio of each."""
+    ratios = []
+    for _ in range(cycles):
+        run_once(cycle)
+        ratios.append(ratio_of(cycle))
+    return ratios
+
+
+def cycle_after(model: Model, table: Timetable) -> Cycle:
+    """Return the map of a body at rest over the cycle that follows a march."""
+    step = table.step
     count = round(1.0 / (model.frequency * step))
     if not model.meets_corners:
         count = 2 * ((count + 1) // 2)
     phase = model.frequency * (table.steps * step - model.start)
-    end = Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
-    put(end, step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
-    return end
+    return Cycle(model, count, 1.0 / (count * model.frequency), phase - math.floor(phase))
 
 
 def _beside(model: Model) -> float:
@@ -162,10 +192,7 @@ def _cycles_again(start: Cycle, cycles: int) -> float | None:
 
 
 def _unknowns(cycle: Cycle) -> int:
-    room = np.empty(7 + cycle.springs.size)
-    state = cycle.body.kept["state"]
-    count: int = unknown_scales(state, cycle.springs, cycle.body.p, cycle.q, room)
-    return count
+    return scales_at(cycle).size
 
 
 def _marched_again(

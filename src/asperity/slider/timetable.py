@@ -137,6 +137,12 @@ class WindowMeans(NamedTuple):
         return friction.model == "coulomb" or falls or not self.quarters[-1] >= 1.0 - FAR
 
 
+def in_whose_window(model: Model, grown: float) -> float:
+    """Return the duration in s in whose window nothing is from before a time in s."""
+    share, start = WINDOW_SHARE, model.start
+    return min(grown + model.window, (grown - share * start) / (1.0 - share))
+
+
 def march_standing(window: WindowMeans) -> Standing:
     """Return whether a march has settled: by the halves of its window, if nothing is missing."""
     model, table, means, across = window.model, window.table, window.quarters, window.across

@@ -1,0 +1,179 @@
+r"""Durations foreseen from the state next to which a shaken body is at the end of a march.
+
+What a body's map makes of a cycle is linear there: what it is off the state by is a sum of modes,
+each of which a cycle multiplies by a number :math:`\lambda`, and so is what the mean drive forces
+of the cycles to come are off that of the state.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from asperity.arrays import FloatArray
+from asperity.slider.cycle_map import UNSTABLE
+from asperity.slider.from_rest import ratio_of
+from asperity.slider.integrators import Integrator
+from asperity.slider.march_end import (
+    at_the_end,
+    cycle_after,
+    map_at,
+    ratios_of,
+    read,
+    scales_at,
+)
+from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.ring_on_drive import SURELY, force_of
+from asperity.slider.timetable import FAR, UNSTEADY, Timetable, bends_ever_more
+
+_MOST_UNKNOWNS = 9
+_FADES = 1.0 - 1e-6  # a multiplier: by differences it is no more exact
+_NEXT, _TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one, at most
+_LOOKED_AT = 36  # cycles, the later half of which tell what goes by a square
+_LINEAR = 0.2  # of what is foreseen of some cycles, that they may be beside it
+_ROUNDING = 1e-12
+_LITTLE = 1e-2  # of a state's scales, a ring whose square tells nothing
+
+
+class Nearby(NamedTuple):
+    """The state next to the end of a march, and how a body goes there.
+
+    Attributes
+    ----------
+    ratio : float
+        Of the state.
+    growths : ndarray of complex
+        What a cycle multiplies each mode by.
+    sizes : ndarray
+        How far each puts the mean drive force of the next cycle off, over mu F_N.
+    linear : bool
+        Whether some cycles after the end go as that says.
+    grows : float
+        Cycles in which a disturbance that grows comes to the size of the state.
+    """
+
+    ratio: float
+    growths: npt.NDArray[np.complex128]
+    sizes: FloatArray
+    linear: bool = True
+    grows: float = 0.0
+
+    @property
+    def unstable(self) -> bool:
+        """Whether a disturbance of the state grows."""
+        return bool(np.abs(self.growths).max() > UNSTABLE)
+
+
+def next_to(body: Integrator, table: Timetable) -> Nearby | None:
+    """Return the state next to a march's end; None where none is found."""
+    model = body.model
+    if not model.vibrates or model.solve.scheme == "two-phase" or model.slider.rigid:
+        return None
+    end = at_the_end(body, table)
+    at_end, there = read(end), end.copied()
+    if not 0 < at_end.size <= _MOST_UNKNOWNS:
+        return None
+    if not there.find(-1):
+        there = cycle_after(model, table)
+        if not there.find(0):
+            return None
+    jacobian, slopes = map_at(there)
+    growths, modes = np.linalg.eig(jacobian + np.eye(at_end.size))
+    off = np.linalg.lstsq(modes, (at_end - read(there)) / scales_at(there), rcond=None)[0]
+    sizes = slopes @ modes * off
+    swings = np.abs(off) * np.abs(modes).max(axis=0)
+    grows = _until_grown(growths, swings)
+    swings = np.where(_turns(growths), swings, 0.0)
+    shown = np.array(ratios_of(end, _LOOKED_AT)) - ratio_of(there)
+    foreseen = (sizes @ growths[:, None] ** np.arange(_LOOKED_AT)).real
+    linear = np.abs(shown - foreseen).sum() <= max(_LINEAR * np.abs(foreseen).sum(), UNSTEADY)
+    # A ring does by its square what cycles show beside that, and it fades twice as fast; before the
+    # rest has faded they show nothing of it.
+    late = foreseen[_LOOKED_AT // 2 :].mean()
+    beside = abs(shown[_LOOKED_AT // 2 :].mean() - late)
+    slowest = np.abs(growths[swings > _LITTLE]).max(initial=0.0) ** 2
+    square = beside if abs(late) < beside else 0.0
+    sizes = np.maximum(np.abs(sizes), _of_rings(model, growths, np.abs(modes[:2] * off)))
+    sizes = np.append(sizes, min(square, float(swings.max(initial=0.0)) ** 2))
+    growths = np.append(growths, slowest).astype(complex)
+    return Nearby(ratio_of(there), growths, sizes, bool(linear), grows)
+
+
+def _turns(growths: npt.NDArray[np.complex128]) -> npt.NDArray[np.bool_]:
+    """Which modes turn round from cycle to cycle, or from side to side."""
+    turns: npt.NDArray[np.bool_] = (growths.imag != 0.0) | (growths.real < 0.0)
+    return turns
+
+
+def _until_grown(growths: npt.NDArray[np.complex128], swings: FloatArray) -> float:
+    """Return the cycles in which the modes that grow come to the size of the state."""
+    grow = np.abs(growths) > UNSTABLE
+    swings = np.clip(swings[grow], _ROUNDING, 1.0)
+    return float((-np.log(swings) / np.log(np.abs(growths[grow]))).max(initial=0.0))
+
+
+def _of_rings(model: Model, growths: npt.NDArray[np.complex128], swings: FloatArray) -> FloatArray:
+    """Return how far modes that turn put the mean drive force of a cycle off wherever it begins.
+
+    By the scaled swings of the drive's stretch and of the body's velocity in each.
+    """
+    force = np.hypot(swings[0], swings[1] * force_of(model, model.slider.drive_velocity))
+    turned = 2.0 * math.pi / (model.ring_period * model.frequency)
+    return np.where(_turns(growths), force * np.minimum(np.abs(1.0 - growths) / turned, 1.0), 0.0)
+
+
+def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> float | None:
+    """Return the duration in s in whose window a mean has come to that of a state.
+
+    None where none of up to 1000 usual durations does, or a disturbance of it does not fade.
+
+    Parameters
+    ----------
+    near : Nearby
+        The state.
+    model : Model
+        The body, with the duration that it has been marched for.
+    most : float
+        How far the mean may be off, of steady halves.
+    later : float
+        Time after that duration from which on it goes there as it is linear, s.
+    """
+    if not np.abs(near.growths).max() < _FADES:
+        return None
+    longest = _TIMES * max(model.usual_duration, model.duration)
+    tried = math.ceil(math.log(longest / model.duration) / math.log(_NEXT))
+    durations = model.duration * _NEXT ** np.arange(tried)
+    windows = np.minimum(model.window, WINDOW_SHARE * (durations - model.start))
+    cycles = np.maximum(np.floor(windows * model.frequency + 1e-9), 2.0)
+    half = np.floor(cycles / 2.0)
+    # All of the window is still to come: what has been is not known by cycles.
+    begin = (durations - model.duration - later) * model.frequency - cycles
+    to_come = begin >= 0.0
+    # It begins somewhere in a cycle.
+    begin = np.floor(np.maximum(begin, 0.0))
+    early, late = np.zeros(durations.size), np.zeros(durations.size)
+    # In a shorter window than the usual one it is not known what part of a ring it ends with.
+    whole = windows >= model.window
+    for growth, size in zip(near.growths, near.sizes, strict=True):
+        if size == 0.0:
+            continue
+        at, turns = size * np.abs(growth) ** begin, _turns(growth)
+        middle, last = growth**half, growth**cycles
+        first, second = (1.0 - middle) / half, (middle - last) / (cycles - half)
+        apart = np.abs(second - first)
+        off = np.abs(1.0 - last) / cycles
+        if turns:
+            apart = np.where(whole, apart, (1.0 + np.abs(middle)) ** 2 / half)
+            off = np.where(whole, off, (1.0 + np.abs(last)) / cycles)
+        early += at * apart / abs(1.0 - growth)
+        late += at * off / abs(1.0 - growth)
+    steady = np.full(durations.size, UNSTEADY)
+    if bends_ever_more(model):
+        # It is not known that they do not come to their limit by a power, see `still_to_bend`.
+        times = (durations - model.start) / (0.5 * windows)
+        steady = np.minimum(steady, FAR / ((model.friction.exponent - 1.0) * times))
+    does = to_come & (early <= SURELY * steady) & (late <= SURELY * most)
+    if not does.any():
+        return None
+    return float(durations[int(np.argmax(does))])

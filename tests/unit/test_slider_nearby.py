@@ -1,0 +1,194 @@
+"""Durations foreseen from the state next to the end of a march, and from a ring on the drive."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from asperity.casefile import read_case
+from asperity.slider import TABLES, Model, solve
+from asperity.slider.longer import advice, lasting
+from asperity.slider.march import March
+from asperity.slider.march_end import at_the_end, ratios_of
+from asperity.slider.model import WINDOW_SHARE
+from asperity.slider.nearby import Nearby, comes_there, next_to
+from asperity.slider.ring_on_drive import ring_of
+from asperity.slider.ringing import upward
+from asperity.slider.steady import growth_rate, off_steady, steady_ratio, steadying
+
+SHAKEN = (
+    "slider.mass=2 kg", "slider.drive_stiffness=1 MN/m", "slider.drive_damping=10 N s/m",
+    "vibration.frequency=2 kHz", "vibration.start=0 s", "solve.step=1 us",
+)  # fmt: skip
+ACROSS = "vibration.velocity_ratio=0.6", "vibration.direction=90 deg"
+# Still bodies that ring on their drives, after few rings.
+LUGRE = (
+    "slider.drive_velocity=0.281 m/s", "slider.normal_force=20.5 N", "slider.mass=0.109 kg",
+    "slider.drive_stiffness=14425 N/m", "slider.drive_damping=0.165 N s/m", "friction.model=lugre",
+    "friction.mu=0.239", "friction.max_deflection=2.2 mm", "vibration.velocity_ratio=0",
+    "solve.step=90 us", "solve.duration=0.0408 s",
+)  # fmt: skip
+DAHL = (
+    "slider.drive_velocity=2.03 mm/s", "slider.normal_force=10.25 N", "slider.mass=0.2575 kg",
+    "slider.drive_stiffness=169.75 kN/m", "slider.drive_damping=5.224 N s/m", "friction.mu=0.11678",
+    "friction.max_deflection=2.231 um", "friction.exponent=0.7306", "vibration.velocity_ratio=0",
+    "solve.step=40 us", "solve.duration=0.05459 s",
+)  # fmt: skip
+COULOMB = (
+    "slider.drive_velocity=5.49 mm/s", "slider.normal_force=100.4 N", "slider.mass=1.4 kg",
+    "slider.drive_stiffness=426.8 kN/m", "slider.drive_damping=7.08 N s/m",
+    "friction.model=coulomb", "friction.mu=0.124", "vibration.velocity_ratio=0",
+    "solve.step=60 us", "solve.duration=0.2656 s",
+)  # fmt: skip
+
+
+def model_of(*settings):
+    return Model.from_case(read_case("table-4.3", TABLES, settings))
+
+
+def told(answer):
+    (said,) = [note for note in answer.notes if "would do, by the means" in note]
+    return float(said.split()[3])
+
+
+@pytest.mark.parametrize(
+    ("settings", "duration"),
+    [
+        (("vibration.velocity_ratio=3",), 0.012),
+        (("vibration.velocity_ratio=3", "friction.model=coulomb"), 0.012),
+        ((*ACROSS, "friction.model=lugre"), 0.016),
+    ],
+)
+def test_a_body_goes_to_the_state_next_to_its_end_as_its_modes_say(settings, duration):
+    """Cycle by cycle, where it is near: what is left is a sum of powers."""
+    model = lasting(model_of(*SHAKEN, *settings), duration)
+    march = March(model)
+    march.to_the_end()
+    body, table = march._body, march.table
+    near = next_to(body, table)
+    assert near.linear
+    left = np.array(ratios_of(at_the_end(body, table), 60)) - near.ratio
+    assert np.abs(left).max() > 1e-5
+    most = (near.sizes[:, None] * np.abs(near.growths[:, None]) ** np.arange(60)).sum(axis=0)
+    assert (np.abs(left) <= 1.2 * most + 1e-7).all()
+    assert np.abs(left).max() > 0.3 * most[0]
+
+
+@pytest.mark.parametrize("growth", [0.999, 0.99 + 0.1j, 0.995 * np.exp(2.0j)])
+@pytest.mark.parametrize("share", [0.03, 1.0])
+def test_the_duration_foreseen_has_a_window_in_which_nothing_is_seen_of_what_fades(growth, share):
+    model = model_of(*SHAKEN, "vibration.velocity_ratio=3")
+    model = lasting(model, share * model.usual_duration)
+    near = Nearby(0.3, np.array([growth], complex), np.array([0.2]))
+    most = 1.5e-3
+    duration = comes_there(near, model, most)
+
+    def seen(duration):
+        """Halves apart and mean off at their worst phase, of cycles one by one."""
+        window = min(model.window, WINDOW_SHARE * duration) * model.frequency
+        cycles = math.floor(window + 1e-9)
+        begin = (duration - model.duration) * model.frequency - cycles
+        left = 0.2 * abs(growth) ** begin * np.asarray(growth, complex) ** np.arange(cycles)
+        apart = left[cycles // 2 :].mean() - left[: cycles // 2].mean()
+        return abs(apart), abs(left.mean())
+
+    for times in np.linspace(1.0, 1.05, 11):
+        apart, off = seen(times * duration)
+        assert apart <= 1.01 * 8e-4
+        assert off <= 1.01 * 0.8 * most
+    window = WINDOW_SHARE * duration
+    whole_and_to_come = duration > 1.02 * (model.duration + min(model.window, window))
+    if window >= model.window and whole_and_to_come:
+        apart, off = seen(0.9 * duration)
+        assert apart > 8e-4 or off > 0.8 * most
+
+
+def test_what_comes_later_is_waited_for():
+    model = lasting(model_of(*SHAKEN, "vibration.velocity_ratio=3"), 0.9)
+    near = Nearby(0.3, np.array([0.999], complex), np.array([0.2]))
+    at_once, later = (comes_there(near, model, 1e-3, wait) for wait in (0.0, 1.0))
+    assert later == pytest.approx(at_once + 1.0, rel=0.02)
+
+
+def test_beside_a_state_that_nothing_is_known_to_damp_no_duration_is_foreseen():
+    model = lasting(model_of(*SHAKEN, "vibration.velocity_ratio=3"), 0.9)
+    near = Nearby(0.3, np.array([1.0 - 1e-9], complex), np.array([0.2]))
+    assert comes_there(near, model, 1e-3) is None
+
+
+@pytest.mark.parametrize("settings", [LUGRE, COULOMB, DAHL])
+def test_still_bodies_are_told_how_long_they_ring_on_their_drives(settings):
+    """The first was told 1.1 s, and then none; the second 0.81 s; the last had "settled"."""
+    body = model_of(*settings)
+    first = solve(body, history=False)
+    assert not first.settled
+    duration = told(first)
+    then = solve(lasting(body, duration), history=False)
+    assert then.settled
+    assert then.ratio == pytest.approx(1.0, abs=2e-3)
+    # No much shorter one does, beyond the usual.
+    if duration / 2.5 > body.usual_duration:
+        assert not solve(lasting(body, duration / 2.5), history=False).settled
+
+
+def test_a_ring_is_as_large_as_the_body_is_slower_than_its_drive_and_fades_by_its_damper():
+    body = model_of(*COULOMB)
+    ring, slider = ring_of(body), body.slider
+    swing = math.sqrt(slider.drive_stiffness * slider.mass) * slider.drive_velocity
+    assert ring.swing == pytest.approx(swing / body.full_friction)
+    assert ring.rate == pytest.approx(0.5 * slider.drive_damping / slider.mass)
+    # Marched: a quarter of a ring after it breaks away its drive is stretched the most.
+    history = solve(lasting(body, 0.1)).history
+    most = history.drive_force.max() / body.full_friction - 1.0
+    assert 0.9 * ring.swing < most < ring.swing
+    damped = body.slider.model_copy(update={"drive_damping": 1e4}, units="SI")
+    assert ring_of(dataclasses.replace(body, slider=damped)) is None
+
+
+def test_the_mean_of_a_still_body_is_held_to_that_of_steady_sliding():
+    body = model_of(*DAHL)
+    assert steady_ratio(body) == 1.0
+    assert off_steady(body, 1.0019) == off_steady(body, 0.9981) == ""
+    assert "0.0046 of mu F_N" in off_steady(body, 1.0046)
+    # What falls with the speed may stick and slip.
+    falls = model_of(*LUGRE, "friction.static_mu=0.3", "friction.stribeck_velocity=1 mm/s")
+    assert off_steady(falls, 1.2) == ""
+
+
+FALLS = (
+    "slider.drive_velocity=1.0776 mm/s", "slider.normal_force=6.888 N", "slider.mass=1.2726 kg",
+    "slider.drive_stiffness=1.00245 MN/m", "slider.drive_damping=0 N s/m", "slider.lateral=guided",
+    "friction.model=lugre", "friction.mu=0.30985", "friction.max_deflection=13 nm",
+    "friction.static_mu=0.3975", "friction.stribeck_velocity=1.28 mm/s",
+    "friction.viscous_damping=70.1 N s/m",
+    "vibration.frequency=113 Hz", "vibration.velocity_ratio=0.38", "vibration.direction=30 deg",
+    "vibration.start=0 s", "solve.step=10 us",
+)  # fmt: skip
+
+
+def test_a_shaken_body_that_sticks_and_slips_is_sent_to_no_other_method_but_told_what_helps():
+    body = lasting(model_of(*FALLS), 1.2)
+    found = solve(body, history=False)
+    assert not found.settled
+    said = found.notes[-1]
+    assert "no steady state" in said
+    assert "whole slips" in said
+    assert "periodic" not in said
+    assert "give more slider.drive_damping" in said
+    damped = body.slider.model_copy(update={"drive_damping": 2000.0}, units="SI")
+    assert solve(dataclasses.replace(body, slider=damped), history=False).settled
+
+
+def test_steady_sliding_is_stable_with_the_damping_told_and_not_with_less():
+    body = model_of(*FALLS, "vibration.velocity_ratio=0")
+
+    def grows(times):
+        damping = times * steadying(body)
+        slider = body.slider.model_copy(update={"drive_damping": damping}, units="SI")
+        return growth_rate(dataclasses.replace(body, slider=slider)) > 0.0
+
+    assert growth_rate(body) > 0.0
+    assert grows(0.95)
+    assert not grows(1.0)
+    assert f"of {upward(steadying(body)):g} N s/m it slides steadily" in advice(None, body)
