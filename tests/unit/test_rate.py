@@ -273,7 +273,7 @@ def test_duty_cycle_is_worth_the_equivalent_hours_of_bs_721():
         ({"duty_cycle": [3]}, r"operation\.duty_cycle is \[3\]; it must be a list of tables"),
         (
             {"duty_cycle": [{"duration": "1 h", "output_torqe": "1 N m"}]},
-            r"operation\.duty_cycle\.output_torqe is not a key .*did you mean 'output_torque'",
+            r"number 1 of the list: output_torqe is not a key .*did you mean 'output_torque'",
         ),
         (
             {"duty_cycle": [{"duration": "1 h", "output_torque": "1 N m"}], "life": "1 h"},

@@ -111,7 +111,27 @@ class Table(pydantic.BaseModel):
 
     @classmethod
     def each_of(cls, values: Sequence[Any], context: Any, path: str) -> tuple[Self, ...]:
-        """Validate a list of tables at a ``table.key``; what is refused says which of them is."""
+        """Validate a list of tables; what is refused names which of them.
+
+        Parameters
+        ----------
+        values : sequence of mapping or Table
+            As a file has them.
+        context : object
+            Of the validation.
+        path : str
+            ``table.key`` of the list.
+
+        Returns
+        -------
+        tuple of Table
+            Of the class it is called on.
+
+        Raises
+        ------
+        InputError
+            One of them cannot be.
+        """
         made = []
         for place, each in enumerate(values, 1):
             try:
