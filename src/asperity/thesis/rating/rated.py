@@ -40,8 +40,8 @@ class RatedGear(Shipped):
     def rated(self) -> Rated:
         """Its rating by all standards, all of which must apply."""
         rated = rate_case(self.read())
-        if rated.notes:
-            raise ValueError("; ".join(rated.notes))
+        if rated.unanswered:
+            raise ValueError("; ".join(rated.unanswered.values()))
         return rated
 
     def numbers(self, standard: str, *keys: str) -> tuple[float, ...]:
