@@ -111,7 +111,27 @@ class Table(pydantic.BaseModel):
 
     @classmethod
     def each_of(cls, values: Sequence[Any], context: Any, path: str) -> tuple[Self, ...]:
-        """Validate a list of tables at a ``table.key``; what is refused says which of them is."""
+        """Validate a list of tables at a ``table.key``; what is refused says which of them is.
+
+        Parameters
+        ----------
+        values : sequence
+            The tables: made already, or mappings of their keys.
+        context : object
+            That of the validation they are part of.
+        path : str
+            The ``table.key``.
+
+        Returns
+        -------
+        tuple of Table
+            They, made.
+
+        Raises
+        ------
+        InputError
+            One of them is refused.
+        """
         made = []
         for place, each in enumerate(values, 1):
             try:
