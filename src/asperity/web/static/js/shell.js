@@ -46,20 +46,6 @@ async function shared(title, answer) {
 /** With which case each kind was last seen, so that a link leads back to it. */
 const last = {};
 
-/**
- * Scrolls the list of screens, which is one row on a phone, to one of them. `scrollIntoView` would have the first Tab
- * go on from there.
- * @param {Element | null} list @param {Element | null} one
- */
-function inSight(list, one) {
-  if (!list || !one) return;
-  const [around, here] = [list.getBoundingClientRect(), one.getBoundingClientRect()];
-  // Something stands still before its end.
-  const end = around.right - (parseFloat(getComputedStyle(list).scrollPaddingRight) || 0);
-  list.scrollLeft += (here.left + here.right - around.left - end) / 2;
-  list.scrollTop += Math.min(0, here.top - around.top) + Math.max(0, here.bottom - around.bottom);
-}
-
 /** @param {{screens: Listed[], children: any}} props */
 export function App({ screens, children }) {
   const { screen, params } = route.value;
@@ -67,8 +53,10 @@ export function App({ screens, children }) {
   if (here?.kind) last[here.kind] = caseParams(params);
   const before = useRef("");
   useEffect(() => {
-    inSight(document.querySelector("nav"), document.querySelector("nav [aria-current]"));
-    // What was pressed is gone with its screen: the keyboard goes on from the answer, not from the list of screens.
+    // Not by scrollIntoView: Tab would go on there.
+    const at = [...document.links].find((each) => each.ariaCurrent);
+    at?.closest("nav")?.scroll(at.offsetLeft - 40, at.offsetTop - 90);
+    // What was pressed is gone with its screen: the keyboard goes on from the answer.
     if (before.current && document.activeElement === document.body) document.getElementById("main")?.focus();
     before.current = screen;
   }, [screen]);
