@@ -38,10 +38,7 @@ _OF_BODY = ("ratio", "settled", "step_error", "ratio_from_rest")
 # Of mu W: two states nearer to each other than this are one.
 _APART = 1e-4
 _CYCLES = 40  # of a state, in most cases
-_GOES_ELSEWHERE = (
-    "a march from rest has come neither to a state that is shown nor to another: see solve.method "
-    "'march'"
-)
+_ELSEWHERE = "a march from rest has come neither to a state that is shown nor to another: it has "
 
 
 class Branches(Result):
@@ -192,7 +189,8 @@ class Branches(Result):
             loose = self.settled[way] == 0.0
             ratio, *others = (values[way].tolist() for values in shown.values())
             columns = self.value.tolist(), marked(ratio, loose.tolist()), *others
-            remarks = (f"{MARK} not settled, no prediction",) if loose.any() else ()
+            remarks = [f"{MARK} not settled, no prediction"] if loose.any() else []
+            remarks += self.notes if way == len(_WAYS) - 1 else []
             tables.append(
                 Table.of(
                     headings, list(zip(*columns, strict=True)),
@@ -257,7 +255,7 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         for body in bodies[len(rows) :]:
             state = walk.to(body)
             if len(rows) < len(models):
-                state = _and_from_rest(walk, state)
+                state = _and_from_rest(walk, state, axis.text(len(rows)))
             rows.append(np.array([_of(state, name) for name in of_row]))
             if not isinstance(state, ConvergenceError):
                 notes += [
@@ -276,12 +274,12 @@ def answer(problem: tuple[Case, Axis, list[Model]], run: Run) -> Branches:
         ratio_from_rest=there[:, -1],
         missing=int(np.isnan(numbers["ratio"]).sum()),
         seconds=time.perf_counter() - began,
-        notes=(*notes, *_of_the_step(models, numbers["ratio"], numbers["step_error"])),
+        notes=_together(notes) + _of_the_step(models, numbers["ratio"], numbers["step_error"]),
     )
 
 
 def _and_from_rest(
-    walk: Walk, state: SlideResult | ConvergenceError
+    walk: Walk, state: SlideResult | ConvergenceError, where: str
 ) -> SlideResult | ConvergenceError:
     """Return the last state with the ratio of a body from rest, if that settles at another."""
     if isinstance(state, ConvergenceError):
@@ -292,8 +290,18 @@ def _and_from_rest(
     if other is None:
         return state
     if other.state is None:
-        return dataclasses.replace(state, notes=(*state.notes, _GOES_ELSEWHERE))
+        note = f"{_ELSEWHERE}{other.ratio:.5g} at {where}"
+        return dataclasses.replace(state, notes=(*state.notes, note))
     return dataclasses.replace(state, ratio_from_rest=ratio_of(other.state))
+
+
+def _together(notes: list[str]) -> tuple[str, ...]:
+    """Return notes, those of a body that goes elsewhere from rest as one."""
+    elsewhere = [note.removeprefix(_ELSEWHERE) for note in notes if note.startswith(_ELSEWHERE)]
+    others = [note for note in notes if not note.startswith(_ELSEWHERE)]
+    if elsewhere:
+        others.append(f"{_ELSEWHERE}{', '.join(elsewhere)}; see solve.method 'march'")
+    return tuple(others)
 
 
 def _of_the_step(models: list[Model], ratio: FloatArray, error: FloatArray) -> tuple[str, ...]:
