@@ -27,7 +27,7 @@ from asperity.slider.ringing import (
     still_rings,
     upward,
 )
-from asperity.slider.steady import growth_rate, steadying
+from asperity.slider.steady import growth_rate, steadying, two_states
 from asperity.slider.step_error import allowed_at
 from asperity.slider.taken_up import taken_up_after
 from asperity.slider.timetable import (
@@ -112,7 +112,8 @@ def until_settled(
             marching.go_on(min(max(foreseen or high, low), high, farthest))
             continue
         if not answer.settled:
-            note = advice(foreseen, model, instead)
+            slips = not model.vibrates and two_states(model) in answer.notes
+            note = advice(foreseen, model, instead, slips=slips)
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:
             return answer
@@ -127,7 +128,9 @@ def lasting(model: M, duration: float) -> M:
     return dataclasses.replace(model, solve=solve)
 
 
-def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | None:
+def needed(
+    window: WindowMeans, end: Nearby | Ring | None = None, *, slips: bool = False
+) -> float | None:
     """Return the duration in s that a march needs to settle; None where none is foreseen.
 
     Parameters
@@ -136,6 +139,8 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
         What it has come to.
     end : Nearby or Ring, optional
         The state next to its end, or the ring that it has there, where one is known.
+    slips : bool
+        Whether it is seen to stick and slip beside steady sliding.
     """
     model, table, means, across = window.model, window.table, window.quarters, window.across
     residual = window.residual
@@ -171,7 +176,7 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
     # What began with the drive or the vibration, a ring say, fades before the window begins.
     loaded = model.usual_duration + _loading(model)
     # Who sticks and slips has a mean that follows where in a slip the window ends, and fades never.
-    slips = not model.vibrates and growth_rate(model) > 0.0
+    slips = slips or (not model.vibrates and growth_rate(model) > 0.0)
     if isinstance(end, Nearby) and end.unstable:
         slips = (model.friction.static_mu or 0.0) > model.friction.mu
         grown = model.duration + end.grows / model.frequency
@@ -328,11 +333,31 @@ def _does(duration: float) -> str:
     return f"a solve.duration of {upward(duration):.3g} s would do"
 
 
-def advice(duration: float | None, model: Model, instead: str | None = "periodic") -> str:
-    """Say what duration would do; or, where none is foreseen, what would instead."""
+def advice(
+    duration: float | None,
+    model: Model,
+    instead: str | None = "periodic",
+    *,
+    slips: bool = False,
+) -> str:
+    """Say what duration would do; or, where none is foreseen, what would instead.
+
+    Parameters
+    ----------
+    duration : float or None
+        That is foreseen, s.
+    model : Model
+        The body.
+    instead : str, optional
+        The method that looks for a state where none is.
+    slips : bool
+        Whether it sticks and slips though steady sliding would last as well.
+    """
     falls = (model.friction.static_mu or 0.0) > model.friction.mu
     falls = falls and model.slider.drive_stiffness is not None
-    if duration is None and falls and (model.vibrates or growth_rate(model) > 0.0):
+    # A ring that nothing damps in the contact has the mean follow it, whatever friction does.
+    own = falls and not math.isinf(ringing_time(model))
+    if duration is None and own and (model.vibrates or slips or growth_rate(model) > 0.0):
         return f"{_NONE_FORESEEN}: {_at_its_own_rate(model)}"
     if duration is None and rings_on_drive(model):
         return (
@@ -360,10 +385,17 @@ def _at_its_own_rate(model: Model) -> str:
             "of its own has no steady state; its mean follows where in a slip its window begins "
             f"and ends: {rest}, or give more slider.drive_damping"
         )
-    damping = steadying(model)
     steady = ""
-    if damping is not None:
-        steady = f"; with a slider.drive_damping of {upward(damping):g} N s/m it slides steadily"
+    if growth_rate(model) == 0.0:
+        steady = (
+            "; steady sliding lasts as well, and a body from rest comes to it with more "
+            "slider.drive_damping"
+        )
+    elif (damping := steadying(model)) is not None:
+        steady = (
+            f"; steady sliding is stable with a slider.drive_damping of {upward(damping):g} N s/m, "
+            "and a body from rest comes to it with more"
+        )
     return (
         f"the mean follows where in a slip its window of {model.window:.2g} s begins and ends; "
         f"{rest}{steady}"
