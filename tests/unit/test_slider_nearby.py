@@ -8,7 +8,8 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
-from asperity.slider.longer import advice, lasting
+from asperity.slider.advice import advice
+from asperity.slider.longer import lasting
 from asperity.slider.march import March
 from asperity.slider.march_end import at_the_end, ratios_of
 from asperity.slider.model import WINDOW_SHARE
