@@ -344,6 +344,22 @@ def test_the_law_names_the_velocities_whose_state_does_not_stay(monkeypatch, law
     assert "6 not settled" in repr(loose)
 
 
+def test_a_law_stands_where_what_a_body_from_rest_comes_to_is_not_found(monkeypatch, law):
+    def attempt(model, **asked):
+        if asked.get("rested"):
+            raise ConvergenceError("the powers do not balance")
+        return solved(model, **asked)
+
+    solved = law_states.solve_periodic
+    monkeypatch.setattr(law_states, "solve_periodic", attempt)
+    found = solve(body("table-4.3", "solve.method=homogenised"), history=False)
+    assert found.ratio == pytest.approx(
+        solve(body("table-4.3", "solve.method=periodic")).ratio, rel=1e-2
+    )
+    assert not found.settled
+    assert "comes to was not found: the powers do not balance" in found.settled_by
+
+
 @pytest.mark.parametrize(("case", "direction", "law_name"), grid(CASES, [45, -45, 135], LAWS))
 def test_a_guided_body_shaken_askew_feels_a_mean_force_across(case, direction, law_name):
     settings = [

@@ -10,8 +10,9 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider import solve
+from asperity.slider.advice import advice
 from asperity.slider.fading import apart, mean_left, quarters_in_time, windows_in_time
-from asperity.slider.longer import advice, brought_home, lasting, needed
+from asperity.slider.longer import brought_home, lasting, needed
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.ring_on_drive import friction_on_ring, ring_of, rung_out
 from asperity.slider.ringing import upward

@@ -8,7 +8,8 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
-from asperity.slider.longer import advice, lasting
+from asperity.slider.advice import advice
+from asperity.slider.longer import lasting
 from asperity.slider.march import March
 from asperity.slider.march_end import at_the_end, ratios_of
 from asperity.slider.model import WINDOW_SHARE
@@ -191,4 +192,36 @@ def test_steady_sliding_is_stable_with_the_damping_told_and_not_with_less():
     assert growth_rate(body) > 0.0
     assert grows(0.95)
     assert not grows(1.0)
-    assert f"of {upward(steadying(body)):g} N s/m it slides steadily" in advice(None, body)
+    told = f"is stable with a slider.drive_damping of {upward(steadying(body)):g} N s/m, and"
+    assert told in advice(None, body)
+
+
+def test_a_still_body_that_sticks_beside_stable_sliding_is_told_no_duration_again_and_again():
+    """It was told 4.6 s after 2.9 s, 8 s after 6 s, 22 s after 20 s; the damping is that told."""
+    body = model_of(
+        "vibration.velocity_ratio=0", "friction.model=lugre", "friction.static_mu=0.15",
+        "friction.stribeck_velocity=5 mm/s", "slider.drive_velocity=8 mm/s", "slider.mass=1 kg",
+        "slider.drive_stiffness=10 kN/m", "solve.step=20 us", "solve.duration=2.9 s",
+    )  # fmt: skip
+    damped = body.slider.model_copy(update={"drive_damping": upward(steadying(body))}, units="SI")
+    body = dataclasses.replace(body, slider=damped)
+    assert growth_rate(body) == 0.0
+    found = solve(body, history=False)
+    assert not found.settled
+    assert "no solve.duration is foreseen" in found.notes[-1]
+    assert "whole slips" in found.notes[-1]
+    assert found.notes[-1].endswith("comes to it with more slider.drive_damping")
+    twice = damped.model_copy(update={"drive_damping": 2.0 * damped.drive_damping}, units="SI")
+    then = solve(dataclasses.replace(body, slider=twice), history=False)
+    assert then.settled
+    assert then.ratio == pytest.approx(steady_ratio(body), abs=1e-4)
+
+
+def test_a_ring_that_nothing_damps_in_the_contact_is_not_laid_to_falling_friction():
+    pressed = (
+        "normal.law=hertz", "normal.stiffness=30 MN/m", "vibration.elevation=90 deg",
+        "friction.law=vector", "vibration.velocity_ratio=2",
+    )  # fmt: skip
+    for damping, said in (("0", False), ("0.05", True)):
+        body = model_of(*FALLS, *pressed, f"normal.damping_ratio={damping}")
+        assert ("friction falls with the speed" in advice(None, body)) == said

@@ -14,6 +14,7 @@ from asperity.errors import AsperityError, ConvergenceError
 from asperity.normal import elastic_force
 from asperity.runs import Stopped
 from asperity.slider import batch_rows as row
+from asperity.slider.advice import advice
 from asperity.slider.astray import goes_alone
 from asperity.slider.batch_fits import FORCES, fits_batch
 from asperity.slider.batch_kernels import BLOCK, march_batch
@@ -21,7 +22,7 @@ from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.fading import quarter_means
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.judged_march import judged_answer
-from asperity.slider.longer import STILL_GOES, advice
+from asperity.slider.longer import STILL_GOES
 from asperity.slider.march import beyond_numbers, march, march_once
 from asperity.slider.model import Model, require_models
 from asperity.slider.result import SlideResult

@@ -18,11 +18,12 @@ from asperity.kernels.compiled import kernel
 from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.results.settled import Standing
 from asperity.slider import cycle_mean_law as hl
+from asperity.slider.advice import advice
 from asperity.slider.carried import carried
 from asperity.slider.cycle_mean_law import HomogenisedLaw, homogenise
 from asperity.slider.cycle_mean_normal import gain_notes, mean_motion
 from asperity.slider.history import History
-from asperity.slider.longer import advice, needed
+from asperity.slider.longer import needed
 from asperity.slider.march import March
 from asperity.slider.model import Model
 from asperity.slider.pieces import interpolate, value_and_slope

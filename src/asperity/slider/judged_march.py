@@ -29,6 +29,7 @@ def judged_answer(
     body: Callable[[], Integrator],
     *,
     leaves: str = "",
+    slips: bool = False,
     notes: tuple[str, ...] = (),
     **told: Any,
 ) -> tuple[SlideResult, float | None]:
@@ -48,6 +49,8 @@ def judged_answer(
         Gives the body at the end; called where its means agree.
     leaves : str
         What it lacks that is next to steady sliding which is unstable.
+    slips : bool
+        Whether it is seen to stick and slip beside steady sliding.
     notes : tuple of str
         Beside those of the march.
     told
@@ -105,4 +108,4 @@ def judged_answer(
     near = next_to(body(), table)
     if is_far and near is not None:
         return answer, comes_there(near, window.model, most_off(near.ratio))
-    return answer, needed(window, near or ring_at_end(window, body()))
+    return answer, needed(window, near or ring_at_end(window, body()), slips=slips)

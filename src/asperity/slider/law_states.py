@@ -79,7 +79,10 @@ def beside_rest(state: SlideResult | None) -> BesideRest:
     """
     if state is None or not state.settled:
         return BesideRest()
-    rested = solve_periodic(state.model, history=False, judged=False, rested=True)
+    try:
+        rested = solve_periodic(state.model, history=False, judged=False, rested=True)
+    except ConvergenceError as error:
+        return BesideRest(f"what a body from rest comes to was not found: {error}")
     if not rested.settled:
         return BesideRest(f"{_ELSEWHERE}: {rested.settled_by}")
     if abs(rested.ratio - state.ratio) <= SAME:

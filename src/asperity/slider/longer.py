@@ -7,6 +7,7 @@ import dataclasses
 import math
 from typing import Protocol, TypeVar
 
+from asperity.slider.advice import advice, does
 from asperity.slider.fading import (
     apart,
     mean_left,
@@ -18,16 +19,15 @@ from asperity.slider.fading import (
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.nearby import Nearby, comes_there
 from asperity.slider.result import SlideResult
-from asperity.slider.ring_on_drive import Ring, ring_of, rings_on_drive, rung_out
+from asperity.slider.ring_on_drive import Ring, ring_of, rung_out
 from asperity.slider.ringing import (
     FARTHEST,
     WHEN_SETTLED,
     faded_after,
     ringing_time,
     still_rings,
-    upward,
 )
-from asperity.slider.steady import growth_rate, steadying
+from asperity.slider.steady import growth_rate, two_states
 from asperity.slider.step_error import allowed_at
 from asperity.slider.taken_up import taken_up_after
 from asperity.slider.timetable import (
@@ -52,7 +52,6 @@ _FAR_OFF = 5.0  # times what may go untold, that a mean may be off by which has 
 _NOTHING = 1e-4  # a ratio that is none to four digits, and what may be left to it
 _NEXT, _MOST_TRIED = 1.02, 400
 _FURTHER = 1.5, 4.0  # times what is marched, that it goes on to at once
-_NONE_FORESEEN = "no solve.duration is foreseen that would do"
 STILL_GOES = "the halves of the window agree, but the mean still goes on as it fades"
 """How it begins what is said of a mean that is not yet where it goes to."""
 
@@ -112,7 +111,8 @@ def until_settled(
             marching.go_on(min(max(foreseen or high, low), high, farthest))
             continue
         if not answer.settled:
-            note = advice(foreseen, model, instead)
+            slips = not model.vibrates and two_states(model) in answer.notes
+            note = advice(foreseen, model, instead, slips=slips)
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:
             return answer
@@ -127,7 +127,9 @@ def lasting(model: M, duration: float) -> M:
     return dataclasses.replace(model, solve=solve)
 
 
-def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | None:
+def needed(
+    window: WindowMeans, end: Nearby | Ring | None = None, *, slips: bool = False
+) -> float | None:
     """Return the duration in s that a march needs to settle; None where none is foreseen.
 
     Parameters
@@ -136,6 +138,8 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
         What it has come to.
     end : Nearby or Ring, optional
         The state next to its end, or the ring that it has there, where one is known.
+    slips : bool
+        Whether it is seen to stick and slip beside steady sliding.
     """
     model, table, means, across = window.model, window.table, window.quarters, window.across
     residual = window.residual
@@ -171,7 +175,7 @@ def needed(window: WindowMeans, end: Nearby | Ring | None = None) -> float | Non
     # What began with the drive or the vibration, a ring say, fades before the window begins.
     loaded = model.usual_duration + _loading(model)
     # Who sticks and slips has a mean that follows where in a slip the window ends, and fades never.
-    slips = not model.vibrates and growth_rate(model) > 0.0
+    slips = slips or (not model.vibrates and growth_rate(model) > 0.0)
     if isinstance(end, Nearby) and end.unstable:
         slips = (model.friction.static_mu or 0.0) > model.friction.mu
         grown = model.duration + end.grows / model.frequency
@@ -321,50 +325,4 @@ def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> 
 def still_goes(ratio: float, comes_to: float, duration: float | None = None) -> str:
     """Say how far a mean still goes, and the duration in s in which it has where that is given."""
     said = f"{STILL_GOES}, from a ratio of {ratio:.5g} to about {comes_to:.5g}"
-    return said if duration is None else f"{said}: {_does(duration)}"
-
-
-def _does(duration: float) -> str:
-    return f"a solve.duration of {upward(duration):.3g} s would do"
-
-
-def advice(duration: float | None, model: Model, instead: str | None = "periodic") -> str:
-    """Say what duration would do; or, where none is foreseen, what would instead."""
-    falls = (model.friction.static_mu or 0.0) > model.friction.mu
-    falls = falls and model.slider.drive_stiffness is not None
-    if duration is None and falls and (model.vibrates or growth_rate(model) > 0.0):
-        return f"{_NONE_FORESEEN}: {_at_its_own_rate(model)}"
-    if duration is None and rings_on_drive(model):
-        return (
-            f"{_NONE_FORESEEN}: nothing damps the body's ring on its drive; give "
-            "slider.drive_damping"
-        )
-    if duration is None:
-        other = (
-            "" if instead is None else f": solve.method '{instead}' looks for a state that lasts"
-        )
-        return f"{_NONE_FORESEEN}{other}"
-    unless = "; a body whose friction falls with the speed may never settle" if falls else ""
-    return f"{_does(duration)}, by the means{unless}"
-
-
-def _at_its_own_rate(model: Model) -> str:
-    """Say why a mean does not settle of a body whose friction falls with the speed."""
-    rest = (
-        "take it over whole slips from the drive force over time (drive_force in slide.nc of "
-        "--out, or history in Python)"
-    )
-    if model.vibrates:
-        return (
-            "friction falls with the speed, and a body that sticks and slips, or rings, at a rate "
-            "of its own has no steady state; its mean follows where in a slip its window begins "
-            f"and ends: {rest}, or give more slider.drive_damping"
-        )
-    damping = steadying(model)
-    steady = ""
-    if damping is not None:
-        steady = f"; with a slider.drive_damping of {upward(damping):g} N s/m it slides steadily"
-    return (
-        f"the mean follows where in a slip its window of {model.window:.2g} s begins and ends; "
-        f"{rest}{steady}"
-    )
+    return said if duration is None else f"{said}: {does(duration)}"

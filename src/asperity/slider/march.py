@@ -242,9 +242,10 @@ class March:
         swings = _swing(first_half), _swing(self.sums)
         half = 0.5 * table.window * table.step
         leaves = "" if model.vibrates else still_leaves(model, half, swings, self.duration)
+        beside = self._beside(swings)
         answer, foreseen = judged_answer(
             model, window, sums, (start, self.energies()), lambda: self._body,
-            leaves=leaves, notes=self._beside(swings), seconds=self.seconds,
+            leaves=leaves, slips=bool(beside), notes=beside, seconds=self.seconds,
             breakaway_time=self.breakaway, history=self.history() if self._record else None,
         )  # fmt: skip
         if leaves and not answer.settled:
