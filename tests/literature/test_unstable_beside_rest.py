@@ -225,3 +225,42 @@ def test_what_drops_answers_that_have_not_settled_is_not_marched_for_them(soft, 
     monkeypatch.setattr(prediction, "Model", lambda *_: body(soft))
     asked = ("longitudinal", "sine", SPEED, SPEED, FREQUENCY)
     assert prediction.model_ratios(read_case(soft, TABLES, ()), LOAD, [asked]) == [None]
+
+
+def test_a_drive_too_soft_to_be_stretched_is_told_where_another_state_is_not_looked_for(tmp_path):
+    """From rest a march of 13 s comes to 0.7360; a body that comes from 0.999 stays there."""
+    case = tmp_path / "soft.toml"
+    case.write_text("""
+        [slider]
+        drive_velocity = "197 um/s"
+        normal_force = "1.7964 N"
+        mass = "0.62689 g"
+        lateral = "free"
+        drive_stiffness = "47.526 N/m"
+        [friction]
+        model = "dahl"
+        mu = 0.0528
+        law = "unsplit"
+        max_deflection = "0.71282 um"
+        [vibration]
+        waveform = "square"
+        frequency = "1699.88 Hz"
+        velocity_ratio = 2.2022
+        direction = "270 deg"
+        rise_time = "147.07 us"
+        [solve]
+        method = "periodic"
+    """)
+    soft = solve(body(case), history=False)
+    assert soft.ratio == pytest.approx(0.9991, abs=1e-3)
+    (note,) = soft.notes
+    assert "stretched so slowly" in note
+    ways = branches.answer(
+        branches.prepare(read_case(case, TABLES, ()), over=["vibration.velocity_ratio=2.0,2.2022"]),
+        Run(),
+    )
+    assert note in ways.notes
+    # Where it can be followed it is shown.
+    stiff = solve(body(case, "slider.drive_stiffness=400 N/m"), history=False)
+    assert stiff.ratio == pytest.approx(0.738, abs=2e-3)
+    assert "shown is the one from rest" in stiff.notes[0]

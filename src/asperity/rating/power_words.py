@@ -35,11 +35,11 @@ def _let_down(iso: Rating, *, outside: bool) -> Iterator[str]:
     if float(iso["eta_ges2_1"]) <= 0.0:
         by = "OUTSIDE ITS RANGE" if outside else "ISO/TR 14521"
         yield f"no efficiency: the load is to drive, which the gearset does not let it ({by})"
-    else:
-        yield Sentence(
-            "efficiency ", _number(iso, "eta_ges2_1", ".1f", 100.0), " % of the gearbox, ",
-            _number(iso, "eta_z2_1", ".1f", 100.0), f" % of the teeth ({where})",
-        )  # fmt: skip
+        return
+    yield Sentence(
+        "efficiency ", _number(iso, "eta_ges2_1", ".1f", 100.0), " % of the gearbox, ",
+        _number(iso, "eta_z2_1", ".1f", 100.0), f" % of the teeth ({where})",
+    )  # fmt: skip
     lost = float(iso["loss_total_W"]) - float(iso["loss_meshing_W"])
     lost += float(iso["loss_meshing_back_W"])
     yield Sentence(

@@ -28,6 +28,7 @@ _PUSH = 1e-3
 _LEAST = 1e-6  # such a push, that is as good as none
 _FOLLOWED = 1e-4  # of mu F_N, by which the mean friction follows a swing across
 _CYCLES = 4, 16, 64  # after which pushes are looked at
+_GONE = 1e-3  # of a push, of which nothing is left that lasts
 _CLEARLY = 1.05  # times as much or as little, that tells before the last of them
 _NEARLY = 1e-2  # of the vibration, that the contact sees of it across a way that is nearly straight
 
@@ -109,6 +110,11 @@ def growth_of_pushes(cycle: Cycle) -> float:
     growth = _growth(pushed, _PUSH)
     if growth > UNSTABLE:
         return growth
+    for cycles in _CYCLES:
+        for body in pushed:
+            _go_on(body, cycles)
+        if max(map(_across, pushed)) < _GONE * _PUSH:
+            return growth
     means = []
     for body in (straight, *pushed):
         _go_on(body, _CYCLES[-1])
@@ -128,6 +134,12 @@ def _pushed(cycle: Cycle, push: float) -> list[Cycle]:
     bodies[1].body.state["velocity_y"] = push * math.sqrt(cycle.body.p.mobility_y)
     bodies[2].body.state["deflection_y"] = push
     return bodies
+
+
+def _across(body: Cycle) -> float:
+    """Return how far a body is off its straight way, in what it is pushed by."""
+    state, swift = body.body.state, math.sqrt(body.body.p.mobility_y)
+    return max(abs(float(state["velocity_y"])) / swift, abs(float(state["deflection_y"])))
 
 
 def _growth(bodies: list[Cycle], push: float) -> float:

@@ -17,7 +17,7 @@ from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.runs.tree import Tree
 from asperity.slider.cycle_map import UNSTABLE, Cycle
-from asperity.slider.from_rest import Elsewhere, from_rest
+from asperity.slider.from_rest import Elsewhere, from_rest, takes_too_long
 from asperity.slider.model import Model
 from asperity.slider.periodic import DOUBLED, AperiodicError, answer_of, cycle_steps, settle
 from asperity.slider.result import SlideResult
@@ -70,6 +70,10 @@ class Walk:
     def from_rest(self) -> Elsewhere | None:
         """Return what comes of the last body from rest, if it does not come to the same state."""
         return None if self._last is None else from_rest(self._last[1])
+
+    def takes_too_long(self) -> bool:
+        """Whether what comes of the last body from rest is not looked for."""
+        return self._last is not None and takes_too_long(self._last[1])
 
     def tree(self) -> Tree:
         """Return where the last body was left; there must be one."""

@@ -124,6 +124,11 @@ def _may_swing(cycle: Cycle) -> bool:
     return model.frequency <= (_PUMPED if turns else halves) * highest
 
 
+def takes_too_long(cycle: Cycle) -> bool:
+    """Whether a body may come to another state, but its drive is so soft that none looks for it."""
+    return may_come_elsewhere(cycle) and not _loading(cycle.body.model) <= _MOST_TAKEN_UP
+
+
 def may_bounce_otherwise(cycle: Cycle) -> bool:
     """Whether a body is thrown and lands above its resonances, where it flies for long.
 

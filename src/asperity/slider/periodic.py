@@ -14,6 +14,7 @@ from asperity.slider.from_rest import (
     may_bounce_otherwise,
     ratio_of,
     sticks_from_rest,
+    takes_too_long,
 )
 from asperity.slider.history import History
 from asperity.slider.model import Model
@@ -45,6 +46,11 @@ _NOT_FOLLOWED = (
     "friction falls with the speed: a body from rest may stick and slip instead, which takes too "
     "long to follow here: see solve.method 'march'"
 )
+SOFT = (
+    "a body from rest may come to another state: its drive is stretched so slowly that it is not "
+    "followed here: see solve.method 'march'"
+)
+"""What is said of a state where such a body is not looked for."""
 _BOUNCES = (
     "the body is thrown and lands, above its resonances: from rest it comes to this, from "
     "elsewhere it may bounce in another way"
@@ -158,7 +164,8 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
         left = "friction at its limit" if cycle.at_the_limit else "a state"
         notes = (
             f"{left}, with the ratio {ratio_of(cycle):.5g}, repeats itself as well: which state a "
-            "body is in follows from where it comes from, shown is the one from rest",
+            "body is in follows from where it comes from, shown is the one from rest, shaken at "
+            "once",
         )
         cycle, growth = other.state, other.growth
     elif other is not None:
@@ -166,6 +173,8 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
             f"a march from rest has not come to this state after {other.cycles} cycles: it has a "
             f"ratio of {other.ratio:.5g} there, see solve.method 'march'",
         )
+    elif rested and takes_too_long(cycle):
+        notes += (SOFT,)
     elif rested and may_bounce_otherwise(cycle):
         notes += (_BOUNCES,)
     answer = answer_of(model, step, cycle, growth, notes, began, history=history, judged=judged)

@@ -23,7 +23,7 @@ from asperity.slider.from_rest import ratio_of
 from asperity.slider.march import march_key
 from asperity.slider.model import Model
 from asperity.slider.orders import power_of
-from asperity.slider.periodic import cycle_steps
+from asperity.slider.periodic import SOFT, cycle_steps
 from asperity.slider.result import SlideResult, inputs
 from asperity.slider.slide import beside_march
 from asperity.slider.step_error import NOTED, WANTED, allowed_of
@@ -287,6 +287,8 @@ def _and_from_rest(
     if not state.settled:
         return beside_march(state)
     other = walk.from_rest()
+    if other is None and walk.takes_too_long():
+        return dataclasses.replace(state, notes=(*state.notes, SOFT))
     if other is None:
         return state
     if other.state is None:
