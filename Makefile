@@ -85,7 +85,9 @@ clean:  ## remove everything that was made
 	  { rm $@; exit 1; }
 
 .venv/.runtime: pyproject.toml constraints.txt | .venv/bin/python
-	@$(BIN)/python -c 'import pip' 2>/dev/null || $(BIN)/python -m ensurepip >/dev/null
+	@$(BIN)/python -m pip --version >/dev/null 2>&1 || \
+	  { rm -rf .venv/lib/python3*/site-packages/pip .venv/lib/python3*/site-packages/pip-*; \
+	    $(BIN)/python -m ensurepip >/dev/null; }
 	$(INSTALL) -e .
 	@$(BYTES)
 	@touch $@

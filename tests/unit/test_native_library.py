@@ -8,7 +8,7 @@ import textwrap
 import pytest
 
 from asperity.kernels.building import lean, library, link, making
-from asperity.kernels.building.compiler import hindrance
+from asperity.kernels.building.compiler import compiler, hindrance
 from asperity.kernels.native import keys, load, table
 from asperity.kernels.native.entries import Entry, listed, shared_out
 from asperity.kernels.native.kept import UNFIT
@@ -213,3 +213,10 @@ def test_where_there_is_nothing_to_link_or_to_link_with_it_is_told(
 def test_another_platform_is_told(monkeypatch):
     monkeypatch.setattr("asperity.kernels.building.compiler.platform_name", lambda: "arm64-darwin")
     assert hindrance() == "it is made for x86_64-linux only, not for arm64-darwin"
+
+
+def test_a_compiler_that_is_misquoted_is_none(monkeypatch):
+    monkeypatch.setenv("CC", "'gcc")
+    assert compiler() is None
+    monkeypatch.setenv("CC", "no-such-compiler -O2")
+    assert compiler() is None

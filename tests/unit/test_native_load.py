@@ -166,6 +166,17 @@ def test_a_library_that_does_not_link_here_is_passed_by(made, rows, caplog):
     assert not caplog.messages
 
 
+def test_a_library_of_something_else_is_passed_by(made, rows, caplog, tmp_path):
+    """As a compiler makes it that links what it was not given."""
+    other = tmp_path / "other.c"
+    other.write_text("int other(void) { return 1; }", "utf-8")
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", made / table.LIBRARY, other], check=True)
+    content = (made / table.LIBRARY).read_bytes()
+    table.write(made, rows | {"library": hashlib.sha256(content).hexdigest()})
+    assert answer() is None
+    assert not caplog.messages
+
+
 def test_a_python_of_another_layout_has_no_library(made, monkeypatch):
     monkeypatch.setattr(layout, "types", lambda: None)
     assert answer() is None

@@ -16,7 +16,7 @@ from asperity.slider.nearby import comes_there, next_to
 from asperity.slider.result import SlideResult
 from asperity.slider.ring_on_drive import ring_at_end
 from asperity.slider.ringing import heard, ringing_notes, rings
-from asperity.slider.steady import off_steady
+from asperity.slider.steady import off_steady, parts_of_slips
 from asperity.slider.summary import summarise
 from asperity.slider.timetable import WindowMeans, march_notes
 
@@ -68,7 +68,8 @@ def judged_answer(
     end = MarchEnd(None)
     ratio = float(sums["drive_force"] / sums["steps"])
     standing, steady, means = standing_by_cycles(window, body, sums)
-    if standing.settled and (lacks := leaves or off_steady(model, ratio)):
+    lacks = leaves or off_steady(model, ratio) or parts_of_slips(window.model, sums)
+    if standing.settled and lacks:
         standing = Standing(False, lacks)
     standing = heard(standing, model, window.model.duration)
     across = motion_across(body, window) if standing.settled else None

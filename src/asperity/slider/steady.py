@@ -184,6 +184,25 @@ def off_steady(model: Model, ratio: float) -> str:
     return f"the mean is {off:.2g} of mu F_N from that of steady sliding: parts of a ring are in it"
 
 
+def parts_of_slips(model: Model, sums: np.void) -> str:
+    r"""Return what a body lacks that sticks and slips, in whose window parts of slips may be seen.
+
+    Empty where they put the mean off by no more than it may be. From one slip to the next friction
+    swings by :math:`S`, in the time :math:`T` in which the drive is stretched as far and half a
+    ring goes by: parts of it in a window :math:`W` put the mean off by up to :math:`ST/(8W)`.
+    """
+    slider = model.slider
+    if model.vibrates or slider.drive_stiffness is None or growth_rate(model) <= 0.0:
+        return ""
+    swing = float(sums["friction_x_max"] - sums["friction_x_min"])
+    rate = slider.drive_stiffness * slider.drive_velocity / model.full_friction
+    slips = model.window / (swing / rate + 0.5 * model.ring_period)
+    off = swing / (8.0 * slips)
+    if not off > FAR:
+        return ""
+    return f"of {slips:.3g} slips in the window parts may put the mean {off:.2g} of mu F_N off"
+
+
 def two_states(model: Model) -> str:
     """Say that a body sticks and slips, and that steady sliding would last as well."""
     return (

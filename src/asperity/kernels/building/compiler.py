@@ -14,9 +14,13 @@ TARGET = "x86_64-linux"
 def compiler() -> list[str] | None:
     """Return the command of the system's C compiler, which links; None where there is none.
 
-    It is what ``CC`` in the environment says, else the first of cc, gcc and clang.
+    It is what ``CC`` in the environment says, else the first of cc, gcc and clang. A ``CC`` that is
+    not quoted as a shell would have it names none.
     """
-    said = shlex.split(os.environ.get("CC", ""))
+    try:
+        said = shlex.split(os.environ.get("CC", ""))
+    except ValueError:
+        return None
     for words in [said] if said else [["cc"], ["gcc"], ["clang"]]:
         if shutil.which(words[0]) is not None:
             return words

@@ -122,8 +122,9 @@ def checked(folder: Path, files: Sequence[Path], remedy: str) -> dict[str, Any] 
 
 def opened(rows: dict[str, Any], file: Path) -> Library | None:
     """Return the library of a table; None where it cannot be loaded here."""
-    # What it is linked with may be missing or too old; or nothing is run from this disk.
-    with contextlib.suppress(OSError):
+    # What it is linked with may be missing or too old; nothing is run from this disk; or the linker
+    # made another thing of what it was given.
+    with contextlib.suppress(OSError, AttributeError):
         return Library(rows, _addresses(file))
     return None
 
