@@ -34,7 +34,8 @@ from asperity.slider.step_error import (
 from asperity.slider.timetable import Timetable, WindowMeans
 from asperity.slider.unknowns import most_unknowns, read_unknowns, unknown_scales
 
-_MOST_AGAIN = 50  # cycles at most that are run again
+_AGAIN = 50  # cycles that are run again, where there are so many
+_MORE = 1.2  # times the error of half as many cycles, by which it still grows
 _SHARE = 0.1  # of a march's cycles that may be run again
 _RING = 0.1  # of a state's scales, that a ring is looked at as
 _SEEN = 10.0  # times a change from half to half, that may still be left to come
@@ -103,8 +104,8 @@ def _end_of(body: Integrator, table: Timetable, ratio: float, *, drifts: bool) -
                 other, hidden = closed_beside(there, jacobian, slopes, one, part)
             if other is not None:
                 return MarchEnd(max(abs(other - one) * part, hidden), comes_to)
-    again = int(_SHARE * cycles / (0.5 + _beside(model)))
-    return MarchEnd(_cycles_again(end, min(max(1, again), _MOST_AGAIN)), comes_to)
+    again = max(1, int(_SHARE * cycles / (0.5 + _beside(model))))
+    return MarchEnd(_cycles_again(end, again), comes_to)
 
 
 def rings_unheard(body: Integrator, table: Timetable, ratio: float) -> bool:
@@ -184,11 +185,24 @@ def _beside(model: Model) -> float:
     return 3.0 if model.meets_corners else 1.5
 
 
-def _cycles_again(start: Cycle, cycles: int) -> float | None:
-    """Return the error of the mean friction of so many cycles from a start."""
-    apart = abs(friction_beside(start, cycles) - friction_of(start.copied(), cycles))
-    error = apart * part_of_difference(start.body.model)
+def _cycles_again(start: Cycle, most: int) -> float | None:
+    """Return the error of the mean friction of some cycles from a start, at most so many.
+
+    On other steps a body is on its way to another state: while that makes ever more of a
+    difference, it is followed for longer.
+    """
+    cycles = min(most, _AGAIN)
+    error = _error_of(start, cycles)
+    before = _error_of(start, cycles // 2) if cycles == _AGAIN else error
+    while error > _MORE * before and 4 * cycles <= most:
+        cycles *= 2
+        before, error = error, _error_of(start, cycles)
     return error if math.isfinite(error) else None
+
+
+def _error_of(start: Cycle, cycles: int) -> float:
+    apart = abs(friction_beside(start, cycles) - friction_of(start.copied(), cycles))
+    return apart * part_of_difference(start.body.model)
 
 
 def _unknowns(cycle: Cycle) -> int:
