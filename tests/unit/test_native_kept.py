@@ -342,3 +342,19 @@ def test_a_library_that_is_whole_but_does_not_load_is_left(entry, tmp_path, monk
     (folder / table.LIBRARY).write_bytes(b"damaged")
     assert kept._obtained(entry) is None
     assert not folder.exists()
+
+
+def test_of_many_that_are_damaged_one_is_told(tmp_path, monkeypatch, caplog):
+    damaged = listed().named("asperity.slider.pressed.friction_limit")[:1]
+    damaged += listed().named("asperity.slider.kernels.march_block")[:1]
+    monkeypatch.setattr(kept.kernel_folder, "kernels", lambda: tmp_path)
+    for entry in damaged:
+        folder = tmp_path / keys.key(entry)
+        folder.mkdir(mode=0o700)
+        link.keep(folder, entry, lean.Made(b"code", ["d"], (1, 2)), b"common")
+        (folder / table.LIBRARY).write_bytes(b"damaged")
+        assert kept._obtained(entry) is None
+        assert not folder.exists()
+    assert len(damaged) == 2
+    (told,) = caplog.messages
+    assert "is damaged: kernels are compiled instead; it is made anew the next time" in told

@@ -133,8 +133,10 @@ def _obtained(entry: Entry) -> load.Library | None:
     files = [folder / table.LIBRARY]
     if not files[0].exists():
         files = [folder / name for name in table.OBJECTS]
-    rows = load.checked(folder, files, remedy)
+    # What is wrong with one may be with many: one line is enough.
+    rows = load.checked(folder, files, remedy, tells=kernels not in _TOLD)
     if rows is None:
+        _TOLD.add(kernels)
         shutil.rmtree(folder, ignore_errors=True)
         return None
     if len(files) == 1:
@@ -145,6 +147,7 @@ def _obtained(entry: Entry) -> load.Library | None:
 
 
 _ASKED: set[int] = set()
+_TOLD: set[Path] = set()
 
 
 class _Maker:

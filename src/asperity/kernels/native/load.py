@@ -88,7 +88,9 @@ def from_folder(folder: Path, remedy: str = "install asperity anew") -> Library 
     return None if rows is None else opened(rows, file)
 
 
-def checked(folder: Path, files: Sequence[Path], remedy: str) -> dict[str, Any] | None:
+def checked(
+    folder: Path, files: Sequence[Path], remedy: str, *, tells: bool = True
+) -> dict[str, Any] | None:
     """Return the table of a folder; None where it is not for this machine, or a file is damaged.
 
     Parameters
@@ -99,7 +101,10 @@ def checked(folder: Path, files: Sequence[Path], remedy: str) -> dict[str, Any] 
         What the table tells the digest of.
     remedy : str
         What is to be done, or is, where one is damaged.
+    tells : bool
+        Whether that is logged.
     """
+    level = logging.WARNING if tells else logging.DEBUG
     try:
         rows = table.read(folder)
         if rows is None and files[0].exists() and not (folder / table.TABLE).exists():
@@ -110,12 +115,12 @@ def checked(folder: Path, files: Sequence[Path], remedy: str) -> dict[str, Any] 
         if hashlib.sha256(held).hexdigest() != rows["library"]:
             raise table.DamagedError(f"{files[0]} is damaged")
     except table.DamagedError as trouble:
-        _log.warning("%s: kernels are compiled instead; %s", trouble, remedy)
+        _log.log(level, "%s: kernels are compiled instead; %s", trouble, remedy)
         return None
     except OSError as trouble:
         where = trouble.filename or files[0]
         told = f"{where} cannot be read ({reason(trouble)})"
-        _log.warning("%s: kernels are compiled instead; %s", told, remedy)
+        _log.log(level, "%s: kernels are compiled instead; %s", told, remedy)
         return None
     return rows
 
