@@ -29,6 +29,19 @@ REPEATS = 25
 LEAST = 0.97
 KERNELS = {
     "march": ("asperity.slider.kernels.march_stretches", "slide table-4.3"),
+    "march, vector": (
+        "asperity.slider.kernels.march_stretches",
+        "slide table-4.4 --set friction.law=vector",
+    ),
+    "march, two-phase": (
+        "asperity.slider.two_phase.march_two_phase",
+        "slide table-4.3 --set solve.scheme=two-phase",
+    ),
+    "march, pressed": (
+        "asperity.slider.pressed.march_pressed_stretches",
+        "slide normal-pin --set solve.method=march --set solve.duration='0.15 s' "
+        "--set vibration.start='20 ms'",
+    ),
     "lanes": (
         "asperity.slider.batch_kernels.march_batch",
         "sweep table-4.3 --over vibration.velocity_ratio=1:8:1 --set solve.duration='0.2 s'",

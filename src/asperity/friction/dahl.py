@@ -49,8 +49,13 @@ def relaxation_gain(decay):
     bound the error grows slowly (4e-14 at 1, 2e-10 at 2).
     """
     h = 0.5 * decay
-    tail = _C6 + h * (_C7 + h * (_C8 + h * (_C9 + h * (_C10 + h * _C11))))
-    half = 1.0 + h * (_C1 + h * (_C2 + h * (_C3 + h * (_C4 + h * (_C5 + h * tail)))))
+    # In pairs: a march waits for this, and by Horner's rule it would wait twice as long.
+    h2 = h * h
+    h4 = h2 * h2
+    low = (1.0 + h * _C1) + h2 * (_C2 + h * _C3)
+    middle = (_C4 + h * _C5) + h2 * (_C6 + h * _C7)
+    high = (_C8 + h * _C9) + h2 * (_C10 + h * _C11)
+    half = low + h4 * (middle + h4 * high)
     return half - 0.5 * h * half * half
 
 

@@ -33,8 +33,27 @@ def march_two_phase(
     for nodes the rows are left as they are. ``values`` are the numbers of the nodes, a row each.
     """
     rigid = p.rigid
+    drive = p.drive
+    stiffness = p.stiffness
+    damping = p.damping
+    mobility_x = p.mobility_x
+    mobility_y = p.mobility_y
+    exponent = p.exponent
     recording = nodes.size > 0
     steps = increments.size - 1
+    # In variables, since a step would wait for what the one before it has written.
+    stretch = state.stretch
+    lateral = state.lateral
+    wx = state.velocity_x
+    wy = state.velocity_y
+    sx = state.deflection_x
+    sy = state.deflection_y
+    fx = state.friction_x
+    fy = state.friction_y
+    fd = state.drive_force
+    cos = memory.cos
+    sin = memory.sin
+    base_x = memory.base_x
     for r in range(mean.shape[0]):
         first = first_cycles + r * steps * cycles_per_step
         fill_increments(wave, first, cycles_per_step, increments)
@@ -42,46 +61,50 @@ def march_two_phase(
             u = increments[n]
             ux = p.base_x * u
             uy = p.base_y * u
-            fx = state.friction_x
-            fy = state.friction_y
-            fd = state.drive_force
-            wx = state.velocity_x
+            last_fx = fx
+            last_fy = fy
+            last_fd = fd
             if not rigid:
-                wx += p.mobility_x * (fd - fx)
-            wy = state.velocity_y - p.mobility_y * fy
-            moved = wx if on_body else wx - memory.base_x
-            stretch = state.stretch + p.drive - moved
+                wx += mobility_x * (fd - fx)
+            wy -= mobility_y * fy
+            moved = wx if on_body else wx - base_x
+            stretch = stretch + drive - moved
             if on_body:
                 d1x, d1y, d2y = wx - ux, 0.0, p.own_2 * wy - uy
             else:
                 d1x, d1y, d2y = moved, wy, -uy
             one_sided = first + (n + 1) * cycles_per_step <= 0.0
-            size = state.deflection_x * memory.cos + state.deflection_y * memory.sin
             size, cos, sin = phases(
-                size, memory.cos, memory.sin, d1x, d1y, 0.0, d2y, p.exponent, one_sided
+                sx * cos + sy * sin, cos, sin, d1x, d1y, 0.0, d2y, exponent, one_sided
             )
-            memory.cos = cos
-            memory.sin = sin
-            memory.base_x = ux
+            base_x = ux
             sx = size * cos
             sy = size * sin
-            drag = p.damping * (p.drive - wx)
-            fd1 = sx if rigid else p.stiffness * stretch + drag
+            fx = sx
+            fy = sy
+            drag = damping * (drive - wx)
+            fd = sx if rigid else stiffness * stretch + drag
             slip_x = d1x if on_body else wx - ux
-            add_step(sums, sx, sy, fd1, fx, fy, fd, u, slip_x, d1y + d2y, 1.0, rigid)
+            add_step(
+                sums, fx, fy, fd, last_fx, last_fy, last_fd, u, slip_x, d1y + d2y, 1.0, rigid
+            )
             if not rigid:
-                sums.drag_work += drag * (p.drive - wx)
-            state.deflection_x = sx
-            state.deflection_y = sy
-            state.friction_x = sx
-            state.friction_y = sy
-            state.velocity_x = wx
-            state.velocity_y = wy
-            state.lateral += wy
-            state.stretch = stretch
-            state.drive_force = fd1
+                sums.drag_work += drag * (drive - wx)
+            lateral += wy
             if recording:
-                x = (n + 1) * p.drive - stretch
-                record(nodes[n], sx, sy, fd1, sx, sy, x, state.lateral, wx, wy)
+                x = (n + 1) * drive - stretch
+                record(nodes[n], sx, sy, fd, sx, sy, x, lateral, wx, wy)
         if recording:
             condense(values, mean[r], least[r], greatest[r])
+    state.stretch = stretch
+    state.lateral = lateral
+    state.velocity_x = wx
+    state.velocity_y = wy
+    state.deflection_x = sx
+    state.deflection_y = sy
+    state.friction_x = fx
+    state.friction_y = fy
+    state.drive_force = fd
+    memory.cos = cos
+    memory.sin = sin
+    memory.base_x = base_x

@@ -25,7 +25,7 @@ from asperity.kernels.building.specs import Spec, UnknownTypeError, numba_type, 
 from asperity.kernels.native.target import PLAIN, Target
 
 # Their loops over steps are faster for it and sooner made; a block's take LLVM a third longer.
-_OF_STEPS = "asperity.slider."
+_OF_STEPS = ("asperity.slider.pressed", "asperity.slider.batch")
 
 
 class UnfitError(Exception):
