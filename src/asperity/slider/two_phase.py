@@ -85,9 +85,7 @@ def march_two_phase(
             drag = damping * (drive - wx)
             fd = sx if rigid else stiffness * stretch + drag
             slip_x = d1x if on_body else wx - ux
-            add_step(
-                sums, fx, fy, fd, last_fx, last_fy, last_fd, u, slip_x, d1y + d2y, 1.0, rigid
-            )
+            add_step(sums, fx, fy, fd, last_fx, last_fy, last_fd, u, slip_x, d1y + d2y, 1.0, rigid)
             if not rigid:
                 sums.drag_work += drag * (drive - wx)
             lateral += wy
