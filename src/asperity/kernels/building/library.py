@@ -91,7 +91,7 @@ def build(
 def _said_by_the_compiler() -> Iterator[None]:
     try:
         yield
-    except (OSError, subprocess.CalledProcessError) as error:
+    except (OSError, subprocess.SubprocessError) as error:
         said = str(getattr(error, "stderr", None) or error).strip().splitlines()
         raise NoLibraryError(f"the C compiler does not link: {said[-1]}") from None
 
