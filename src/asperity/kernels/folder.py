@@ -64,9 +64,9 @@ def tell_unkept(trouble: OSError) -> None:
 
 
 def tell(line: str) -> None:
-    """Log a warning, once: what other processes find this one may have found too."""
-    if line not in _TOLD:
-        _TOLD.add(line)
+    """Log a warning, once, in whatever numbers: several processes may find the same."""
+    if (words := re.sub(r"\d+", "", line)) not in _TOLD:
+        _TOLD.add(words)
         _log.warning("%s", line)
 
 

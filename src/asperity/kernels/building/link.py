@@ -143,7 +143,6 @@ def _try(library: Path) -> None:
     """Load a library in a process of its own: a compiler's options may make one that ends it."""
     # It is for processes without what may be loaded before this one.
     environment = {name: os.environ[name] for name in os.environ if name != "LD_PRELOAD"}
-    program = f"import ctypes, sys\nmade = ctypes.CDLL(sys.argv[1])\nmade.{gather.NAME}, made.asperity_release"
     done = subprocess.run(
         [sys.executable, "-I", "-S", "-c", _LOAD, library],
         env=environment,
