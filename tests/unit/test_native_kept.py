@@ -224,6 +224,11 @@ def test_a_process_that_is_stopped_for_a_moment_is_waited_for():
             while os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOWAIT) is None:
                 pass
             assert not any(maker.is_stopped() for _ in range(kept._LOOKS))
+            # More than a pipe holds.
+            asks = threading.Thread(target=maker.ask, args=("0" * 200_000,), daemon=True)
+            asks.start()
+            asks.join(20.0)
+            assert not asks.is_alive()
             process.send_signal(signal.SIGCONT)
             os.waitid(os.P_PID, process.pid, os.WCONTINUED | os.WNOWAIT)
             assert not maker.is_stopped()

@@ -177,6 +177,8 @@ class _Maker:
     def ask(self, line: str) -> None:
         """Tell what is wanted; what it was told before no longer counts."""
         assert self._process.stdin is not None
+        if self._stops:
+            return  # it reads nothing, and a pipe that is full would stop this process too
         with contextlib.suppress(OSError, ValueError):
             self._process.stdin.write(line)
             self._process.stdin.flush()
