@@ -299,6 +299,7 @@ def test_a_cache_that_takes_no_kernels_is_told_of_once(
     monkeypatch, tmp_path, caplog, method, instead, why
 ):
     monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / method))
+    monkeypatch.setattr(kernel_folder, "_TOLD", set())
     monkeypatch.setattr(Path, method, instead)
     assert kernel_folder.kernels() is None
     assert kernel_folder.kernels() is None
@@ -306,3 +307,28 @@ def test_a_cache_that_takes_no_kernels_is_told_of_once(
     assert told.startswith(f"the cache folder {tmp_path / method / 'asperity'} cannot be written ")
     assert f"({why}" in told
     assert "set ASPERITY_CACHE" in told
+
+
+@pytest.mark.parametrize(
+    ("trouble", "lines"),
+    [
+        (OSError(errno.ENOSPC, "No space left on device"), 1),
+        (FileNotFoundError(errno.ENOENT, "removed since"), 0),
+        (pickle.PicklingError(), 0),
+    ],
+    ids=["full", "removed", "not to be written down"],
+)
+def test_a_cache_that_fills_up_is_told_of_by_the_run_that_fills_it(
+    monkeypatch, tmp_path, caplog, trouble, lines
+):
+    def save(*_given):
+        raise trouble
+
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+    monkeypatch.setenv("ASPERITY_NATIVE", "0")
+    monkeypatch.setattr(kernel_folder, "_TOLD", set())
+    monkeypatch.setattr(numba.core.caching.FunctionCache, "save_overload", save)
+    twice = kernel(lambda x: 2 * x)
+    assert [twice(2.0), twice(2)] == [4.0, 4]
+    assert len(caplog.messages) == lines
+    assert not lines or "cannot be written to (no space left on device)" in caplog.text

@@ -1,15 +1,19 @@
 """Entries that other processes make: what is waited for, by whom, and what is not kept."""
 
 import os
+import re
+import signal
 import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import pytest
 
 from asperity.kernels.building import lean, link, making
 from asperity.kernels.native import kept, keys, table
+from asperity.kernels.native import makers as native_makers
 from asperity.kernels.native.entries import Entry, listed, shared_out
 
 
@@ -145,6 +149,94 @@ def test_processes_that_die_of_everything_are_not_begun_for_ever(begun, tmp_path
     assert len(started) < 6
 
 
+SAYS = """
+import sys
+key = input().split()[0]
+print(key, "! the disk is full", "! of process 1", "! of process 2", sep="\\n", flush=True)
+sys.exit({code})
+"""
+
+
+def test_where_nothing_can_be_kept_nobody_waits_and_it_is_told(
+    begun, tmp_path, monkeypatch, caplog
+):
+    programs, started = begun
+    programs += [SAYS.format(code=native_makers.UNWRITABLE)]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept.kernel_folder, "_TOLD", set())
+    makers = kept._Makers(tmp_path)
+    makers.make(listed().entries[:2])
+    makers.make(listed().entries[2:4])
+    assert len(started) == 1
+    # What differs in a number is told once.
+    assert caplog.messages == ["the disk is full", "of process 1"]
+
+
+def test_what_a_process_says_is_not_what_it_is_at(begun, tmp_path, monkeypatch):
+    programs, started = begun
+    programs += [SAYS.format(code=1), MAKES]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    makers = kept._Makers(tmp_path)
+    first, second = listed().entries[:2]
+    makers.make([first])
+    makers.make([second])
+    makers.leave()
+    assert makers._lost == {keys.key(first)}
+    assert started == [SAYS.format(code=1), MAKES]
+
+
+STOPS = """
+import os, signal
+print(input().split()[0], flush=True)
+os.kill(os.getpid(), signal.SIGSTOP)
+"""
+
+
+def test_a_process_that_is_stopped_is_not_waited_for(begun, tmp_path, monkeypatch, caplog):
+    programs, started = begun
+    programs += [STOPS, MAKES]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept, "_REMIND", 0.01)
+    monkeypatch.setattr(kept.kernel_folder, "_TOLD", set())
+    makers = kept._Makers(tmp_path)
+    first = listed().entries[0]
+    thread = threading.Thread(target=makers.make, args=([first],), daemon=True)
+    thread.start()
+    thread.join(60.0)
+    makers.leave()
+    (told,) = caplog.messages
+    os.kill(int(re.match("process ([0-9]+) is at kernels", told)[1]), signal.SIGKILL)
+    assert (tmp_path / keys.key(first)).exists()
+    assert started == [STOPS, MAKES]
+
+
+def test_a_process_that_is_stopped_for_a_moment_is_waited_for():
+    process = subprocess.Popen(
+        [sys.executable, "-S", "-c", "input()"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    maker = kept._Maker(process)
+    try:
+        for _ in range(2):
+            process.send_signal(signal.SIGSTOP)
+            while os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOWAIT) is None:
+                pass
+            assert not any(maker.is_stopped() for _ in range(kept._LOOKS))
+            # More than a pipe holds.
+            asks = threading.Thread(target=maker.ask, args=("0" * 200_000,), daemon=True)
+            asks.start()
+            asks.join(20.0)
+            assert not asks.is_alive()
+            process.send_signal(signal.SIGCONT)
+            os.waitid(os.P_PID, process.pid, os.WCONTINUED | os.WNOWAIT)
+            assert not maker.is_stopped()
+    finally:
+        process.kill()
+        process.communicate()
+
+
 def test_a_process_that_knows_no_such_entry_is_not_begun_again(begun, tmp_path, monkeypatch):
     programs, started = begun
     programs += [LEAVES]
@@ -277,6 +369,75 @@ def test_sources_that_changed_while_it_was_made_leave_nothing(entry, tmp_path, m
     assert keys.stands(entry.module)
 
 
+@pytest.fixture
+def quickly_made(monkeypatch):
+    """Entries cost nothing here."""
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(making, "_support", lambda: b"")
+    monkeypatch.setattr(lean, "make", lambda *_given: lean.Made(b"code", ["d"], (1, 2)))
+    monkeypatch.setattr(link, "linked", lambda *_given: b"linked")
+
+
+def test_what_another_has_made_meanwhile_stands(entry, tmp_path, quickly_made, monkeypatch):
+    """As while this process was stopped."""
+    folder = tmp_path / keys.key(entry)
+
+    def make(*_given):
+        folder.mkdir()
+        link.keep(folder, entry, lean.Made(b"theirs", ["d"], (1, 2)), b"")
+        return lean.Made(b"ours", ["d"], (1, 2))
+
+    monkeypatch.setattr(lean, "make", make)
+    assert making.keep(tmp_path, entry, folder.name, 1)
+    assert link.kept(folder, entry).code == b"theirs"
+    assert [path for path in tmp_path.iterdir() if path.is_dir()] == [folder]
+
+
+def test_what_cannot_be_put_in_its_place_is_trouble(entry, tmp_path, quickly_made, monkeypatch):
+    """Said to be made, it would be asked for again, for ever."""
+
+    def rename(path, other):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "rename", rename)
+    with pytest.raises(OSError, match="No space"):
+        making.keep(tmp_path, entry, keys.key(entry), 1)
+    assert not [path for path in tmp_path.iterdir() if path.is_dir()]
+
+
+FULL = """
+import io, sys
+from asperity.kernels.native import keys
+from asperity.kernels.native.entries import listed
+from asperity.kernels.building import making, worker
+def keep(*given):
+    raise OSError(28, "No space left on device")
+making.keep = keep
+sys.argv = ["worker", ".", "1"]
+wanted = iter([keys.key(listed().entries[0])])
+class Wanted:
+    def listen(self): pass
+    def next(self): return next(wanted)
+worker._Wanted = Wanted
+worker.main()
+"""
+
+
+@pytest.mark.slow
+def test_a_process_that_can_keep_nothing_tells_it(tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-c", FULL],
+        env=os.environ | {"ASPERITY_CACHE": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    key, told = done.stdout.splitlines()
+    assert (done.returncode, key) == (native_makers.UNWRITABLE, keys.key(listed().entries[0]))
+    where = tmp_path / "asperity"
+    assert told.startswith(f"! the cache folder {where} cannot be written to (no space left on dev")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "arguments"),
@@ -358,3 +519,20 @@ def test_of_many_that_are_damaged_one_is_told(tmp_path, monkeypatch, caplog):
     assert len(damaged) == 2
     (told,) = caplog.messages
     assert "is damaged: kernels are compiled instead; it is made anew the next time" in told
+
+
+def test_what_is_of_another_form_does_not_silence_what_is_damaged(tmp_path, monkeypatch, caplog):
+    (first,) = listed().named("asperity.slider.pressed.friction_limit")
+    second = listed().named("asperity.slider.kernels.march_block")[0]
+    monkeypatch.setattr(kept.kernel_folder, "kernels", lambda: tmp_path)
+    for entry in (first, second):
+        folder = tmp_path / keys.key(entry)
+        folder.mkdir(mode=0o700)
+        link.keep(folder, entry, lean.Made(b"code", ["d"], (1, 2)), b"common")
+    rows = table.read(tmp_path / keys.key(first))
+    table.write(tmp_path / keys.key(first), rows | {"format": table.FORMAT + 1})
+    (tmp_path / keys.key(second) / table.LIBRARY).write_bytes(b"damaged")
+    assert kept._obtained(first) is None
+    assert not caplog.messages
+    assert kept._obtained(second) is None
+    assert "is damaged" in caplog.text

@@ -6,6 +6,7 @@ import sys
 import textwrap
 
 import pytest
+from apparatus.native_library import object_files
 
 from asperity.kernels.building import lean, library, link, making
 from asperity.kernels.building.compiler import compiler, hindrance
@@ -213,6 +214,85 @@ def test_where_there_is_nothing_to_link_or_to_link_with_it_is_told(
 def test_another_platform_is_told(monkeypatch):
     monkeypatch.setattr("asperity.kernels.building.compiler.platform_name", lambda: "arm64-darwin")
     assert hindrance() == "it is made for x86_64-linux only, not for arm64-darwin"
+
+
+@pytest.fixture
+def objects(tmp_path, monkeypatch):
+    """Contents of object files that a library is linked of; no compiler is known yet."""
+    monkeypatch.setattr(link, "_LOADS", set())
+    return [path.read_bytes() for path in object_files(tmp_path)]
+
+
+ENDS = "#include <unistd.h>\n__attribute__((constructor)) static void end(void) { _exit(7); }\n"
+
+
+@needs_compiler
+def test_a_library_that_would_end_who_loads_it_is_none(objects, entry, tmp_path, monkeypatch):
+    """As one does whose compiler was told to add what must be loaded before anything else."""
+    (tmp_path / "ends.c").write_text(ENDS, "utf-8")
+    monkeypatch.setenv("CC", f"{compiler()[0]} -fPIC {tmp_path / 'ends.c'}")
+    with pytest.raises(OSError, match=r"does not load: it ends a process \(7\)"):
+        link.linked(objects)
+    folder = tmp_path / "kept"
+    folder.mkdir()
+    link.keep(folder, entry, lean.Made(objects[1], ["d"], (1, 2)), objects[0])
+    assert not (folder / table.LIBRARY).exists()
+    assert [(folder / name).read_bytes() for name in table.OBJECTS] == objects[::-1]
+
+
+@needs_compiler
+def test_a_library_of_something_else_is_none(objects, tmp_path, monkeypatch):
+    (tmp_path / "other.c").write_text("int other(void) { return 1; }\n", "utf-8")
+    script = tmp_path / "script"
+    script.write_text(
+        f'#!/bin/sh\nexec {compiler()[0]} -shared -fPIC -o "$4" {tmp_path / "other.c"}\n', "utf-8"
+    )
+    script.chmod(0o700)
+    monkeypatch.setenv("CC", str(script))
+    with pytest.raises(OSError, match=r"does not load: .*asperity_gather"):
+        link.linked(objects)
+
+
+@needs_compiler
+def test_a_compiler_is_tried_once_with_each_of_its_options(objects, monkeypatch):
+    tried = []
+    monkeypatch.setattr(link, "_try", tried.append)
+    words = compiler()[0]
+    for options in ("", "-O1", "-O1", ""):
+        monkeypatch.setenv("CC", f"{words} {options}")
+        link.linked(objects)
+    assert len(tried) == 2
+
+
+PASSES = """
+import sys
+from pathlib import Path
+from asperity.kernels.building import library, making
+from asperity.kernels.native.entries import listed
+library._PATIENCE = 0.01
+asked = []
+def keep(kernels, entry, key, processes):
+    asked.append(entry.number)
+    return entry.number == 1 or len(asked) > 3
+making.keep = keep
+library._make(Path(sys.argv[1]), listed().entries[:2], 1)
+"""
+
+
+def test_a_process_of_a_build_looks_on_while_others_are_at_what_is_left(tmp_path):
+    """One that began anew each time would never see that they have stood still."""
+    done = subprocess.Popen(
+        [sys.executable, "-c", PASSES, str(tmp_path)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        told = [line.strip() for line in done.stdout]
+    finally:
+        done.kill()
+        done.communicate()
+    assert told == ["at 0", "passed 0", "at 1", "done 1", "at 0", "passed 0", "at 0", "done 0"]
 
 
 def test_a_compiler_that_is_misquoted_is_none(monkeypatch):

@@ -127,6 +127,14 @@ def test_a_library_without_its_table_is_told(made, caplog):
     assert told.startswith(f"{made / table.TABLE} is missing: kernels are compiled instead")
 
 
+def test_a_table_that_cannot_be_read_is_told(made, caplog):
+    (made / table.TABLE).unlink()
+    (made / table.TABLE).mkdir()
+    assert answer() is None
+    told = f"{made / table.TABLE} cannot be read (is a directory): kernels are compiled instead; "
+    assert caplog.messages == [f"{told}install asperity anew"]
+
+
 def test_where_nothing_was_made_nothing_is_said(made, caplog):
     for file in (table.LIBRARY, table.TABLE):
         (made / file).unlink(missing_ok=True)

@@ -19,6 +19,8 @@ from asperity.files.store import reason
 _KEPT_DAYS = 30
 _INSTEAD = "kernels are compiled anew"
 
+_TOLD: set[str] = set()
+
 _log = logging.getLogger(__name__)
 
 
@@ -36,12 +38,7 @@ def _kernels(base: str | None, xdg: str | None) -> Path | None:
     try:
         folder = made_folder("kernels")
     except (OSError, ValueError) as trouble:
-        why = reason(trouble) if isinstance(trouble, OSError) else str(trouble)
-        _log.warning(
-            "the cache folder %s cannot be written to (%s): kernels are compiled anew by each run; "
-            "set ASPERITY_CACHE to a folder that can",
-            cache_root() or "~/.cache", why,
-        )  # fmt: skip
+        tell_unwritable(trouble)
         return None
     if not is_ours_alone(folder, _INSTEAD):
         return None
@@ -49,6 +46,28 @@ def _kernels(base: str | None, xdg: str | None) -> Path | None:
         _remove_old(folder)
     # A process that makes something may outlive a link to the folder.
     return folder.resolve()
+
+
+def tell_unwritable(trouble: OSError | ValueError) -> None:
+    """Log that nothing can be written to the folder, once."""
+    why = reason(trouble) if isinstance(trouble, OSError) else str(trouble)
+    tell(
+        f"the cache folder {cache_root() or '~/.cache'} cannot be written to ({why}): kernels are "
+        "compiled anew by each run; set ASPERITY_CACHE to a folder that can"
+    )
+
+
+def tell_unkept(trouble: OSError) -> None:
+    """Log that something cannot be kept, once; not where the folder was removed since."""
+    if not isinstance(trouble, FileNotFoundError):
+        tell_unwritable(trouble)
+
+
+def tell(line: str) -> None:
+    """Log a warning, once, in whatever numbers: several processes may find the same."""
+    if (words := re.sub(r"\d+", "", line)) not in _TOLD:
+        _TOLD.add(words)
+        _log.warning("%s", line)
 
 
 def is_kept(folder: Path) -> bool:

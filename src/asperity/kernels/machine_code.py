@@ -11,7 +11,7 @@ import numba
 from numba.core import caching
 from numba.core.runtime import rtsys
 
-from asperity.kernels.folder import is_kept, kernels
+from asperity.kernels.folder import is_kept, kernels, tell_unkept
 
 _DIGEST_BYTES = 32
 
@@ -40,7 +40,8 @@ def _kernel_folder(key: str) -> Path | None:
     made = folder / key
     try:
         made.mkdir(mode=0o700, exist_ok=True)
-    except OSError:
+    except OSError as trouble:
+        tell_unkept(trouble)
         return None
     return made if is_kept(made) else None
 
@@ -102,10 +103,14 @@ class _ForgivingCache(caching.FunctionCache):
             return None
 
     def save_overload(self, sig: object, data: object) -> None:
-        with contextlib.suppress(OSError, EOFError, pickle.PickleError):
+        try:
             # Where it has been removed since, Numba would make one that others may write to.
             Path(self._cache_path).mkdir(mode=0o700, exist_ok=True)
             super().save_overload(sig, data)
+        except (EOFError, pickle.PickleError):
+            pass
+        except OSError as trouble:
+            tell_unkept(trouble)
 
 
 @contextlib.contextmanager

@@ -91,7 +91,7 @@ def build(
 def _said_by_the_compiler() -> Iterator[None]:
     try:
         yield
-    except (OSError, subprocess.CalledProcessError) as error:
+    except (OSError, subprocess.SubprocessError) as error:
         said = str(getattr(error, "stderr", None) or error).strip().splitlines()
         raise NoLibraryError(f"the C compiler does not link: {said[-1]}") from None
 
@@ -165,7 +165,7 @@ class _Makers:
                     at = int(told) if word == "at" else None
                     if at is not None:
                         self._begun.add(at)
-                    else:
+                    elif word == "done":
                         self._settle(int(told), reason)
                         settled += 1
         with self._lock:
@@ -197,7 +197,7 @@ def _command(kernels: Path, processes: int, numbers: Sequence[int]) -> list[str]
 
 
 def _make(kernels: Path, entries: Iterable[Entry], processes: int) -> None:
-    """Make entries and tell of each: that it begins, and how it ended or nothing."""
+    """Make entries and tell of each: that it begins, and how it ended or that another is at it."""
     without_settings()
     from asperity.kernels.building import making
 
@@ -205,18 +205,25 @@ def _make(kernels: Path, entries: Iterable[Entry], processes: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_input, daemon=True).start()
     # Of all, before a kernel is imported: sources may change while this process lives.
-    for entry, key in [(entry, keys.key(entry)) for entry in entries]:
-        print(f"at {entry.number} ", flush=True)
-        reason = ""
-        try:
-            if not making.keep(kernels, entry, key, processes):
-                continue
-        except Exception as error:
-            reason = f"{type(error).__name__}: {error}"
-        unfit = kernels / key / UNFIT
-        if unfit.exists():
-            reason = unfit.read_text("utf-8").partition(": ")[2]
-        print(f"done {entry.number} {' '.join(reason.split())}", flush=True)
+    waiting = [(entry, keys.key(entry)) for entry in entries]
+    while waiting:
+        left = []
+        for entry, key in waiting:
+            print(f"at {entry.number} ", flush=True)
+            reason = ""
+            try:
+                if not making.keep(kernels, entry, key, processes):
+                    left.append((entry, key))
+                    print(f"passed {entry.number} ", flush=True)
+                    continue
+            except Exception as error:
+                reason = f"{type(error).__name__}: {error}"
+            unfit = kernels / key / UNFIT
+            if unfit.exists():
+                reason = unfit.read_text("utf-8").partition(": ")[2]
+            print(f"done {entry.number} {' '.join(reason.split())}", flush=True)
+        if waiting := left:
+            time.sleep(_PATIENCE)  # only who lives on sees whether others do
 
 
 def _end_with_input() -> None:

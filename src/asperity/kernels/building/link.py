@@ -2,7 +2,9 @@
 
 import hashlib
 import json
+import os
 import subprocess
+import sys
 import tempfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -13,6 +15,15 @@ from asperity.kernels.building.compiler import compiler
 from asperity.kernels.native import gather, keys, table
 from asperity.kernels.native.entries import Entry
 from asperity.kernels.native.target import FEATURES, platform_name
+
+_LOAD = (
+    "import ctypes, sys; made = ctypes.CDLL(sys.argv[1]); "
+    f"made.{gather.NAME}, made.asperity_release"
+)
+_LOADS: set[tuple[str, ...]] = set()
+"""Compilers that this process has seen to link what loads."""
+
+_TIMEOUT = 60.0  # s
 
 
 def support() -> bytes:
@@ -40,8 +51,8 @@ def write(folder: Path, made: Sequence[tuple[Entry, lean.Made]], common: bytes) 
 
     Raises
     ------
-    OSError, subprocess.CalledProcessError
-        Nothing links.
+    OSError, subprocess.SubprocessError
+        Nothing links, or what is linked does not load.
     """
     held = linked([*(one.code for _, one in made), common])
     (folder / table.LIBRARY).write_bytes(held)
@@ -68,11 +79,12 @@ def keep(folder: Path, entry: Entry, made: lean.Made, common: bytes) -> None:
     code.write_bytes(made.code)
     try:
         held = linked([made.code, common])
-        (folder / table.LIBRARY).write_bytes(held)
-    except (OSError, subprocess.CalledProcessError):
-        # There is no compiler, or it lacks what it links with.
+    except (OSError, subprocess.SubprocessError):
+        # There is no compiler, or it lacks what it links with, or links something else.
         other.write_bytes(common)
         held = made.code + common
+    else:
+        (folder / table.LIBRARY).write_bytes(held)
     of_object = {"object": hashlib.sha256(made.code).hexdigest()}
     table.write(folder, _table([(entry, made)], held) | of_object)
 
@@ -102,8 +114,8 @@ def linked(objects: Iterable[bytes]) -> bytes:
 
     Raises
     ------
-    OSError, subprocess.CalledProcessError
-        Nothing links.
+    OSError, subprocess.SubprocessError
+        Nothing links, or what is linked does not load.
     """
     words = compiler()
     if words is None:
@@ -121,7 +133,28 @@ def linked(objects: Iterable[bytes]) -> bytes:
             capture_output=True,
             text=True,
         )
+        if (*words,) not in _LOADS:
+            _try(library)
+            _LOADS.add((*words,))
         return library.read_bytes()
+
+
+def _try(library: Path) -> None:
+    """Load a library in a process of its own: a compiler's options may make one that ends it."""
+    # It is for processes without what may be loaded before this one.
+    environment = {name: os.environ[name] for name in os.environ if name != "LD_PRELOAD"}
+    done = subprocess.run(
+        [sys.executable, "-I", "-S", "-c", _LOAD, library],
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=_TIMEOUT,
+        check=False,
+    )
+    if done.returncode:
+        said = done.stderr.strip().splitlines() or [f"it ends a process ({done.returncode})"]
+        raise OSError(f"what it links does not load: {said[-1]}")
 
 
 def _table(made: Sequence[tuple[Entry, lean.Made]], held: bytes) -> dict[str, Any]:

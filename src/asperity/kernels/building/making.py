@@ -1,22 +1,17 @@
 """One entry of the list, made and kept in the user's cache, by one process at a time."""
 
-import contextlib
 import functools
 import importlib
-import os
 import secrets
 import shutil
 import subprocess
-import time
-from collections.abc import Iterator
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
+from asperity.kernels.building import turns
 from asperity.kernels.native import keys
 from asperity.kernels.native.entries import Entry
 from asperity.kernels.native.kept import UNFIT
-
-_PATIENCE = 0.05
 
 
 class ChangedError(Exception):
@@ -44,11 +39,11 @@ def keep(kernels: Path, entry: Entry, key: str, processes: int) -> bool:
     """
     if keys.key(entry) != key:
         raise ChangedError(entry.name)
-    with _held(kernels / f"{key}.lock") as ours:
+    with turns.entry(kernels, key) as ours:
         if not ours:
             return False
         if not _is_whole(kernels / key, entry):
-            with _turn(kernels, processes):
+            with turns.turn(kernels, processes):
                 _make(kernels, key, entry)
         return True
 
@@ -84,10 +79,15 @@ def _make(kernels: Path, key: str, entry: Entry) -> None:
         # What was imported is what the key tells of where it stands there before and after.
         if not keys.stands(entry.module):
             raise ChangedError(entry.name)
-        with contextlib.suppress(OSError):
+        if _is_whole(kernels / key, entry):
+            return  # by another process, while this one was stopped
+        try:
             if (kernels / key).exists():
                 (kernels / key).rename(before)
             new.rename(kernels / key)
+        except OSError:
+            if not (kernels / key).exists():
+                raise
     finally:
         shutil.rmtree(before, ignore_errors=True)
         shutil.rmtree(new, ignore_errors=True)
@@ -106,46 +106,3 @@ def _support() -> bytes:
     from asperity.kernels.building import link
 
     return link.support()
-
-
-@contextlib.contextmanager
-def _held(path: Path) -> Iterator[bool]:
-    """Hold a file alone, and remove it at the end; False where another process holds it."""
-    file = _locked(path)
-    try:
-        yield file is not None
-    finally:
-        if file is not None:
-            # Who opened it before looks whether it stands once they hold it.
-            path.unlink(missing_ok=True)
-            file.close()
-
-
-@contextlib.contextmanager
-def _turn(kernels: Path, processes: int) -> Iterator[None]:
-    """Wait until fewer than so many processes make something."""
-    while True:
-        for number in range(processes):
-            file = _locked(kernels / f"maker-{number}.lock")
-            if file is not None:
-                with file:
-                    yield
-                return
-        time.sleep(_PATIENCE)
-
-
-def _locked(path: Path) -> IO[str] | None:
-    import fcntl
-
-    while True:
-        file = path.open("a", encoding="utf-8")
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            if os.path.samestat(path.stat(), os.fstat(file.fileno())):
-                return file
-        except BlockingIOError:
-            file.close()
-            return None
-        except FileNotFoundError:
-            pass
-        file.close()

@@ -1,13 +1,15 @@
 """Makes entries for another process: ``python -m asperity.kernels.building.worker FOLDER N``.
 
 Each line of its input tells entries of the list by their keys, the next wanted first; the last line
-counts. It answers with the key that it begins with, and with an empty line when that is done. It
-ends with its input, when what it is at is done and kept, or when nothing was asked for long; and
-where a key is none of those that follow from the sources as they stand here.
+counts. It answers with the key that it begins with, and with an empty line when that is done; what
+it says for the user has a mark before it. It ends with its input, when what it is at is done and
+kept, or when nothing was asked for long; where nothing can be kept; and where a key is none of
+those that follow from the sources as they stand here.
 """
 
 import contextlib
 import gc
+import logging
 import os
 import signal
 import sys
@@ -15,6 +17,7 @@ import threading
 from pathlib import Path
 
 from asperity.kernels.building.compiler import without_settings
+from asperity.kernels.native.makers import TOLD, UNWRITABLE
 
 _IDLE = 30.0  # s
 
@@ -53,12 +56,14 @@ def main() -> None:
     # Numba makes millions of objects that stay; looking through them is a tenth of the time, and
     # most entries are made before it begins.
     gc.set_threshold(1_000_000, 20, 20)
+    logging.getLogger("asperity").addHandler(_ForWhoWaits(logging.WARNING))
     folder, processes = Path(sys.argv[1]), int(sys.argv[2])
     wanted = _Wanted()
     threading.Thread(target=wanted.listen, daemon=True).start()
 
     from numba.np import linalg
 
+    from asperity.kernels import folder as kernel_folder
     from asperity.kernels.building import making
     from asperity.kernels.native import keys
     from asperity.kernels.native.entries import listed
@@ -71,8 +76,19 @@ def main() -> None:
         if key not in entries:
             raise making.ChangedError(key)
         _say(key)
-        making.keep(folder, entries[key], key, processes)
+        try:
+            making.keep(folder, entries[key], key, processes)
+        except OSError as trouble:
+            kernel_folder.tell_unkept(trouble)
+            sys.exit(UNWRITABLE)
         _say("")
+
+
+class _ForWhoWaits(logging.Handler):
+    """Lets who asked say what the user is to know."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        _say(TOLD + " ".join(record.getMessage().splitlines()))
 
 
 def _no_blas() -> None:

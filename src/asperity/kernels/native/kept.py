@@ -7,6 +7,7 @@ as soon as it is called for, with what is likely to be called for next made besi
 import atexit
 import contextlib
 import functools
+import os
 import shutil
 import subprocess
 import threading
@@ -29,6 +30,8 @@ UNFIT = "unfit"
 
 _PATIENCE = 0.01
 _REMIND = 1.0
+_LOOKS = 10
+"""A process that is stopped at so many reminders in turn is not waited for."""
 
 Native = Callable[[tuple[Any, ...]], Any]
 
@@ -133,10 +136,15 @@ def _obtained(entry: Entry) -> load.Library | None:
     files = [folder / table.LIBRARY]
     if not files[0].exists():
         files = [folder / name for name in table.OBJECTS]
-    # What is wrong with one may be with many: one line is enough.
-    rows = load.checked(folder, files, remedy, tells=kernels not in _TOLD)
-    if rows is None:
+    try:
+        rows = load.checked(folder, files)
+    except table.DamagedError as trouble:
+        # What is wrong with one may be with many: one line is enough.
+        if kernels not in _TOLD:
+            load.tell(trouble, remedy)
         _TOLD.add(kernels)
+        rows = None
+    if rows is None:
         shutil.rmtree(folder, ignore_errors=True)
         return None
     if len(files) == 1:
@@ -155,10 +163,22 @@ class _Maker:
 
     def __init__(self, process: subprocess.Popen[str]) -> None:
         self._process = process
+        self._at = ""
+        self._rest = b""
+        self._stops = 0
+        assert process.stdout is not None
+        os.set_blocking(process.stdout.fileno(), False)
+
+    @property
+    def number(self) -> int:
+        """Its number, as the system has it."""
+        return self._process.pid
 
     def ask(self, line: str) -> None:
         """Tell what is wanted; what it was told before no longer counts."""
         assert self._process.stdin is not None
+        if self._stops:
+            return  # it reads nothing, and a pipe that is full would stop this process too
         with contextlib.suppress(OSError, ValueError):
             self._process.stdin.write(line)
             self._process.stdin.flush()
@@ -168,9 +188,30 @@ class _Maker:
         code = self._process.poll()
         if code is None:
             return None
-        said = self._process.stdout.read() if self._process.stdout is not None else ""
+        self.listen()
         self._close()
-        return code, said.rpartition("\n")[0].rpartition("\n")[2]
+        return code, self._at
+
+    def listen(self) -> None:
+        """Note what it is at, and pass on what it says for the user."""
+        assert self._process.stdout is not None
+        with contextlib.suppress(BlockingIOError, ValueError):
+            while said := os.read(self._process.stdout.fileno(), 1 << 16):
+                self._rest += said
+        *lines, self._rest = self._rest.split(b"\n")
+        for line in (each.decode("utf-8", "replace") for each in lines):
+            if line.startswith(makers.TOLD):
+                kernel_folder.tell(line.removeprefix(makers.TOLD))
+            else:
+                self._at = line
+
+    def is_stopped(self) -> bool:
+        """Return whether it was stopped each time that this was asked, for long."""
+        flags = os.WSTOPPED | os.WNOHANG | os.WNOWAIT
+        with contextlib.suppress(OSError):
+            is_so = os.waitid(os.P_PID, self.number, flags) is not None
+            self._stops = self._stops + 1 if is_so else 0
+        return self._stops > _LOOKS
 
     def leave(self) -> None:
         """Let it end by itself, after what it is at."""
@@ -200,6 +241,7 @@ class _Makers:
         self._deaths = 0
         self._begins = True
         self._reminded = -_REMIND
+        self._looked = time.monotonic()
         self._lock = threading.Lock()
 
     def make(self, entries: Sequence[Entry]) -> None:
@@ -229,11 +271,21 @@ class _Makers:
                     self._waited_for.remove(entry)
 
     def _look(self) -> None:
+        is_time = time.monotonic() - self._looked > _REMIND
+        if is_time:
+            self._looked = time.monotonic()
         for each in list(self._running):
             if (ended := each.ended()) is None:
+                if is_time:
+                    self._hear(each)
                 continue
             self._running.remove(each)
             code, key = ended
+            if code == makers.UNWRITABLE:
+                # Nor can the others keep anything.
+                self._begins = False
+                self.leave()
+                return
             if key:
                 self._lost.add(key)
                 self._deaths += 1
@@ -241,6 +293,16 @@ class _Makers:
             elif code:
                 # It cannot be begun, or the sources are others by now.
                 self._begins = False
+
+    def _hear(self, maker: _Maker) -> None:
+        """Pass on what a process says, and wait no longer for one that is stopped."""
+        maker.listen()
+        if maker.is_stopped():
+            kernel_folder.tell(makers.stopped(maker.number))
+            self._running.remove(maker)
+            maker.leave()
+            self._deaths += 1
+            self._reminded = -_REMIND
 
     def _tell(self) -> None:
         wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED, makers.WORDS)])

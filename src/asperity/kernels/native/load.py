@@ -71,27 +71,32 @@ class Library:
         return self._caller.entry(name, fitting)
 
 
-def from_folder(folder: Path, remedy: str = "install asperity anew") -> Library | None:
+def from_folder(folder: Path) -> Library | None:
     """Return the library of a folder; None where it has none for this machine.
 
-    Whether somebody else may have written it is not asked.
+    Whether somebody else may have written it is not asked. Where it is damaged it is told.
 
     Parameters
     ----------
     folder : path
         Where the library and its table stand.
-    remedy : str
-        What is to be done, or is, where it is damaged.
     """
     file = folder / table.LIBRARY
-    rows = checked(folder, [file], remedy)
+    try:
+        rows = checked(folder, [file])
+    except table.DamagedError as trouble:
+        tell(trouble, "install asperity anew")
+        return None
     return None if rows is None else opened(rows, file)
 
 
-def checked(
-    folder: Path, files: Sequence[Path], remedy: str, *, tells: bool = True
-) -> dict[str, Any] | None:
-    """Return the table of a folder; None where it is not for this machine, or a file is damaged.
+def tell(trouble: table.DamagedError, remedy: str) -> None:
+    """Log that something is damaged, and what is to be done, or is."""
+    _log.warning("%s: kernels are compiled instead; %s", trouble, remedy)
+
+
+def checked(folder: Path, files: Sequence[Path]) -> dict[str, Any] | None:
+    """Return the table of a folder; None where it has none for this machine.
 
     Parameters
     ----------
@@ -99,12 +104,12 @@ def checked(
         Where the table stands.
     files : sequence of path
         What the table tells the digest of.
-    remedy : str
-        What is to be done, or is, where one is damaged.
-    tells : bool
-        Whether that is logged.
+
+    Raises
+    ------
+    DamagedError
+        One of them, or the table, is not what was written, or cannot be read.
     """
-    level = logging.WARNING if tells else logging.DEBUG
     try:
         rows = table.read(folder)
         if rows is None and files[0].exists() and not (folder / table.TABLE).exists():
@@ -114,14 +119,9 @@ def checked(
         held = b"".join(file.read_bytes() for file in files)
         if hashlib.sha256(held).hexdigest() != rows["library"]:
             raise table.DamagedError(f"{files[0]} is damaged")
-    except table.DamagedError as trouble:
-        _log.log(level, "%s: kernels are compiled instead; %s", trouble, remedy)
-        return None
     except OSError as trouble:
         where = trouble.filename or files[0]
-        told = f"{where} cannot be read ({reason(trouble)})"
-        _log.log(level, "%s: kernels are compiled instead; %s", told, remedy)
-        return None
+        raise table.DamagedError(f"{where} cannot be read ({reason(trouble)})") from trouble
     return rows
 
 

@@ -12,6 +12,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from asperity import exit_codes
 from asperity.files.folders import cache_root
 from asperity.kernels.native.target import platform_name
 
@@ -25,6 +26,12 @@ _MEMORY = 1 << 30
 _SHIPPED = Path(__file__).parent / "made"
 
 _EARLY: list[tuple[Path, subprocess.Popen[str]]] = []
+
+UNWRITABLE = exit_codes.BAD_INPUT
+"""With this such a process ends where nothing can be kept; it has told why."""
+
+TOLD = "! "
+"""Before what it says for the user; the rest tells what it is at."""
 
 WORDS: list[str] = []
 """The command line that this process was begun with; empty where there is none."""
@@ -95,6 +102,15 @@ def _new(kernels: Path) -> subprocess.Popen[str]:
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
+    )
+
+
+def stopped(process: int) -> str:
+    """Return the line about a process that makes entries and shows no life."""
+    return (
+        f"process {process} is at kernels that are wanted here and has stood still for 10 s: they "
+        f"are compiled without it; let it go on (fg, or kill -CONT {process}) or end it (kill -9 "
+        f"{process})"
     )
 
 

@@ -34,10 +34,12 @@ def read(folder: Path) -> dict[str, Any] | None:
     ------
     DamagedError
         It is not what was written.
+    OSError
+        It cannot be read.
     """
     try:
         digest, _, text = (folder / TABLE).read_bytes().partition(b"\n")
-    except OSError:
+    except FileNotFoundError:
         return None
     if hashlib.sha256(text).hexdigest().encode() != digest:
         raise DamagedError(f"{folder / TABLE} is damaged")
