@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.slider.at_limit import comes_to_its_limit
 from asperity.slider.cycle_map import UNSTABLE, Cycle, lasts
 from asperity.slider.model import Model
 from asperity.slider.ringing import ringing_time
@@ -150,12 +151,13 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     body = Cycle(askew, (len(cycle.increments) - 1) // cycle.period, cycle.step)
     if body.body.p.rigid:
         body.body.state["velocity_x"] = body.body.p.drive
+    limit = cycle.at_the_limit or comes_to_its_limit(model, cycle.body.sums)
     mean, before, fades = 0.0, 0.0, _GONE * ringing_time(model) * model.frequency
     for n, cycles in enumerate(_CYCLES):
         before = mean
         last_cycles, mean, least = _marched(body, cycles + (0 if n else math.ceil(loading)))
         last = float(np.mean(last_cycles))
-        if cycle.at_the_limit and _at_the_limit(body, cycle, least):
+        if limit and _at_the_limit(body, cycle, least):
             return None
         if not cycle.at_the_limit and max(abs(mean - there), abs(last - there)) <= _COME:
             return None
