@@ -13,6 +13,7 @@ from asperity.slider.from_rest import (
     from_rest,
     may_bounce_otherwise,
     ratio_of,
+    shaken_how,
     sticks_from_rest,
     takes_too_long,
 )
@@ -164,8 +165,8 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
         left = "friction at its limit" if cycle.at_the_limit else "a state"
         notes = (
             f"{left}, with the ratio {ratio_of(cycle):.5g}, repeats itself as well: which state a "
-            "body is in follows from where it comes from, shown is the one from rest, shaken at "
-            "once",
+            "body is in follows from where it comes from, shown is the one from "
+            f"rest{shaken_how(model)}",
         )
         cycle, growth = other.state, other.growth
     elif other is not None:
