@@ -143,7 +143,7 @@ def test_a_life_that_takes_the_place_of_a_duty_cycle_is_told_once(asperity):
 @pytest.mark.parametrize(
     ("given", "option", "gives"),
     [
-        ("output_torque", ("--output-power", "1 kW"), True),
+        ("output_torque", ("--input-power", "1 kW"), True),
         ("input_power", ("--output-torque", "80 N m"), True),
         ("output_torque", ("--output-torque", "80 N m"), False),
     ],
