@@ -140,6 +140,28 @@ def test_a_life_that_takes_the_place_of_a_duty_cycle_is_told_once(asperity):
         assert errors.count(told) == 1, command
 
 
+@pytest.mark.parametrize(
+    ("given", "option", "gives"),
+    [
+        ("output_torque", ("--input-power", "1 kW"), True),
+        ("input_power", ("--output-torque", "80 N m"), True),
+        ("output_torque", ("--output-torque", "80 N m"), False),
+    ],
+)
+def test_so_is_a_load_that_an_option_of_size_gives_in_another_form(
+    asperity, tmp_path, given, option, gives
+):
+    values = {"output_torque": "100 N m", "input_power": "1.1 kW"}
+    loaded = f'worm_speed = "1440 rpm"\n{given} = "{values[given]}"'
+    (tmp_path / "own.toml").write_text(f"[operation]\n{loaded}\n")
+    command = ("size", "own.toml", "--ratio", "20", "--uncut", *option)
+    code, _, errors = asperity(*command, cwd=tmp_path)
+    assert code == 0, errors
+    told = f"{' '.join(option)} takes the place of operation.{given}, which own.toml gives"
+    assert errors.count(told) == gives
+    assert ("takes the place" in errors) == gives
+
+
 def test_so_is_an_axis_which_the_report_of_a_grid_shows_as_such(asperity, tmp_path):
     over = "vibration.velocity_amplitude=1,2 mm/s"
     code, _, errors = asperity(

@@ -12,6 +12,8 @@ import pytest
 from apparatus.browser import Seen, answered, copied, settled, shown, tab_to, violations
 from playwright.sync_api import expect
 
+from asperity.files.shipped import shipped_cases
+
 LONGEST = 240_000
 """How long a job may take whose kernels are not compiled yet, ms."""
 
@@ -69,6 +71,21 @@ def test_the_three_standards_are_those_of_the_command_line(gear, server):
     holds = [safety["holds"] for safety in answer["verdict"]["safeties"]]
     expect(verdict.get_by_role("cell", name="✓ holds")).to_have_count(sum(holds))
     expect(verdict.get_by_role("cell", name="✗ fails")).to_have_count(len(holds) - sum(holds))
+
+
+def test_where_the_load_drives_throughout_the_table_has_its_efficiency_and_losses(seen, server):
+    duty = 'duty_cycle = "1 h, 60 N m, load drives; 2 h, 50 N m, load drives"'
+    text = shipped_cases()["gearset-3"].read_text("utf-8")
+    text = re.sub(r"(?m)^wheel_revolutions.*$", duty, text)
+    (server.folder / "lowered.toml").write_text(text, "utf-8")
+    page = seen.open("gear", case="lowered")
+    expect(page.get_by_role("heading", name="By three standards")).to_be_visible()
+    table = page.get_by_role("region", name="three standards")
+    expect(table.get_by_text("efficiency of the gearbox, wheel driving")).to_be_visible()
+    for key in ("eta_ges2_1", "loss_meshing_back_W", "output_power_W"):
+        expect(table.locator(f'[data-key="iso14521.{key}"]')).to_have_count(1)
+    for key in ("eta_ges", "loss_meshing_W", "input_power_W"):
+        expect(table.locator(f'[data-key="iso14521.{key}"]')).to_have_count(0)
 
 
 def test_a_bar_that_is_tried_gives_the_efficiency_it_promised(gear, server):

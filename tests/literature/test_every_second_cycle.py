@@ -168,6 +168,25 @@ def test_a_contact_bounces_in_every_second_cycle_where_that_of_a_body_from_rest_
     assert alone.ratio > state.ratio + 0.1
 
 
+@pytest.mark.parametrize(
+    ("ramp", "period"), [(0.0, 2), (0.01, 1), pytest.param(0.1, 1, marks=pytest.mark.slow)]
+)
+def test_where_the_vibration_grows_slowly_a_body_from_rest_comes_to_the_small_motion(ramp, period):
+    """The large one is there at once or not at all."""
+    settings = "vibration.velocity_ratio=18.3", f"vibration.ramp={ramp} s"
+    marched, state = (
+        solve(Model.from_case(read_case("pin-on-disc", TABLES, (*settings, method))), history=False)
+        for method in (f"solve.duration={ramp + 0.5} s", "solve.method=periodic")
+    )
+    assert state.settled
+    assert state.normal.period == period
+    assert state.ratio == pytest.approx(marched.ratio, abs=5e-4)
+    spared = "vibration.velocity_ratio=18.3", "solve.method=periodic", "vibration.ramp=1e4 s"
+    told = Model.from_case(read_case("pin-on-disc", TABLES, (*spared, "vibration.start=1 s")))
+    (note,) = solve(told, history=False).notes
+    assert note.endswith("the one from rest, without its vibration.start and vibration.ramp")
+
+
 @pytest.mark.slow
 def test_a_state_of_four_cycles_to_which_no_body_from_rest_comes_has_not_settled(body):
     state = solve(body(FALLING, "solve.method=periodic"), history=False)

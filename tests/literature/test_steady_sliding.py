@@ -6,12 +6,14 @@ Coulomb and Dahl: :math:`\mu F_N`; LuGre (Canudas de Wit et al. 1995):
 
 import math
 
+import numpy as np
 import pytest
 from apparatus.grid import grid, slow
 from apparatus.stribeck import SLOW
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
+from asperity.slider.cycle_map import Cycle
 
 DRIVES = {
     "rigid": (),
@@ -92,6 +94,41 @@ def test_asperities_that_fade_by_a_power_of_the_time_make_no_state_one_of_many(r
     ringing = shaken(6.0, *settings, "normal.damping_ratio=0")
     assert not ringing.settled
     assert "one of many" in ringing.settled_by
+
+
+@pytest.mark.parametrize("exponent", [5, slow(7), 10])
+@pytest.mark.parametrize("ratio", [0.0, slow(1e-3), 1e-2])
+def test_nor_do_those_whose_power_is_too_slow_to_be_followed(ratio, exponent):
+    settings = (
+        *LAWS["curved"], f"friction.exponent={exponent}", *WAYS["up"], "solve.method=periodic",
+        "slider.drive_damping=40 N s/m",
+    )  # fmt: skip
+    state = shaken(ratio, *settings)
+    assert state.settled
+    assert state.ratio == pytest.approx(1.0, abs=2e-4)
+    # Of a contact that nothing damps it says nothing.
+    assert not shaken(6.0, *settings, "normal.damping_ratio=0").settled
+
+
+@pytest.mark.parametrize("exponent", [3, 5, 10])
+@pytest.mark.parametrize("off", [0.3, -0.3])
+def test_from_above_and_below_asperities_come_to_their_limit_by_the_power(off, exponent):
+    """dw/dx = -w^i over the way x in deflection limits: w^(1 - i) grows by i - 1 a limit."""
+    settings = (
+        *LAWS["curved"], f"friction.exponent={exponent}", *WAYS["up"], "slider.lateral=guided",
+        "slider.drive_stiffness=96 MN/m", "slider.drive_damping=10000 N s/m",
+    )  # fmt: skip
+    case = read_case("table-4.3", TABLES, (*settings, "vibration.velocity_ratio=0"))
+    model = Model.from_case(case)
+    cycle = Cycle(model, 64, 1e-6)
+    assert cycle.find(0)
+    stretch, _, deflection, *_ = np.eye(len(cycle.jacobian))
+    cycles = 1024
+    *_, (left, _) = cycle.pushed(off * (stretch + deflection), cycles)
+    # The body goes on by what its drive is let out, or is held back by what it is stretched.
+    way = 0.5e-3 * 64e-6 * cycles - (left[0] - off) * 5.5 / 96e6
+    by_law = (abs(off) ** (1 - exponent) + (exponent - 1) * way / 68.75e-9) ** (1 / (1 - exponent))
+    assert left[2] == pytest.approx(math.copysign(by_law, off), rel=1e-3)
 
 
 def test_nor_does_it_settle_what_sticks_and_slips():

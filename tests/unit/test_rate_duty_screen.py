@@ -9,6 +9,7 @@ from asperity.casefile import read_case
 from asperity.commands import case_tables
 from asperity.rating import rate_case
 from asperity.rating.verdict_rows import Row
+from asperity.start.compare import compare
 
 
 def actuator(*settings):
@@ -43,6 +44,7 @@ def test_the_parts_of_a_duty_in_which_the_load_drives_are_marked():
     assert [part.get("load_drives") for part in found.to_json()["duty_cycle"]] == [None, True]
 
 
+POWERS = "loss_total_W", "input_power_W"
 BACK = "1 h, 300 N m, load drives; 9 h, 150 N m, 700 rpm, load drives"
 
 
@@ -59,6 +61,40 @@ def test_where_the_load_drives_in_all_parts_the_efficiency_is_that_of_the_load()
     assert iso["eta_ges2_1"] == pytest.approx(1.0 - lost / iso["output_power_W"], rel=1e-12)
     assert f"losses {lost:.4g} W of {iso['output_power_W']:.4g} W: teeth " in text
     assert found.of_power[0] in [str(line) for line in found.sections()[0].texts]
+
+
+def test_cases_side_by_side_have_the_efficiency_of_who_drives():
+    """What leaves over what comes in, by either way that the power goes."""
+    duty = "operation.duty_cycle=" + BACK
+    cases = [
+        read_case("gearset-3", case_tables(), ["operation.output_torque=300 N m", *own])
+        for own in ([], [duty], [duty, "gearset.axial_module=2.2 mm"])
+    ]
+    found = compare(cases, lambda command, case: rate_case(case))
+    numbers = {key: values for key, _, values in found.numbers}
+    shown = {key for key, what, _ in found.numbers if what}
+    for at, case in enumerate(cases):
+        iso = rate_case(case).iso14521
+        lost, put_in = (numbers[f"by_who_drives.{key}"][at] for key in POWERS)
+        assert numbers["by_who_drives.efficiency"][at] == pytest.approx(1.0 - lost / put_in)
+        assert put_in == iso["output_power_W" if at else "input_power_W"]
+        way = "2_1" if at else "1_2"
+        assert numbers["by_who_drives.teeth_efficiency"][at] == iso[f"eta_z{way}"]
+    assert {f"by_who_drives.{key}" for key in POWERS} <= shown
+    assert not {"iso14521.eta_ges", "iso14521.loss_total_W"} & shown
+    assert sum("the load drives" in sentence for _, sentence in found.said) == 2
+    both = compare(cases[:1] * 2, lambda command, case: rate_case(case))
+    assert not any(key.startswith("by_who") for key, *_ in both.numbers)
+
+
+def test_a_load_that_is_to_drive_and_cannot_has_no_efficiency_side_by_side():
+    duty = "operation.duty_cycle=9 h, 15 N m, load drives"
+    cases = [read_case("gearset-2", case_tables(), own) for own in ([], [duty])]
+    found = compare(cases, lambda command, case: rate_case(case))
+    numbers = {key: values for key, _, values in found.numbers}
+    assert numbers["by_who_drives.efficiency"][0] > 0.0
+    assert numbers["by_who_drives.efficiency"][1] is None
+    assert numbers["by_who_drives.loss_total_W"][1] is None
 
 
 @pytest.mark.parametrize("duty", ["1 h, 300 N m; 9 h, 150 N m, 700 rpm, load drives", None])

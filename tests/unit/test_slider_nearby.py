@@ -217,6 +217,34 @@ def test_a_still_body_that_sticks_beside_stable_sliding_is_told_no_duration_agai
     assert then.ratio == pytest.approx(steady_ratio(body), abs=1e-4)
 
 
+# By lot: each was told the second duration after the first, and after that that none would do.
+SLIPPING = {
+    "still": (
+        "friction.mu=0.08359", "friction.static_mu=0.1557", "friction.max_deflection=43.73 nm",
+        "friction.stribeck_velocity=1.223 mm/s", "slider.normal_force=33.69 N",
+        "slider.drive_velocity=0.3237 mm/s", "slider.mass=0.9792 kg", "vibration.velocity_ratio=0",
+        "slider.drive_stiffness=149.93 kN/m", "slider.drive_damping=161.8 N s/m",
+    ),
+    "shaken": (
+        "friction.mu=0.1014", "friction.static_mu=0.1731", "friction.max_deflection=97.28 nm",
+        "friction.stribeck_velocity=0.2443 mm/s", "slider.normal_force=7.343 N",
+        "slider.drive_velocity=0.2445 mm/s", "slider.mass=0.1618 kg", "vibration.start=0 s",
+        "slider.drive_stiffness=15288 N/m", "slider.drive_damping=2.121 N s/m",
+        "vibration.frequency=137.9 Hz", "vibration.velocity_ratio=0.152",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("body", "durations"), [("still", (0.989, 1.1)), ("shaken", (0.393, 1.3))])
+def test_a_body_that_has_slipped_is_not_told_a_duration_and_then_that_none_does(body, durations):
+    for duration in durations:
+        given = "friction.model=lugre", "solve.step=10 us", f"solve.duration={duration} s"
+        found = solve(model_of(*SLIPPING[body], *given), history=False)
+        assert not found.settled
+        assert found.notes[-1].startswith("no solve.duration is foreseen that would do")
+        assert "whole slips" in found.notes[-1]
+
+
 def test_a_ring_that_nothing_damps_in_the_contact_is_not_laid_to_falling_friction():
     pressed = (
         "normal.law=hertz", "normal.stiffness=30 MN/m", "vibration.elevation=90 deg",

@@ -50,6 +50,38 @@ def test_next_to_no_damping_is_as_none(damping):
     assert ("solve.duration" in note) == (damping > 0.0)
 
 
+@pytest.mark.parametrize("method", ["march", "periodic"])
+def test_no_method_sends_to_another_over_a_contact_that_rings_for_ever(method):
+    thrown = "vibration.velocity_ratio=20", f"solve.method={method}", "solve.duration=0.5 s"
+    answer = solved("normal-pin", *thrown, "normal.damping_ratio=0")
+    assert not answer.settled
+    told = answer.notes[-1]
+    assert told.startswith("no solve.duration is foreseen that would do")
+    assert told.endswith("nothing damps the ring of the contact; give normal.damping_ratio")
+    assert not any("solve.method" in note for note in answer.notes)
+
+
+@pytest.mark.parametrize(
+    ("exponent", "begins", "ends"),
+    [
+        (5, "no state repeats itself", "that would do"),
+        (8, "the state repeats", "power of the time"),
+    ],
+)
+def test_nor_of_asperities_that_come_to_their_limit_by_a_power(exponent, begins, ends):
+    steep = (
+        "friction.model=dahl", f"friction.exponent={exponent}", "friction.law=vector",
+        "vibration.elevation=90 deg", "vibration.velocity_ratio=0.3", "normal.law=hertz",
+        "normal.stiffness=97 MN/m", "normal.damping_ratio=0.05", "solve.duration=0.3 s",
+    )  # fmt: skip
+    marched = solved("table-4.3", *steep, "solve.method=march")
+    assert marched.notes[-1].endswith("solve.method 'periodic' looks for a state that lasts")
+    sought = solved("table-4.3", *steep, "solve.method=periodic")
+    assert not sought.settled
+    assert sought.settled_by.startswith(begins)
+    assert sought.notes[-1].endswith(ends)
+
+
 @pytest.mark.parametrize(
     ("damping", "duration", "on"),
     [(1e-5, None, True), (1e-5, "30 s", True), (1e-5, "46 s", False), (5e-5, None, False),

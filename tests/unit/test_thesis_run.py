@@ -22,7 +22,7 @@ from asperity.thesis import contents, exhibits
 from asperity.thesis.contents import CLAIMS, FIGURES, TABLES, everything, select
 from asperity.thesis.exhibits import Exhibit
 from asperity.thesis.reproduce import run as reproduction
-from asperity.thesis.reproduce.files import key_of
+from asperity.thesis.reproduce.files import Collection, MadeExhibit, key_of
 from asperity.thesis.reproduce.run import run
 from asperity.thesis.said import Chapter
 
@@ -137,6 +137,16 @@ def test_a_run_makes_everything_once_and_the_next_finds_it(tmp_path, made, proce
     assert again.tables[0].plain["rows"] == [["m_x1", 1.0 / 3.0], ["gone", ""]]
     assert [one.plain for one in again.claims] == [one.plain for one in first.claims]
     assert json.loads((tmp_path / "claims.json").read_text())["claims"][0]["id"] == "9.3"
+
+
+@pytest.mark.parametrize("came", [(0, 1, 2, 3), (3, 1, 0, 2)])
+def test_the_ledger_is_in_the_order_of_the_thesis_however_its_claims_came(tmp_path, came):
+    names = ["claim 4.9", "claim 4.10", "claim 10.1", "claim A.2"]
+    collection = Collection(tmp_path)
+    for name in (names[place] for place in came):
+        collection.add(MadeExhibit(name, "key", {"id": name}, {}, 0.0))
+    claims = json.loads((tmp_path / "claims.json").read_text("utf-8"))["claims"]
+    assert [one["id"] for one in claims] == names
 
 
 def test_one_number_alone_is_made_and_the_rest_stays_on_the_page(tmp_path, made):

@@ -49,7 +49,12 @@ def size(
     known = case_tables()
     written = read_raw(case, known)[0].written if case else frozenset()
     asking = Case(case or "size", Path(), {}, values, known, origin, written=written)
-    for line in overruled(asking):
+    options = {
+        f"operation.{key}": f"--{key.replace('_', '-')} {text}"
+        for key, text in operation_options.items()
+        if text is not None
+    }
+    for line in overruled(asking, options):
         show.note(line)
     with naming_source(asking):
         complete(values)

@@ -296,16 +296,18 @@ def write_dataset(dataset: "xarray.Dataset", path: str | os.PathLike[str]) -> Pa
         missing = [label for label in ("units", "long_name") if label not in variable.attrs]
         if missing:
             raise ValueError(f"{name} has no {' and no '.join(missing)}; every variable needs both")
-    checked = {
-        name: {"fletcher32": True}
-        for name, variable in dataset.variables.items()
-        if variable.ndim and variable.size and variable.dtype.kind in "biuf"
-    }
+    encoding: dict[Any, dict[str, Any]] = {}
+    for name, variable in dataset.variables.items():
+        if variable.dtype.kind == "f":
+            # NaN is itself in a file; that it stands for nothing, said of each, takes a third.
+            encoding[name] = {"_FillValue": None}
+        if variable.ndim and variable.size and variable.dtype.kind in "biuf":
+            encoding.setdefault(name, {})["fletcher32"] = True
     # Encoded in memory: on a full disk the HDF5 library leaves a file open that it can neither
     # flush nor close.
     return write_atomically(
         path,
-        lambda target: target.write_bytes(dataset.to_netcdf(engine="h5netcdf", encoding=checked)),
+        lambda target: target.write_bytes(dataset.to_netcdf(engine="h5netcdf", encoding=encoding)),
     )
 
 

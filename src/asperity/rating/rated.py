@@ -26,11 +26,14 @@ from asperity.rating.starting import Starting, starting, starting_table
 from asperity.rating.verdict import Verdict, screen
 from asperity.rating.verdict_rows import Row, Shafts, beside
 from asperity.results import Result
+from asperity.results.nested import with_parts
 from asperity.results.quantity import Entry, Label
 from asperity.results.table import Table
 from asperity.results.unit_systems import shown_frame
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from asperity.results.report import Heading, Section
 
 _MOST_SHEETS = 100
@@ -187,6 +190,16 @@ class Rated(Result):
             "endurance": [one.to_json() for one in self.endurance],
             "starting": [one.to_json() for one in self.starting],
         }
+
+    def to_dataset(self) -> "xr.Dataset":
+        """Return every number of every rating, and what else JSON holds."""
+        parts = self.to_json()
+        numbers = {entry.key for entry in self.entries()}
+        for standard in self.found:
+            own = parts[standard].items()
+            parts[standard] = {key: v for key, v in own if f"{standard}.{key}" not in numbers}
+        parts.pop("notes")
+        return with_parts(super().to_dataset(), parts, over=("forces",))
 
     def entries(self) -> Iterator[Entry]:
         """Yield every number of every rating, by ``standard.key``."""

@@ -313,10 +313,14 @@ class ShaftStudy(Drawn):
         return names if file is None else [*names, file.name]
 
     def to_dataset(self) -> "xr.Dataset":
-        """Return the scalars, and the course of what is in each shaft in its worst case."""
+        """Return what JSON holds, and the course of what is in each shaft in its worst case."""
+        from asperity.results.nested import with_parts
         from asperity.shafts.output import courses
 
-        return super().to_dataset().assign(courses(self.found))
+        along = courses(self.found)
+        own = {entry.key for entry in self.entries() if entry.variable not in along}
+        parts = {key: part for key, part in self.to_json().items() if key not in own | {"notes"}}
+        return with_parts(super().to_dataset().assign(along), parts, over=("cases",))
 
 
 def _finite(value: float | None) -> float | None:

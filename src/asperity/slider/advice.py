@@ -41,6 +41,8 @@ def advice(
     own = falls and not math.isinf(ringing_time(model))
     if duration is None and own and (model.vibrates or slips or growth_rate(model) > 0.0):
         return f"{_NONE_FORESEEN}: {_at_its_own_rate(model)}"
+    if duration is None and math.isinf(ringing_time(model)):
+        return f"{_NONE_FORESEEN}: nothing damps the ring of the contact; give normal.damping_ratio"
     if duration is None and rings_on_drive(model):
         return (
             f"{_NONE_FORESEEN}: nothing damps the body's ring on its drive; give "

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from asperity.arrays import FloatArray
 from asperity.slider import kernels as k
+from asperity.slider.at_limit import bends_only, comes_to_its_limit
 from asperity.slider.integrators import LoadedIntegrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import DIFFERENTIATE, at_state
@@ -196,7 +197,7 @@ class Cycle:
             return False
         # Drive and contact may both ring: which lasts a rounding longer says nothing.
         return any(
-            self._is_followed(mode) and not self._fades_after_all(mode)
+            self._is_followed(mode) and not self._bends(mode) and not self._fades_after_all(mode)
             for mode in _modes(self.jacobian, _LASTING)
         )
 
@@ -211,6 +212,14 @@ class Cycle:
             if all(abs(self._shift(part, _FEW, _FEW)) <= _CLEARLY * most for part in parts):
                 return False
         return not abs(self._shift(mode.real, _WATCHED)) <= most
+
+    def _bends(self, mode: npt.NDArray[np.complex128]) -> bool:
+        """Whether a mode is one of asperities that come to their limit by a power of the time."""
+        body = self.body
+        state = body.kept["state"][0]
+        return comes_to_its_limit(body.model, body.sums) and bends_only(
+            mode, state, self.springs, body.p, self.q
+        )
 
     def _fades_after_all(self, mode: npt.NDArray[np.complex128]) -> bool:
         """Whether less and less is left of a push, though no multiplier tells that it fades.

@@ -13,12 +13,15 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
+from asperity.slider.at_limit import comes_to_its_limit
 from asperity.slider.cycle_map import UNSTABLE, Cycle, lasts
+from asperity.slider.integrators import LoadedIntegrator
 from asperity.slider.model import Model
 from asperity.slider.ringing import ringing_time
 from asperity.slider.shooting import run
 from asperity.slider.steady import fading_rate
 from asperity.slider.straight import goes_straight
+from asperity.vibration.waveform import fill_increments
 
 SAME = 1e-4
 """Of mu F_N, that the ratios of two states may be apart."""
@@ -37,6 +40,7 @@ _HALVES = 2.0  # times a resonance, up to which a body may swing there in every 
 _PUMPED = 4.0  # times it, up to which it may swing sideways, where friction turns with the slip
 _CYCLES = (40, 80, 160, 320, 960)  # after the body is taken up
 _MOST_TAKEN_UP = 4000.0
+_MOST_GROWN = 20_000  # cycles in which a vibration grows
 _TOLD = 36  # last cycles that are looked at
 _PERIODS = (1, 2, 3, 4, 6)  # cycles, after which a state may repeat itself
 _ALIKE = 1e-5  # of mu F_N, that cycles of a march are apart which comes to such a state
@@ -150,12 +154,15 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     body = Cycle(askew, (len(cycle.increments) - 1) // cycle.period, cycle.step)
     if body.body.p.rigid:
         body.body.state["velocity_x"] = body.body.p.drive
+    limit = cycle.at_the_limit or comes_to_its_limit(model, cycle.body.sums)
+    if _grows(model):
+        _grow(body)
     mean, before, fades = 0.0, 0.0, _GONE * ringing_time(model) * model.frequency
     for n, cycles in enumerate(_CYCLES):
         before = mean
         last_cycles, mean, least = _marched(body, cycles + (0 if n else math.ceil(loading)))
         last = float(np.mean(last_cycles))
-        if cycle.at_the_limit and _at_the_limit(body, cycle, least):
+        if limit and _at_the_limit(body, cycle, least):
             return None
         if not cycle.at_the_limit and max(abs(mean - there), abs(last - there)) <= _COME:
             return None
@@ -204,6 +211,39 @@ def sticks_from_rest(cycle: Cycle) -> bool | None:
         if n and swings[-1] <= _STEADY:
             return False
     return swings[-1] > max(_STEADY, _LASTS * max(swings[1:]))
+
+
+def shaken_how(model: Model) -> str:
+    """Say what a body from rest is spared here of how the case has its vibration begin."""
+    spared = ["vibration.start"] if model.start > 0.0 else []
+    if model.ramp > 0.0 and not _grows(model):
+        spared.append("vibration.ramp")
+    return f", without its {' and '.join(spared)}" if spared else ""
+
+
+def _grows(model: Model) -> bool:
+    """Whether the vibration grows in a march from rest as the case says: in not too many cycles."""
+    return 0.0 < model.ramp * model.frequency <= _MOST_GROWN
+
+
+def _grow(body: Cycle) -> None:
+    """March a body from rest while its vibration grows, over whole cycles."""
+    integrator, steps = body.body, len(body.increments) - 1
+    model, state = integrator.model, integrator.kept["state"][0]
+    rises = along = np.empty(steps + 1)
+    wave = normal_wave = model.wave(body.step)
+    if isinstance(integrator, LoadedIntegrator):
+        normal_wave = integrator.normal_wave
+        integrator.place(0.0)
+    if normal_wave.lead != wave.lead:
+        rises = np.empty(steps + 1)
+    cycles = math.ceil(wave.ramp)
+    for n in range(cycles):
+        fill_increments(wave, float(n), 1.0 / steps, along)
+        if rises is not along:
+            fill_increments(normal_wave, float(n), 1.0 / steps, rises)
+        run(state, body.springs, integrator.p, body.q, along, rises, integrator.sums)
+    body.run += cycles
 
 
 def _loading(model: Model) -> float:

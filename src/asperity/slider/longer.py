@@ -180,8 +180,10 @@ def needed(
         slips = (model.friction.static_mu or 0.0) > model.friction.mu
         grown = model.duration + end.grows / model.frequency
         least.append(in_whose_window(model, grown) if end.grows > 0.0 else 0.0)
+    elif end is None and model.vibrates:
+        slips = (model.friction.static_mu or 0.0) > model.friction.mu
     if slips and window.broke:
-        return loaded if loaded > model.duration else None
+        return None
     lags = residual <= UNSTEADY and still_loads(model, table, residual)
     if lags or window.holds or far_away:
         least.append(loaded)

@@ -299,6 +299,7 @@ def march(
     history: bool = True,
     stop: npt.NDArray[np.int64] | None = None,
     run: Run | None = None,
+    instead: str | None = "periodic",
 ) -> SlideResult:
     """Integrate a sliding body from rest over the case's duration.
 
@@ -312,6 +313,8 @@ def march(
         Set it to 1 from another thread to have the call raise `Stopped` soon.
     run : Run, optional
         Where the march is kept and gone on from, who is told how far it is.
+    instead : str, optional
+        The method that is told to look for a state where no duration is foreseen that would do.
 
     Raises
     ------
@@ -328,7 +331,7 @@ def march(
     def once(finer: Model) -> SlideResult:
         nonlocal kept
         goes_on, kept = (kept, None) if kept and kept["finer"] == finer.finer else (None, kept)
-        return march_once(finer, history=history, stop=stop, run=run, kept=goes_on)
+        return march_once(finer, history=history, stop=stop, run=run, kept=goes_on, instead=instead)
 
     first = None
     if kept is not None and kept["finer"] != model.finer:
@@ -348,6 +351,7 @@ def march_once(
     stop: npt.NDArray[np.int64] | None = None,
     run: Run | None = None,
     kept: Tree | None = None,
+    instead: str | None = "periodic",
 ) -> SlideResult:
     """March as `march` in the steps that the model has, from ``kept`` on if it is given."""
     run = run if run is not None else Run()
@@ -356,7 +360,7 @@ def march_once(
         body = March(model, record=history, stop=stop, run=run)
         if kept is not None and kept["askew"] == model.askew:
             body.restore(kept)
-        return until_settled(model, body)
+        return until_settled(model, body, instead)
 
     askew = kept["askew"] if kept is not None else 0.0
     with run.interruptible():

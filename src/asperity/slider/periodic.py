@@ -13,6 +13,7 @@ from asperity.slider.from_rest import (
     from_rest,
     may_bounce_otherwise,
     ratio_of,
+    shaken_how,
     sticks_from_rest,
     takes_too_long,
 )
@@ -26,6 +27,7 @@ from asperity.slider.shooting import ACCEPTED, SETTLING
 from asperity.slider.steady import growth_rate, sticks_and_slips, two_states
 from asperity.slider.step_error import OfState, error_of_state, refined
 from asperity.slider.summary import history_of, summarise
+from asperity.slider.timetable import bends_ever_more
 
 _LEAST_STEPS = 256
 _REST_STEPS = 64
@@ -42,6 +44,10 @@ _LASTS = "a disturbance lasts, and the ratio follows it"
 _FADES = 1e-4  # of a ringing of the contact in a period, above which it is not what lasts
 _LOST = "the drive goes so little in a cycle that a state that changes could not be told from it"
 _MARCH = "march it from rest with solve.method 'march'"
+_SLOWLY = (
+    "asperities with so large a friction.exponent come to their limit ever more slowly, by a power "
+    "of the time"
+)
 _NOT_FOLLOWED = (
     "friction falls with the speed: a body from rest may stick and slip instead, which takes too "
     "long to follow here: see solve.method 'march'"
@@ -164,8 +170,8 @@ def _found(model: Model, *, history: bool, judged: bool, rested: bool) -> SlideR
         left = "friction at its limit" if cycle.at_the_limit else "a state"
         notes = (
             f"{left}, with the ratio {ratio_of(cycle):.5g}, repeats itself as well: which state a "
-            "body is in follows from where it comes from, shown is the one from rest, shaken at "
-            "once",
+            "body is in follows from where it comes from, shown is the one from "
+            f"rest{shaken_how(model)}",
         )
         cycle, growth = other.state, other.growth
     elif other is not None:
@@ -202,7 +208,8 @@ def answer_of(
         rest = _MARCH if cycle.q is None else _REST
         notes += (f"this periodic state is {_OF_MANY}; {rest}",)
     if _LASTS in standing.settled_by:
-        notes += (f"of this periodic state {_LASTS}: {_MARCH}",)
+        why = _SLOWLY if bends_ever_more(model) else _MARCH
+        notes += (f"of this periodic state {_LASTS}: {why}",)
     error = error_of_state(cycle, model) if judged and standing.settled else OfState(None)
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,

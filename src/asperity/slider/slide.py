@@ -78,7 +78,8 @@ def solve(
             none = error
         else:
             return beside_march(found, stop=stop) if beside else found
-        answer = march(_to_march(model, none), history=history, stop=stop, run=run)
+        marched = _to_march(model, none)
+        answer = march(marched, history=history, stop=stop, run=run, instead=None)
         left = none.reached.get("residual", math.nan)
         note = f"no state was found that repeats itself (to {left:.2g} a cycle): this is a march"
         if none.notes and model.vibrates:

@@ -15,6 +15,8 @@ from asperity.commands import COMMANDS, Command
 from asperity.drive.studies.gains import VELOCITY_RATIO, Gain, gain
 from asperity.errors import InputError
 from asperity.gearset import Gearset
+from asperity.rating.power_words import load_drives, power_of
+from asperity.rating.rated import Rated
 from asperity.results import Result
 from asperity.results.dataset import Described, described
 from asperity.results.language import Spoken
@@ -171,6 +173,10 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
                 numbers.setdefault(_HOTTEST, numbers[_SUMP])
         meanings.pop(_SUMP, None)
         meanings[_HOTTEST] = "sump, in the hottest part of a duty cycle (degC)"
+    if any(map(_load_drives, answers)):
+        for numbers, result in zip(flat, answers, strict=True):
+            numbers |= dict(_by_who_drives(result))
+        meanings = {_OF_WHO_DRIVES.get(key, key): what for key, what in meanings.items()}
     gains = [_gain(case, numbers) for case, numbers in zip(cases, flat, strict=True)]
     for numbers, gained in zip(flat, gains, strict=True):
         if gained is not None:
@@ -179,6 +185,11 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         (name, sentence)
         for name, result in zip(names, answers, strict=True)
         for sentence in _verdict(result)
+    ]
+    said += [
+        (name, "the load drives: efficiency, input power and losses are those of the load")
+        for name, result in zip(names, answers, strict=True)
+        if _load_drives(result)
     ]
     said += [
         (f"{MARK} {name}", sentence)
@@ -244,6 +255,19 @@ def _numbers(answer: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str,
             yield from _numbers(value, f"{prefix}{key}.")
         elif isinstance(value, int | float) and not isinstance(value, bool):
             yield prefix + key, float(value)
+
+
+def _load_drives(result: Result) -> bool:
+    return isinstance(result, Rated) and load_drives(result.rating_inputs)
+
+
+def _by_who_drives(result: Result) -> Iterator[tuple[str, float]]:
+    """Yield efficiency and losses of a rating, by the load where that drives."""
+    if isinstance(result, Rated) and result.iso14521 is not None:
+        power = power_of(result.rating_inputs, result.iso14521)
+        for key, value in zip(_OF_WHO_DRIVES.values(), power, strict=True):
+            if value is not None:
+                yield key, value
 
 
 def _differing(
@@ -314,6 +338,15 @@ _OF_A_RATING = {
     "bs721.M_permissible_Nm": "torque permitted by BS 721 (N m)",
     "agma6034.allowable_torque_Nm": "torque allowed by AGMA 6034 (N m)",
     _SHAKEN: f"torque under a fast screw, k_w = {VELOCITY_RATIO:g}, over that without, in balance",
+}
+
+
+# In the order of `power_of`.
+_OF_WHO_DRIVES = {
+    "iso14521.eta_ges": "by_who_drives.efficiency",
+    "iso14521.eta_z1_2": "by_who_drives.teeth_efficiency",
+    "iso14521.input_power_W": "by_who_drives.input_power_W",
+    "iso14521.loss_total_W": "by_who_drives.loss_total_W",
 }
 
 

@@ -8,6 +8,7 @@ were harmed or whose sources have changed is made again.
 import dataclasses
 import hashlib
 import json
+import re
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -84,7 +85,8 @@ class Collection:
     def add(self, exhibit: MadeExhibit) -> None:
         """Take note of what was made, on disk too."""
         self._made[exhibit.name] = exhibit
-        kept = [vars(exhibit) for exhibit in self._made.values()]
+        # They come as the processes have done with them.
+        kept = [vars(self._made[name]) for name in sorted(self._made, key=_by_number)]
         if exhibit.name.startswith(CLAIM):
             claims = [one["plain"] for one in kept if one["name"].startswith(CLAIM)]
             write_text(self.folder / _LEDGER, _text({"claims": claims}))
@@ -109,6 +111,11 @@ class Collection:
         except OSError:
             return None
         return Shown(exhibit, record.plain, paths, reused)
+
+
+def _by_number(name: str) -> list[str | int]:
+    """Return what sorts names as the thesis numbers them: 4.9 before 4.10."""
+    return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", name)]
 
 
 def _read(folder: Path) -> list[MadeExhibit]:

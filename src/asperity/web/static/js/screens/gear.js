@@ -27,6 +27,13 @@ const SIDE_BY_SIDE = [
   ["power put in", "input_power_W", "", "input_power_W"],
   ["torque of the wheel permitted", "", "M_permissible_Nm", "allowable_torque_Nm"],
 ];
+/** What stands there instead where the load drives in all parts of a duty cycle. */
+const LOAD_DRIVES = {
+  "efficiency of the gearbox": ["efficiency of the gearbox, wheel driving", "eta_ges2_1", "", ""],
+  "torque of the worm": ["torque of the worm, if it drives", "input_torque_Nm", "", "input_torque_Nm"],
+  "power lost between the teeth": ["power lost between the teeth, wheel driving", "loss_meshing_back_W", "", ""],
+  "power put in": ["power put in at the wheel", "output_power_W", "", "output_power_W"],
+};
 /** Where a study's input is set, and in which unit its value comes. */
 const INPUTS = {
   pressure_angle: ["gearset.pressure_angle", "deg"], worm_speed: ["operation.worm_speed", "rpm"],
@@ -205,15 +212,17 @@ function First({ verdict }) {
 function Columns({ entries, answer }) {
   const names = Object.keys(STANDARDS);
   const { holds, standing } = answer.verdict;
+  const back = answer.duty_cycle?.every((part) => part.load_drives);
+  const rows = back ? SIDE_BY_SIDE.map((row) => LOAD_DRIVES[row[0]] ?? row) : SIDE_BY_SIDE;
   const cell = (name, at) => ([what, ...keys]) => {
     const entry = entries[`${name}.${keys[at]}`];
     return what === "verdict" ? html`<${Verdict} ok=${holds[name]} other=${standing[name].word} />`
-      : entry ? html`<${Num} entry=${entry} count=${4} />` : "–";
+      : entry && !(keys[at] === "eta_ges2_1" && entry.value <= 0) ? html`<${Num} entry=${entry} count=${4} />` : "–";
   };
   const columns = names.map((name, at) => [STANDARDS[name], cell(name, at), "right"])
     .filter((_, at) => answer[names[at]]);
   return html`<section class="panel wide"><h2>By three standards</h2>
-    <${Table} region="three standards" wide="whole standards" rows=${[["verdict"], ...SIDE_BY_SIDE]}
+    <${Table} region="three standards" wide="whole standards" rows=${[["verdict"], ...rows]}
       columns=${[["what", ([what]) => what, "row"], ...columns]} /></section>`;
 }
 
