@@ -19,7 +19,7 @@ from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import at_state
 from asperity.slider.orders import ORDER_ONE, of_the_error, part_of_difference
-from asperity.slider.shooting import CLOSE
+from asperity.slider.shooting import CLOSE, run_cycle
 from asperity.slider.step_error import (
     CLOSING,
     LEFT,
@@ -154,6 +154,13 @@ def scales_at(cycle: Cycle) -> FloatArray:
     return scales[:count]
 
 
+def unknowns_of(body: Integrator) -> int:
+    """Return how many unknowns a body has."""
+    springs = body.kept.get("springs", np.zeros((2, 0)))
+    scales, q = np.empty(most_unknowns(springs)), getattr(body, "q", None)
+    return int(unknown_scales(body.kept["state"], springs, body.p, q, scales))
+
+
 def at_the_end(body: Integrator, table: Timetable) -> Cycle:
     """Return the map of a body over the cycle that follows its march."""
     end = cycle_after(body.model, table)
@@ -163,10 +170,11 @@ def at_the_end(body: Integrator, table: Timetable) -> Cycle:
 
 def ratios_of(cycle: Cycle, cycles: int) -> list[float]:
     """March on over so many cycles; returns the ratio of each."""
-    ratios = []
+    ratios, body = [], cycle.body
+    state, sums, waves = body.kept["state"][0], body.sums, (cycle.increments, cycle.rises)
     for _ in range(cycles):
-        run_once(cycle)
-        ratios.append(ratio_of(cycle))
+        run_cycle(state, cycle.springs, body.p, cycle.q, *waves, sums)
+        ratios.append(float(sums["drive_force"] / sums["steps"]))
     return ratios
 
 
