@@ -12,8 +12,10 @@ from asperity.casefile import read_case
 from asperity.slider import solve
 from asperity.slider.advice import advice
 from asperity.slider.fading import apart, mean_left, quarters_in_time, windows_in_time
-from asperity.slider.longer import brought_home, lasting, needed
+from asperity.slider.foreseen import needed
+from asperity.slider.longer import lasting
 from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.on_its_way import brought_home
 from asperity.slider.ring_on_drive import friction_on_ring, ring_of, rung_out
 from asperity.slider.ringing import upward
 from asperity.slider.tables import TABLES

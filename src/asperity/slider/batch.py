@@ -22,9 +22,9 @@ from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.fading import quarter_means
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.judged_march import judged_answer
-from asperity.slider.longer import STILL_GOES
 from asperity.slider.march import beyond_numbers, march, march_once
 from asperity.slider.model import Model, require_models
+from asperity.slider.on_its_way import STILL_GOES
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import as_it_rings
 from asperity.slider.scaled import (

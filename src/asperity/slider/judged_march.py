@@ -8,11 +8,12 @@ import numpy as np
 from asperity.results.settled import Standing
 from asperity.slider.astray import come_to_its_size, motion_across
 from asperity.slider.chance import judged, standing_by_cycles
+from asperity.slider.foreseen import needed
 from asperity.slider.integrators import Integrator
-from asperity.slider.longer import brought_home, far_from_home, most_off, needed, still_goes
 from asperity.slider.march_end import MarchEnd, end_of_march, rings_unheard
 from asperity.slider.model import Model
 from asperity.slider.nearby import comes_there, next_to
+from asperity.slider.on_its_way import brought_home, far_from_home, most_off, still_goes
 from asperity.slider.result import SlideResult
 from asperity.slider.ring_on_drive import ring_at_end
 from asperity.slider.ringing import heard, ringing_notes, rings

@@ -15,6 +15,7 @@ from asperity.arrays import FloatArray
 from asperity.slider.cycle_map import UNSTABLE
 from asperity.slider.from_rest import ratio_of
 from asperity.slider.integrators import Integrator
+from asperity.slider.ladder import first_that_does
 from asperity.slider.march_end import (
     at_the_end,
     cycle_after,
@@ -31,7 +32,7 @@ from asperity.slider.timetable import FAR, UNSTEADY, Timetable, bends_ever_more
 _MOST_UNKNOWNS = 9
 _FADES = 1.0 - 1e-6  # a multiplier: by differences it is no more exact
 _NEXT, _TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one, at most
-_COARSE = 8  # of which so many are passed over at first
+_COARSE = 8  # of which one in so many is tried at first
 _TINY, _UNSEEN = (
     1e-300,
     1e-12,
@@ -148,19 +149,12 @@ def comes_there(near: Nearby, model: Model, most: float, later: float = 0.0) -> 
     if not np.abs(near.growths).max() < _FADES:
         return None
     longest = _TIMES * max(model.usual_duration, model.duration)
-    tried = math.ceil(math.log(longest / model.duration) / math.log(_NEXT))
-    # At first every eighth of them: which is the first that does is looked for before it.
-    rungs = np.arange(0, tried, _COARSE)
     fades = _Fading.of(near)
-    for _ in range(2):
-        durations = model.duration * _NEXT**rungs
-        does = _has_come(fades, model, durations, most, later)
-        if not does.any():
-            return None
-        at = int(np.argmax(does))
-        duration, first = float(durations[at]), int(rungs[at])
-        rungs = np.arange(max(first - _COARSE + 1, 0), first + 1)
-    return duration
+
+    def has_come(durations: FloatArray) -> npt.NDArray[np.bool_]:
+        return _has_come(fades, model, durations, most, later)
+
+    return first_that_does(has_come, model.duration, longest, _NEXT, _COARSE)
 
 
 class _Fading(NamedTuple):

@@ -12,12 +12,13 @@ from rest: a vibration that is slower than the drive adds nothing in the mean. L
 exponentially have :math:`i = 1` too, and are at their limit sooner under others.
 """
 
-import math
+import functools
 
 import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.slider.ladder import first_that_does
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.timetable import FAR, UNSTEADY, turns_back
 
@@ -26,7 +27,7 @@ _LACKS = np.geomspace(1.0, 1e-7, 4001)  # of the limit
 _LOGARITHMS = np.log(_LACKS)
 _SPARE = 1.02
 _NEXT, _MOST_TIMES = 1.001, 1e3  # times a duration: the next that is tried; the usual one
-_COARSE = 64  # of which so many are passed over at first
+_COARSE = 64  # in which one is tried at first: friction only comes nearer to its limit
 
 
 def taken_up_after(model: Model) -> float | None:
@@ -37,19 +38,10 @@ def taken_up_after(model: Model) -> float | None:
     friction = model.friction
     if friction.model == "coulomb" or turns_back(model):
         return 0.0
-    most = _MOST_TIMES * max(model.usual_duration / model.duration, 1.0)
-    tried = math.ceil(math.log(most) / math.log(_NEXT))
-    # Friction only comes nearer to its limit: at first some are passed over.
-    rungs = np.arange(0, tried, _COARSE)
-    for _ in range(2):
-        durations = model.duration * _NEXT**rungs
-        near = _is_near(model, durations)
-        if not near.any():
-            return None
-        at = int(np.argmax(near))
-        duration, first = float(durations[at]), int(rungs[at])
-        rungs = np.arange(max(first - _COARSE + 1, 0), first + 1)
-    return duration * _SPARE if first else model.duration
+    longest = _MOST_TIMES * max(model.usual_duration, model.duration)
+    is_near = functools.partial(_is_near, model)
+    first = first_that_does(is_near, model.duration, longest, _NEXT, _COARSE)
+    return first if first is None or first == model.duration else first * _SPARE
 
 
 def _is_near(model: Model, durations: FloatArray) -> npt.NDArray[np.bool_]:
