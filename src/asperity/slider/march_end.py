@@ -7,6 +7,7 @@ its last cycles are marched again.
 """
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -170,12 +171,16 @@ def at_the_end(body: Integrator, table: Timetable) -> Cycle:
 
 def ratios_of(cycle: Cycle, cycles: int) -> list[float]:
     """March on over so many cycles; returns the ratio of each."""
-    ratios, body = [], cycle.body
-    state, sums, waves = body.kept["state"][0], body.sums, (cycle.increments, cycle.rises)
-    for _ in range(cycles):
+    return [ratio for _, ratio in zip(range(cycles), marched_on(cycle), strict=False)]
+
+
+def marched_on(cycle: Cycle) -> Iterator[float]:
+    """March on, cycle by cycle; yields the ratio of each."""
+    body, waves = cycle.body, (cycle.increments, cycle.rises)
+    state, sums = body.kept["state"][0], body.sums
+    while True:
         run_cycle(state, cycle.springs, body.p, cycle.q, *waves, sums)
-        ratios.append(float(sums["drive_force"] / sums["steps"]))
-    return ratios
+        yield float(sums["drive_force"] / sums["steps"])
 
 
 def cycle_after(model: Model, table: Timetable) -> Cycle:

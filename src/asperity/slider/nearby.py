@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.slider.cycle_map import UNSTABLE
+from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.from_rest import ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.ladder import first_that_does
@@ -20,7 +20,7 @@ from asperity.slider.march_end import (
     at_the_end,
     cycle_after,
     map_at,
-    ratios_of,
+    marched_on,
     read,
     scales_at,
     unknowns_of,
@@ -37,10 +37,9 @@ _TINY, _UNSEEN = (
     1e-300,
     1e-12,
 )  # a multiplier whose logarithm is none; of mu F_N, what no mean shows
-_LOOKED_AT = 36  # cycles, the later half of which tell what goes by a square
+_LOOKED_AT = 36  # cycles
 _LINEAR = 0.2  # of what is foreseen of some cycles, that they may be beside it
 _ROUNDING = 1e-12
-_LITTLE = 1e-2  # of a state's scales, a ring whose square tells nothing
 
 
 class Nearby(NamedTuple):
@@ -91,20 +90,20 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
     sizes = slopes @ modes * off
     swings = np.abs(off) * np.abs(modes).max(axis=0)
     grows = _until_grown(growths, swings)
-    swings = np.where(_turns(growths), swings, 0.0)
-    shown = np.array(ratios_of(end, _LOOKED_AT)) - ratio_of(there)
     foreseen = (sizes @ growths[:, None] ** np.arange(_LOOKED_AT)).real
-    linear = np.abs(shown - foreseen).sum() <= max(_LINEAR * np.abs(foreseen).sum(), UNSTEADY)
-    # A ring does by its square what cycles show beside that, and it fades twice as fast; before the
-    # rest has faded they show nothing of it.
-    late = foreseen[_LOOKED_AT // 2 :].mean()
-    beside = abs(shown[_LOOKED_AT // 2 :].mean() - late)
-    slowest = np.abs(growths[swings > _LITTLE]).max(initial=0.0) ** 2
-    square = beside if abs(late) < beside else 0.0
+    linear = _goes(end, ratio_of(there) + foreseen, np.abs(foreseen).sum())
     sizes = np.maximum(np.abs(sizes), _of_rings(model, growths, np.abs(modes[:2] * off)))
-    sizes = np.append(sizes, min(square, float(swings.max(initial=0.0)) ** 2))
-    growths = np.append(growths, slowest).astype(complex)
-    return Nearby(ratio_of(there), growths, sizes, bool(linear), grows)
+    return Nearby(ratio_of(there), growths.astype(complex), sizes, linear, grows)
+
+
+def _goes(body: Cycle, ratios: FloatArray, way: float) -> bool:
+    """Whether a body goes through ratios, cycle by cycle, on a way of so much in all of them."""
+    left = max(_LINEAR * way, UNSTEADY)
+    for foreseen, ratio in zip(ratios, marched_on(body), strict=False):
+        left -= abs(ratio - foreseen)
+        if not left >= 0.0:
+            return False
+    return True
 
 
 def _turns(growths: npt.NDArray[np.complex128]) -> npt.NDArray[np.bool_]:
