@@ -10,7 +10,17 @@ import pytest
 from asperity.casefile import read_case
 from asperity.errors import AsperityError, ConvergenceError, InputError
 from asperity.friction import Friction
-from asperity.slider import TABLES, Model, Slider, Solve, Stopped, batch, solve, solve_many
+from asperity.slider import (
+    TABLES,
+    Model,
+    Slider,
+    Solve,
+    Stopped,
+    batch,
+    judged_march,
+    solve,
+    solve_many,
+)
 from asperity.slider.batch_fits import fits_batch
 from asperity.slider.batch_kernels import BLOCK
 from asperity.slider.batch_rows import WIDTH
@@ -322,6 +332,27 @@ def test_lanes_know_how_far_friction_goes_across_in_each_half_of_the_window(monk
         assert alone[0][0] != alone[0][1] > 0.0
         np.testing.assert_allclose(np.hstack(lane), np.hstack(alone), rtol=1e-6)
         assert lane[0][1] <= max(lane[1], -lane[2])
+
+
+def test_lanes_that_are_marched_anew_are_told_no_duration_beforehand(monkeypatch):
+    """Two that ring on their drives: with a duration of their own they are told what would do."""
+    heavy = "slider.mass=5 kg", "slider.drive_damping=0 N s/m", "vibration.velocity_ratio=0.1"
+    asked, anew = [], []
+    foretold = judged_march.foretold
+
+    def noted(*where, **told):
+        asked.append(where)
+        return foretold(*where, **told)
+
+    monkeypatch.setattr(judged_march, "foretold", noted)
+    monkeypatch.setattr(batch, "march", lambda model, **_: anew.append(model))
+    given = Model.from_case(read_case("table-4.3", TABLES, heavy))
+    left_out = given.solve.model_copy(update={"duration": None}, units="SI")
+    for model, told in ((dataclasses.replace(given, solve=left_out), 0), (given, 2)):
+        asked.clear()
+        solve_many([model, model])
+        assert len(asked) == told
+    assert len(anew) == 2
 
 
 def test_pressed_bodies_that_a_batch_cannot_take_are_solved_alone_in_their_place():

@@ -284,20 +284,23 @@ def _answer(
     greatest = float(np.abs(early_across).max()), float(np.abs(late_across).max())
     window = WindowMeans(model, table, change, means, broke, across, greatest)
 
+    @functools.cache
     def at_end() -> Integrator:
         there = integrator(model, table.step)
         there.kept["state"][0] = _state(column, body)
         return there
 
+    # Without a duration of its own it is marched anew, alone, where it has not settled.
+    given = model.solve.duration is not None
     try:
         answer, foreseen = judged_answer(
             model, window, sums, (start, _energies(column, body)), at_end,
-            seconds=seconds,
+            foretell=given, seconds=seconds,
             breakaway_time=float(column[row.WAITED]) * table.step if broke else None,
         )  # fmt: skip
     except ConvergenceError as failed:
         return failed
-    if answer.settled:
+    if answer.settled or not given:
         return answer
     return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen, model)))
 

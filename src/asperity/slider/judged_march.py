@@ -32,6 +32,7 @@ def judged_answer(
     leaves: str = "",
     slips: bool = False,
     notes: tuple[str, ...] = (),
+    foretell: bool = True,
     **told: Any,
 ) -> tuple[SlideResult, float | None]:
     """Return the answer of a march that is at its end, judged by all that is known of it.
@@ -54,6 +55,8 @@ def judged_answer(
         Whether it is seen to stick and slip beside steady sliding.
     notes : tuple of str
         Beside those of the march.
+    foretell : bool
+        Whether it is asked what duration would do.
     told
         What else `summarise` takes.
 
@@ -62,7 +65,7 @@ def judged_answer(
     SlideResult
         The answer.
     float or None
-        That duration, s; None where nothing is missing, or no duration is foreseen.
+        The duration that would do, s; None where nothing is missing, or none is foreseen.
     """
     table = window.table
     wanders: tuple[str, ...] = ()
@@ -101,13 +104,32 @@ def judged_answer(
         notes=(*march_notes(steady), *ringing_notes(model, follows=follows), *wanders, *notes),
         **told,
     )  # fmt: skip
+    if not foretell:
+        return answer, None
     if across is not None:
         return answer, come_to_its_size(across, window.model)
-    if answer.settled:
+    if answer.settled or (is_far and home is not None):
         return answer, home
-    if is_far and home is not None:
-        return answer, home
-    near = next_to(body(), table)
+    return answer, foretold(window, body(), is_far=is_far, slips=slips)
+
+
+def foretold(
+    window: WindowMeans, body: Integrator, *, is_far: bool = False, slips: bool = False
+) -> float | None:
+    """Return the duration in s that would do of a march that has not settled; None where none is.
+
+    Parameters
+    ----------
+    window : WindowMeans
+        What it has come to.
+    body : Integrator
+        At its end; left as it is.
+    is_far : bool
+        Whether its mean agrees in the halves of the window, far from where it goes to.
+    slips : bool
+        Whether it is seen to stick and slip beside steady sliding.
+    """
+    near = next_to(body, window.table)
     if is_far and near is not None:
-        return answer, comes_there(near, window.model, most_off(near.ratio))
-    return answer, needed(window, near or ring_at_end(window, body()), slips=slips)
+        return comes_there(near, window.model, most_off(near.ratio))
+    return needed(window, near or ring_at_end(window, body), slips=slips)
