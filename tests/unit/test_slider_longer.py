@@ -15,7 +15,7 @@ from asperity.slider.fading import apart, mean_left, quarters_in_time, windows_i
 from asperity.slider.foreseen import needed
 from asperity.slider.longer import lasting
 from asperity.slider.model import WINDOW_SHARE, Model
-from asperity.slider.on_its_way import brought_home
+from asperity.slider.on_its_way import brought_home, most_off
 from asperity.slider.ring_on_drive import friction_on_ring, ring_of, rung_out
 from asperity.slider.ringing import upward
 from asperity.slider.tables import TABLES
@@ -249,6 +249,18 @@ def test_a_mean_that_hardly_moves_is_promised_no_duration(change, told):
     body = Model.from_case(read_case("table-4.3", TABLES, ["friction.exponent=1"]))
     window = WindowMeans(body, Timetable(body), change, [0.1] * 4, broke=True)
     assert (brought_home(window, 0.1, 0.11) is not None) == told
+
+
+def test_what_may_be_left_to_a_mean_grows_evenly_with_its_ratio():
+    """It fell from 1e-4 to 5e-7 where ratios come to be more than 1e-4."""
+    ratios = np.geomspace(1e-7, 2.0, 2000)
+    most = np.array([most_off(ratio) for ratio in ratios])
+    steps = np.diff(most) / most[:-1]
+    assert (steps >= 0.0).all()
+    assert (steps <= np.diff(ratios) / ratios[:-1] * 1.001).all()
+    assert most[0] == 1e-4
+    assert most_off(0.1) == most_off(-0.1) == pytest.approx(5e-4)
+    assert most[-1] == 2e-3
 
 
 @pytest.mark.parametrize(("duration", "told"), [
