@@ -1,6 +1,6 @@
 """The answer of a march that is at its end, judged by all that is known of it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -33,6 +33,7 @@ def judged_answer(
     slips: bool = False,
     notes: tuple[str, ...] = (),
     foretell: bool = True,
+    next_cycles: Iterator[float] | None = None,
     **told: Any,
 ) -> tuple[SlideResult, float | None]:
     """Return the answer of a march that is at its end, judged by all that is known of it.
@@ -57,6 +58,8 @@ def judged_answer(
         Beside those of the march.
     foretell : bool
         Whether it is asked what duration would do.
+    next_cycles : iterator of float, optional
+        Ratios of the cycles that follow, where they are marched more cheaply than one by one.
     told
         What else `summarise` takes.
 
@@ -110,11 +113,16 @@ def judged_answer(
         return answer, come_to_its_size(across, window.model)
     if answer.settled or (is_far and home is not None):
         return answer, home
-    return answer, foretold(window, body(), is_far=is_far, slips=slips)
+    return answer, foretold(window, body(), next_cycles, is_far=is_far, slips=slips)
 
 
 def foretold(
-    window: WindowMeans, body: Integrator, *, is_far: bool = False, slips: bool = False
+    window: WindowMeans,
+    body: Integrator,
+    next_cycles: Iterator[float] | None = None,
+    *,
+    is_far: bool = False,
+    slips: bool = False,
 ) -> float | None:
     """Return the duration in s that would do of a march that has not settled; None where none is.
 
@@ -124,12 +132,14 @@ def foretold(
         What it has come to.
     body : Integrator
         At its end; left as it is.
+    next_cycles : iterator of float, optional
+        As `judged_answer` takes it.
     is_far : bool
         Whether its mean agrees in the halves of the window, far from where it goes to.
     slips : bool
         Whether it is seen to stick and slip beside steady sliding.
     """
-    near = next_to(body, window.table)
+    near = next_to(body, window.table, next_cycles)
     if is_far and near is not None:
         return comes_there(near, window.model, most_off(near.ratio))
     return needed(window, near or ring_at_end(window, body), slips=slips)

@@ -6,13 +6,14 @@ of the cycles to come are off that of the state.
 """
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from asperity.arrays import FloatArray
-from asperity.slider.cycle_map import UNSTABLE, Cycle
+from asperity.slider.cycle_map import UNSTABLE
 from asperity.slider.from_rest import ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.ladder import first_that_does
@@ -70,8 +71,20 @@ class Nearby(NamedTuple):
         return bool(np.abs(self.growths).max() > UNSTABLE)
 
 
-def next_to(body: Integrator, table: Timetable) -> Nearby | None:
-    """Return the state next to a march's end; None where none is found."""
+def next_to(
+    body: Integrator, table: Timetable, next_cycles: Iterator[float] | None = None
+) -> Nearby | None:
+    """Return the state next to a march's end; None where none is found.
+
+    Parameters
+    ----------
+    body : Integrator
+        At the end; left as it is.
+    table : Timetable
+        Steps of the march.
+    next_cycles : iterator of float, optional
+        Ratios of the cycles that follow; marched where they are not known.
+    """
     model = body.model
     if not model.vibrates or model.solve.scheme == "two-phase" or model.slider.rigid:
         return None
@@ -90,15 +103,16 @@ def next_to(body: Integrator, table: Timetable) -> Nearby | None:
     swings = np.abs(off) * np.abs(modes).max(axis=0)
     grows = _until_grown(growths, swings)
     foreseen = (sizes @ growths[:, None] ** np.arange(_LOOKED_AT)).real
-    linear = _goes(end, ratio_of(there) + foreseen, np.abs(foreseen).sum())
+    shown = marched_on(end) if next_cycles is None else next_cycles
+    linear = _goes(shown, ratio_of(there) + foreseen, np.abs(foreseen).sum())
     sizes = np.maximum(np.abs(sizes), _of_rings(model, growths, np.abs(modes[:2] * off)))
     return Nearby(ratio_of(there), growths.astype(complex), sizes, linear, grows)
 
 
-def _goes(body: Cycle, ratios: FloatArray, way: float) -> bool:
+def _goes(shown: Iterator[float], ratios: FloatArray, way: float) -> bool:
     """Whether a body goes through ratios, cycle by cycle, on a way of so much in all of them."""
     left = max(_LINEAR * way, UNSTEADY)
-    for foreseen, ratio in zip(ratios, marched_on(body), strict=False):
+    for foreseen, ratio in zip(ratios, shown, strict=False):
         left -= abs(ratio - foreseen)
         if not left >= 0.0:
             return False
