@@ -20,6 +20,7 @@ from asperity.slider.timetable import (
     WAYS,
     WindowMeans,
     bending,
+    bends_ever_more,
     drifts_for,
     in_whose_window,
     still_grows,
@@ -52,20 +53,18 @@ def needed(
         return None
     loaded = model.usual_duration + _loading(model)
     least = [1.0 * model.duration, *_with_room(window)]
-    near = end if isinstance(end, Nearby) else None
-    far = near is not None and not near.linear
-    if far or window.holds or (window.residual <= UNSTEADY and _loads(window)):
+    if window.holds or (window.residual <= UNSTEADY and _loads(window)):
         least.append(loaded)
-    there = None if near is None or far else _to_the_state(window, near)
+    there = _to_the_state(window, end, loaded) if isinstance(end, Nearby) else None
     if there is not None:
-        least.append(there)
+        least += there
     elif (up := taken_up_after(model)) is None:
         return None
-    elif window.broke and _sticks(model, near, slips=slips):
+    elif window.broke and _sticks(model, end, slips=slips):
         least = [loaded]
     else:
         ring = end if isinstance(end, Ring) else _likely_ring(window)
-        least += [up, *_out_of(model, near)]
+        least += [up, *_out_of(model, end)]
         if ring is not None:
             least.append(rung_out(model, ring))
         # Quarters of a ring that is known tell nothing of what fades otherwise.
@@ -97,24 +96,33 @@ def _with_room(window: WindowMeans) -> list[float]:
     return least
 
 
-def _to_the_state(window: WindowMeans, end: Nearby) -> float | None:
-    """Duration in s in which it comes to a state that is known; None where that tells none."""
+def _to_the_state(window: WindowMeans, end: Nearby, loaded: float) -> list[float] | None:
+    """Durations in s in which it comes to a state that is known; None where that tells none."""
+    model = window.model
+    if not end.linear and bends_ever_more(model):
+        return None
     # A drive is stretched no faster than it goes, whatever friction does.
     to_stretch = end.ratio - window.quarters[-1] if _loads(window) else 0.0
-    later = _stretching(window.model, to_stretch)
-    return comes_there(end, window.model, most_off(end.ratio), later)
+    there = comes_there(end, model, most_off(end.ratio), _stretching(model, to_stretch))
+    if there is None:
+        return None
+    if end.linear:
+        return [there]
+    # It is far from that state still.
+    up = taken_up_after(model)
+    return [there, loaded] if up is None else [there, loaded, up]
 
 
-def _out_of(model: Model, near: Nearby | None) -> list[float]:
+def _out_of(model: Model, end: Nearby | Ring | None) -> list[float]:
     """Durations in s in whose window a body has gone to where it goes from an unstable state."""
-    if near is None or not near.grows > 0.0:
+    if not isinstance(end, Nearby) or not end.grows > 0.0:
         return []
-    return [in_whose_window(model, model.duration + near.grows / model.frequency)]
+    return [in_whose_window(model, model.duration + end.grows / model.frequency)]
 
 
-def _sticks(model: Model, near: Nearby | None, *, slips: bool) -> bool:
+def _sticks(model: Model, end: Nearby | Ring | None, *, slips: bool) -> bool:
     """Whether it sticks and slips, its mean follows where in a slip the window ends: for ever."""
-    if near is not None and near.unstable:
+    if isinstance(end, Nearby) and end.unstable:
         return (model.friction.static_mu or 0.0) > model.friction.mu
     return slips or (not model.vibrates and growth_rate(model) > 0.0)
 

@@ -5,6 +5,7 @@ each of which a cycle multiplies by a number :math:`\lambda`, and so is what the
 of the cycles to come are off that of the state.
 """
 
+import itertools
 import math
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -33,9 +34,12 @@ from asperity.slider.timetable import FAR, UNSTEADY, Timetable, bends_ever_more
 # Marches by lot that have not settled, of 4 to 400 cycles (`tests/property/test_slider_told.py`),
 # said how well these serve: 260 next to a state, 810 with four lots more.
 _MOST_UNKNOWNS = 9  # each takes a cycle; without springs there are 7
-_FADES = 1.0 - 1e-6  # a multiplier, as exact as differences are: 1e-5 and 1e-7 alter 2 of 260
+_FADES = 1.0 - 1e-6  # a multiplier, as exact as differences are: 1e-5 and 1e-7 alter 3 of 260
+_LITTLE = 1e-2  # of a state's scales, a ring whose square tells nothing: 1e-3 and 0.1 alter none
 _LOOKED_AT = 36  # cycles: by 24 one more of 810 is told what does not do, by 18 three
-_LINEAR = 0.2  # of their way, that they may be beside it: by 0.4 one of 260, by 0.1 11 told longer
+_LINEAR = (
+    0.2  # of their way, that they may be off it: by 0.4 one of 260 fails, by 0.1 ten last longer
+)
 _ROUNDING = 1e-12  # that any disturbance has: 100 times that or a hundredth alter one, by 5 %
 _NEXT, _TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one, at most
 _COARSE = 8  # in which one is tried at first: 3 of 237 are told up to 5 % longer
@@ -102,21 +106,21 @@ def next_to(
     sizes = slopes @ modes * off
     swings = np.abs(off) * np.abs(modes).max(axis=0)
     grows = _until_grown(growths, swings)
+    swings = np.where(_turns(growths), swings, 0.0)
     foreseen = (sizes @ growths[:, None] ** np.arange(_LOOKED_AT)).real
-    shown = marched_on(end) if next_cycles is None else next_cycles
-    linear = _goes(shown, ratio_of(there) + foreseen, np.abs(foreseen).sum())
+    follow = marched_on(end) if next_cycles is None else next_cycles
+    shown = np.fromiter(itertools.islice(follow, _LOOKED_AT), float) - ratio_of(there)
+    linear = np.abs(shown - foreseen).sum() <= max(_LINEAR * np.abs(foreseen).sum(), UNSTEADY)
+    # A ring does by its square what cycles show beside that, and it fades twice as fast; before the
+    # rest has faded they show nothing of it.
+    late = foreseen[_LOOKED_AT // 2 :].mean()
+    beside = abs(shown[_LOOKED_AT // 2 :].mean() - late)
+    slowest = np.abs(growths[swings > _LITTLE]).max(initial=0.0) ** 2
+    square = beside if abs(late) < beside else 0.0
     sizes = np.maximum(np.abs(sizes), _of_rings(model, growths, np.abs(modes[:2] * off)))
-    return Nearby(ratio_of(there), growths.astype(complex), sizes, linear, grows)
-
-
-def _goes(shown: Iterator[float], ratios: FloatArray, way: float) -> bool:
-    """Whether a body goes through ratios, cycle by cycle, on a way of so much in all of them."""
-    left = max(_LINEAR * way, UNSTEADY)
-    for foreseen, ratio in zip(ratios, shown, strict=False):
-        left -= abs(ratio - foreseen)
-        if not left >= 0.0:
-            return False
-    return True
+    sizes = np.append(sizes, min(square, float(swings.max(initial=0.0)) ** 2))
+    growths = np.append(growths, slowest).astype(complex)
+    return Nearby(ratio_of(there), growths, sizes, bool(linear), grows)
 
 
 def _turns(growths: npt.NDArray[np.complex128]) -> npt.NDArray[np.bool_]:

@@ -10,7 +10,7 @@ from asperity.slider.timetable import FAR, WindowMeans
 _LEFT = 0.5  # of what may go untold, that a change shall have come down to
 _MOVES = 0.02  # of the way to where a mean goes, between the halves of a window
 _FAR_OFF = 5.0  # times what may go untold, that a mean may be off by which has settled
-_NOTHING = 1e-4  # of mu F_N, what four digits do not tell: less may always be left
+_NOTHING = 1e-4  # a ratio that is none to four digits, and what may be left to it
 STILL_GOES = "the halves of the window agree, but the mean still goes on as it fades"
 """How it begins what is said of a mean that is not yet where it goes to."""
 
@@ -48,9 +48,11 @@ def brought_home(window: WindowMeans, ratio: float, comes_to: float | None) -> f
 def most_off(comes_to: float) -> float:
     """Return how far from where it goes to a mean ratio may be that has settled.
 
-    5e-3 of it, but no more than 2e-3 of mu F_N and no less than 1e-4.
+    5e-3 of it, and no more than 2e-3 of mu F_N; of a ratio that is none to four digits 1e-4, and
+    of one that is more what is left of that.
     """
-    return max(min(_FAR_OFF * allowed_at(comes_to), FAR), _NOTHING)
+    most = min(_FAR_OFF * allowed_at(comes_to), FAR)
+    return max(most, min(2.0 * _NOTHING - abs(comes_to), _NOTHING))
 
 
 def far_from_home(window: WindowMeans, ratio: float, comes_to: float | None) -> bool:
