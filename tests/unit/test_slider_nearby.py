@@ -105,6 +105,30 @@ def test_the_duration_foreseen_has_a_window_in_which_nothing_is_seen_of_what_fad
         assert apart > 8e-4 or off > 0.8 * most
 
 
+# Asperities that bend far, shaken along the drive: its ring puts the mean off by its square.
+SQUARE = (
+    "slider.drive_velocity=9.7781 mm/s", "slider.normal_force=136.18 N", "slider.mass=0.097036 kg",
+    "slider.drive_stiffness=16800.6 N/m", "slider.drive_damping=0 N s/m", "slider.lateral=guided",
+    "friction.mu=0.190558", "friction.max_deflection=0.499164 mm", "friction.exponent=1",
+    "vibration.frequency=70.285 Hz", "vibration.velocity_ratio=7.3182", "vibration.start=0 s",
+    "solve.step=35.57 us", "solve.duration=0.28159 s",
+)  # fmt: skip
+
+
+def test_a_ring_puts_the_mean_off_by_its_square_which_fades_twice_as_fast():
+    march = March(model_of(*SQUARE))
+    march.to_the_end()
+    body, table = march._body, march.table
+    near = next_to(body, table)
+    ring, square = np.abs(near.growths)[[0, -1]]
+    assert square == pytest.approx(ring**2)
+    assert near.sizes[-1] > 1e-3
+    left = np.array(ratios_of(at_the_end(body, table), 800)) - near.ratio
+    first, last = left.reshape(8, 100).mean(axis=1)[[1, 7]]
+    fades = (last / first) ** (1.0 / 600.0)
+    assert math.log(fades) == pytest.approx(math.log(square), rel=0.1)
+
+
 def first_of_all(near, model, most):
     """The first of durations, each 1 % longer, that does: every one is looked at, every mode."""
     for tried in range(1500):
