@@ -15,6 +15,7 @@ import tempfile
 import time
 from pathlib import Path
 
+SPAN, LEAST_PAIRS = 1.0, 5  # s that each of two is run for by turns, and times at least
 ONE_CORE = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
 
 
@@ -35,6 +36,29 @@ def best(function, repeats=3, clock=time.thread_time):
         function()
         times.append(clock() - began)
     return min(times)
+
+
+def paired(whole, less):
+    """Figures of a work and of the same without a part of it, run by turns; and what it returns."""
+    first, answer = _seconds(whole)
+    less()
+    pairs = [
+        (_seconds(whole)[0], _seconds(less)[0])
+        for _ in range(max(LEAST_PAIRS, min(1000, int(SPAN / first))))
+    ]
+    one, other = map(min, zip(*pairs, strict=True))
+    return {
+        "with_ms": 1e3 * one,
+        "without_ms": 1e3 * other,
+        "with_over_without": one / other,
+    }, answer
+
+
+def _seconds(function):
+    """Seconds of this thread that a call takes, and what it returns."""
+    began = time.thread_time()
+    found = function()
+    return time.thread_time() - began, found
 
 
 def in_turn(commit, program, *arguments, rounds):

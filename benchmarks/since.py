@@ -3,11 +3,13 @@
 ``.venv/bin/python benchmarks/since.py COMMIT`` takes that commit's sources out of git into a folder
 of their own, and runs the same works with both, in turn, each in a process of its own. What counts
 is the ratio of the least times of the processor; marches are told by the step. ``--only`` takes
-the rooms that are named. Errors of a march's step, which earlier commits do not estimate, are left
-out: ``step_error.py`` says what these cost.
+the rooms that are named. Errors of a march's step, and the duration that would do of one that has
+not settled, which earlier commits do not tell as these do, are left out: ``step_error.py`` and
+``foretold.py`` say what these cost. ``--told`` leaves the durations in.
 """
 
 import argparse
+import contextlib
 import inspect
 import json
 import sys
@@ -241,9 +243,18 @@ def without_errors():
     return mock.patch("asperity.slider.judged_march.end_of_march", return_value=MarchEnd(None))
 
 
-def measured(room, folder):
+def without_durations():
+    """Have no march told the duration that would do, with whichever package is on the path."""
+    try:
+        from asperity.slider import judged_march
+    except ImportError:
+        return contextlib.nullcontext()
+    return mock.patch.object(judged_march, "foretold", return_value=None, create=True)
+
+
+def measured(room, folder, told):
     """Print as JSON what the works of a room take with the package that is on the path."""
-    with without_errors():
+    with without_errors(), contextlib.nullcontext() if told else without_durations():
         print(json.dumps({name: timed(work) for name, work in room(folder).items()}))
 
 
@@ -252,6 +263,7 @@ def main():
     parser.add_argument("commit", nargs="?", help="that is measured with in turn")
     parser.add_argument("--only", nargs="+", choices=ROOMS, default=list(ROOMS), metavar="ROOM")
     parser.add_argument("--rounds", type=int, default=ROUNDS)
+    parser.add_argument("--told", action="store_true", help="leave the durations in")
     asked = parser.parse_args()
     if not asked.commit:
         print("no commit is named: nothing to measure against")
@@ -259,7 +271,7 @@ def main():
     over = False
     with tempfile.TemporaryDirectory() as folder:
         for room in asked.only:
-            arguments = ("--measure", room, folder)
+            arguments = ("--measure", room, folder, *(["--told"] if asked.told else []))
             then, now = in_turn(asked.commit, __file__, *arguments, rounds=asked.rounds)
             for work in now[0] if now else ():
                 unit = now[0][work][1]
@@ -272,6 +284,6 @@ def main():
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--measure"]:
-        measured(ROOMS[sys.argv[2]], Path(sys.argv[3]))
+        measured(ROOMS[sys.argv[2]], Path(sys.argv[3]), told="--told" in sys.argv[4:])
     else:
         sys.exit(main())

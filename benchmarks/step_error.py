@@ -4,11 +4,10 @@ Run it with ``make bench``. The steps are such that nothing is solved again with
 are run by turns; of their shortest times at most 1.15 is wanted.
 """
 
-import time
 from functools import partial
 from unittest import mock
 
-from _common import finish, on_one_core
+from _common import finish, on_one_core, paired
 
 from asperity.casefile import read_case
 from asperity.slider.batch import solve_many
@@ -18,7 +17,6 @@ from asperity.slider.model import Model
 from asperity.slider.periodic import solve_periodic
 from asperity.slider.tables import TABLES
 
-SPAN, LEAST_PAIRS = 1.0, 5  # s that each solution is run for, and times at least
 MOST = {"with_over_without": 1.15}
 LUGRE = ("friction.model=lugre", "friction.static_mu=0.13", "friction.stribeck_velocity=1 mm/s")
 TRIANGLE = "vibration.waveform=triangle"
@@ -38,29 +36,6 @@ BODIES = {
 def body(name, *settings):
     case, *own = BODIES[name]
     return Model.from_case(read_case(case, TABLES, [*own, *settings]))
-
-
-def seconds(function):
-    """Seconds of this thread that a call takes, and what it returns."""
-    began = time.thread_time()
-    found = function()
-    return time.thread_time() - began, found
-
-
-def paired(judged, unjudged):
-    """Figures of a solution with the estimate and without, run by turns."""
-    first, answer = seconds(judged)
-    unjudged()
-    pairs = [
-        (seconds(judged)[0], seconds(unjudged)[0])
-        for _ in range(max(LEAST_PAIRS, min(1000, int(SPAN / first))))
-    ]
-    one, other = map(min, zip(*pairs, strict=True))
-    return {
-        "with_ms": 1e3 * one,
-        "without_ms": 1e3 * other,
-        "with_over_without": one / other,
-    }, answer
 
 
 def without_estimate(function):

@@ -14,8 +14,8 @@ from scipy.integrate import solve_ivp
 from asperity.casefile import read_case
 from asperity.runs import Run
 from asperity.slider import TABLES, Model, slide, solve, solve_many, step_error
-from asperity.slider.longer import still_goes
 from asperity.slider.march import March
+from asperity.slider.on_its_way import still_goes
 from asperity.sweep import branches, read_grid
 from asperity.sweep import run as sweep
 from asperity.sweep.plots import plot_sweep

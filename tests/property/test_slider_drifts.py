@@ -13,7 +13,8 @@ import pytest
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve, solve_many
 from asperity.slider.batch_fits import fits_batch
-from asperity.slider.longer import STILL_GOES, lasting
+from asperity.slider.longer import lasting
+from asperity.slider.on_its_way import STILL_GOES
 
 BAR = 1e-3
 

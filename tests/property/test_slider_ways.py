@@ -196,8 +196,8 @@ def shaken_otherwise(lot):
 def shared(monkeypatch):
     """How many bodies each batch has that is marched."""
     sizes = []
-    waves = batch._waves
-    monkeypatch.setattr(batch, "_waves", lambda own: [sizes.append(len(own)), waves(own)][1])
+    waves = batch.waves_of
+    monkeypatch.setattr(batch, "waves_of", lambda own: [sizes.append(len(own)), waves(own)][1])
     return sizes
 
 

@@ -1,4 +1,5 @@
 import dataclasses
+import itertools
 import math
 import sys
 import threading
@@ -10,11 +11,22 @@ import pytest
 from asperity.casefile import read_case
 from asperity.errors import AsperityError, ConvergenceError, InputError
 from asperity.friction import Friction
-from asperity.slider import TABLES, Model, Slider, Solve, Stopped, batch, solve, solve_many
+from asperity.slider import (
+    TABLES,
+    Model,
+    Slider,
+    Solve,
+    Stopped,
+    batch,
+    judged_march,
+    solve,
+    solve_many,
+)
 from asperity.slider.batch_fits import fits_batch
 from asperity.slider.batch_kernels import BLOCK
 from asperity.slider.batch_rows import WIDTH
 from asperity.slider.march import march
+from asperity.slider.march_end import at_the_end, ratios_of
 from asperity.vibration import Vibration
 
 LAWS = ["split", "unsplit", "vector"]
@@ -322,6 +334,63 @@ def test_lanes_know_how_far_friction_goes_across_in_each_half_of_the_window(monk
         assert alone[0][0] != alone[0][1] > 0.0
         np.testing.assert_allclose(np.hstack(lane), np.hstack(alone), rtol=1e-6)
         assert lane[0][1] <= max(lane[1], -lane[2])
+
+
+@pytest.fixture
+def next_cycles(monkeypatch):
+    """Ratios of the cycles that follow each lane's march: marched together, and one by one."""
+    found = []
+
+    def noted(body, table, together=None):
+        alone = ratios_of(at_the_end(body, table), 5)
+        found.append((None if together is None else list(itertools.islice(together, 5)), alone))
+
+    monkeypatch.setattr(judged_march, "next_to", noted)
+    monkeypatch.setattr(judged_march, "off_steady", lambda *_: "something")
+    return found
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_cycles_that_follow_lanes_are_as_those_of_each_alone(law, next_cycles):
+    """Of waves whose cycle has 250 steps; those of another frequency have 240 of their own."""
+    laws, ends = {"law": law}, {"duration": 0.03}
+    solve_many([
+        body(friction=laws, **ends),
+        body(friction=laws, vibration={"velocity_ratio": 3.0, "direction": 0.7}, **ends),
+        body(friction=laws, vibration={"frequency": 1e6 / 240.0}, **ends),
+        body(friction=laws, vibration={"frequency": 4.0003e3}, **ends),
+    ])  # fmt: skip
+    together, alone = zip(*next_cycles, strict=True)
+    assert [each is not None for each in together].count(True) == 2
+    for each, other in zip(together, alone, strict=True):
+        assert each is None or each == pytest.approx(other, abs=1e-9)
+
+
+def test_cycles_that_follow_pressed_lanes_are_as_those_of_each_alone(next_cycles):
+    solve_many(pressed([{}, {"vibration.velocity_ratio": 3.0}]))
+    for together, alone in next_cycles:
+        assert together == pytest.approx(alone, abs=1e-9)
+    assert len(next_cycles) == 2
+
+
+def test_lanes_that_are_marched_anew_are_told_no_duration_beforehand(monkeypatch):
+    """They lack something: with a duration of their own they are told which would do."""
+    asked, anew = [], []
+    foretold = judged_march.foretold
+
+    def noted(*where, **told):
+        asked.append(where)
+        return foretold(*where, **told)
+
+    monkeypatch.setattr(judged_march, "off_steady", lambda *_: "something")
+    monkeypatch.setattr(judged_march, "foretold", noted)
+    monkeypatch.setattr(batch, "march", lambda model, **_: anew.append(model))
+    for duration, told in ((None, 0), (0.03, 2)):
+        asked.clear()
+        model = body(duration=duration)
+        solve_many([model, model])
+        assert len(asked) == told
+    assert len(anew) == 2
 
 
 def test_pressed_bodies_that_a_batch_cannot_take_are_solved_alone_in_their_place():

@@ -12,8 +12,10 @@ from asperity.casefile import read_case
 from asperity.slider import solve
 from asperity.slider.advice import advice
 from asperity.slider.fading import apart, mean_left, quarters_in_time, windows_in_time
-from asperity.slider.longer import brought_home, lasting, needed
+from asperity.slider.foreseen import needed
+from asperity.slider.longer import lasting
 from asperity.slider.model import WINDOW_SHARE, Model
+from asperity.slider.on_its_way import brought_home, most_off
 from asperity.slider.ring_on_drive import friction_on_ring, ring_of, rung_out
 from asperity.slider.ringing import upward
 from asperity.slider.tables import TABLES
@@ -247,6 +249,16 @@ def test_a_mean_that_hardly_moves_is_promised_no_duration(change, told):
     body = Model.from_case(read_case("table-4.3", TABLES, ["friction.exponent=1"]))
     window = WindowMeans(body, Timetable(body), change, [0.1] * 4, broke=True)
     assert (brought_home(window, 0.1, 0.11) is not None) == told
+
+
+def test_what_may_be_left_to_a_mean_has_no_jump_in_its_ratio():
+    """It fell from 1e-4 to 5e-7 where ratios come to be more than 1e-4."""
+    ratios = np.concatenate([-np.geomspace(2.0, 1e-7, 2000), np.geomspace(1e-7, 2.0, 2000)])
+    most = np.array([most_off(ratio) for ratio in ratios])
+    assert (np.abs(np.diff(most)) <= 1.0001 * np.diff(ratios)).all()
+    assert (most[np.abs(ratios) < 1e-4] == 1e-4).all()
+    assert most_off(6e-3) == most_off(-6e-3) == pytest.approx(3e-5)
+    assert most_off(2.0) == 2e-3
 
 
 @pytest.mark.parametrize(("duration", "told"), [

@@ -105,6 +105,72 @@ def test_the_duration_foreseen_has_a_window_in_which_nothing_is_seen_of_what_fad
         assert apart > 8e-4 or off > 0.8 * most
 
 
+# Asperities that bend far, shaken along the drive: its ring puts the mean off by its square.
+SQUARE = (
+    "slider.drive_velocity=9.7781 mm/s", "slider.normal_force=136.18 N", "slider.mass=0.097036 kg",
+    "slider.drive_stiffness=16800.6 N/m", "slider.drive_damping=0 N s/m", "slider.lateral=guided",
+    "friction.mu=0.190558", "friction.max_deflection=0.499164 mm", "friction.exponent=1",
+    "vibration.frequency=70.285 Hz", "vibration.velocity_ratio=7.3182", "vibration.start=0 s",
+    "solve.step=35.57 us", "solve.duration=0.28159 s",
+)  # fmt: skip
+
+
+def test_a_ring_puts_the_mean_off_by_its_square_which_fades_twice_as_fast():
+    march = March(model_of(*SQUARE))
+    march.to_the_end()
+    body, table = march._body, march.table
+    near = next_to(body, table)
+    ring, square = np.abs(near.growths)[[0, -1]]
+    assert square == pytest.approx(ring**2)
+    assert near.sizes[-1] > 1e-3
+    left = np.array(ratios_of(at_the_end(body, table), 800)) - near.ratio
+    first, last = left.reshape(8, 100).mean(axis=1)[[1, 7]]
+    fades = (last / first) ** (1.0 / 600.0)
+    assert math.log(fades) == pytest.approx(math.log(square), rel=0.1)
+
+
+def first_of_all(near, model, most):
+    """The first of durations, each 1 % longer, that does: every one is looked at, every mode."""
+    for tried in range(1500):
+        duration = model.duration * 1.01**tried
+        window = min(model.window, WINDOW_SHARE * duration)
+        cycles = max(math.floor(window * model.frequency + 1e-9), 2)
+        begin, half = (duration - model.duration) * model.frequency - cycles, cycles // 2
+        if begin < 0.0:
+            continue
+        early = late = 0.0
+        for growth, size in zip(near.growths, near.sizes, strict=True):
+            turns = (growth.imag != 0.0 or growth.real < 0.0) and window < model.window
+            middle, last = growth**half, growth**cycles
+            apart = (1.0 - middle) / half - (middle - last) / (cycles - half)
+            apart = (1.0 + abs(middle)) ** 2 / half if turns else abs(apart)
+            off = (1.0 + abs(last) if turns else abs(1.0 - last)) / cycles
+            left = size * abs(growth) ** math.floor(begin) / abs(1.0 - growth)
+            early, late = early + left * apart, late + left * off
+        if early <= 8e-4 and late <= 0.8 * most:
+            return duration
+    return None
+
+
+def test_of_durations_each_longer_the_first_that_does_is_told_or_one_little_longer():
+    """Modes that fade, turn round or are none, of one size or another; from short and long ones."""
+    rng = np.random.default_rng(5)
+    usual = model_of(*SHAKEN, "vibration.velocity_ratio=3")
+    firsts = 0
+    for _ in range(40):
+        model = lasting(usual, usual.usual_duration * 10.0 ** rng.uniform(-1.5, 0.5))
+        fades = 1.0 - 10.0 ** rng.uniform(-4.0, 0.0, 4)
+        turned = np.exp(1j * rng.uniform(0.0, math.pi, 2)) * fades[:2]
+        growths = np.concatenate([turned, turned.conj(), fades[2:], [0.0, -fades[2]]])
+        sizes = 10.0 ** rng.uniform(-5.0, 0.0, 8) * (rng.random(8) < 0.6)
+        near = Nearby(0.3, growths, sizes)
+        first = first_of_all(near, model, 1e-3)
+        found = comes_there(near, model, 1e-3)
+        assert first * 0.999999 <= found < 1.08 * first
+        firsts += found == pytest.approx(first, rel=1e-9)
+    assert firsts >= 35
+
+
 def test_what_comes_later_is_waited_for():
     model = lasting(model_of(*SHAKEN, "vibration.velocity_ratio=3"), 0.9)
     near = Nearby(0.3, np.array([0.999], complex), np.array([0.2]))

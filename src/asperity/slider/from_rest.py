@@ -128,9 +128,14 @@ def _may_swing(cycle: Cycle) -> bool:
     return model.frequency <= (_PUMPED if turns else halves) * highest
 
 
+def _is_looked_for(cycle: Cycle) -> bool | None:
+    """Whether another state from rest is looked for, or takes too long; None where none may be."""
+    return _loading(cycle.body.model) <= _MOST_TAKEN_UP if may_come_elsewhere(cycle) else None
+
+
 def takes_too_long(cycle: Cycle) -> bool:
     """Whether a body may come to another state, but its drive is so soft that none looks for it."""
-    return may_come_elsewhere(cycle) and not _loading(cycle.body.model) <= _MOST_TAKEN_UP
+    return _is_looked_for(cycle) is False
 
 
 def may_bounce_otherwise(cycle: Cycle) -> bool:
@@ -144,11 +149,10 @@ def may_bounce_otherwise(cycle: Cycle) -> bool:
 
 def from_rest(cycle: Cycle) -> Elsewhere | None:
     """March a body from rest; None where it comes to the state of a cycle, or is not taken up."""
-    model = cycle.body.model
-    loading = _loading(model)
-    if not may_come_elsewhere(cycle) or not loading <= _MOST_TAKEN_UP:
+    if not _is_looked_for(cycle):
         return None
-    there = ratio_of(cycle)
+    model, there = cycle.body.model, ratio_of(cycle)
+    loading = _loading(model)
     # Nobody's vibration is quite along the way: what is unstable across it is no state to come to.
     askew = dataclasses.replace(model, askew=1.0) if goes_straight(model) else model
     body = Cycle(askew, (len(cycle.increments) - 1) // cycle.period, cycle.step)

@@ -22,8 +22,8 @@ from asperity.slider.advice import advice
 from asperity.slider.carried import carried
 from asperity.slider.cycle_mean_law import HomogenisedLaw, homogenise
 from asperity.slider.cycle_mean_normal import gain_notes, mean_motion
+from asperity.slider.foreseen import needed
 from asperity.slider.history import History
-from asperity.slider.longer import needed
 from asperity.slider.march import March
 from asperity.slider.model import Model
 from asperity.slider.pieces import interpolate, value_and_slope

@@ -1,6 +1,6 @@
 """The answer of a march that is at its end, judged by all that is known of it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -8,11 +8,12 @@ import numpy as np
 from asperity.results.settled import Standing
 from asperity.slider.astray import come_to_its_size, motion_across
 from asperity.slider.chance import judged, standing_by_cycles
+from asperity.slider.foreseen import needed
 from asperity.slider.integrators import Integrator
-from asperity.slider.longer import brought_home, far_from_home, most_off, needed, still_goes
 from asperity.slider.march_end import MarchEnd, end_of_march, rings_unheard
 from asperity.slider.model import Model
 from asperity.slider.nearby import comes_there, next_to
+from asperity.slider.on_its_way import brought_home, far_from_home, most_off, still_goes
 from asperity.slider.result import SlideResult
 from asperity.slider.ring_on_drive import ring_at_end
 from asperity.slider.ringing import heard, ringing_notes, rings
@@ -31,6 +32,8 @@ def judged_answer(
     leaves: str = "",
     slips: bool = False,
     notes: tuple[str, ...] = (),
+    foretell: bool = True,
+    next_cycles: Iterator[float] | None = None,
     **told: Any,
 ) -> tuple[SlideResult, float | None]:
     """Return the answer of a march that is at its end, judged by all that is known of it.
@@ -53,6 +56,10 @@ def judged_answer(
         Whether it is seen to stick and slip beside steady sliding.
     notes : tuple of str
         Beside those of the march.
+    foretell : bool
+        Whether it is asked what duration would do.
+    next_cycles : iterator of float, optional
+        Ratios of the cycles that follow, where they are marched more cheaply than one by one.
     told
         What else `summarise` takes.
 
@@ -61,7 +68,7 @@ def judged_answer(
     SlideResult
         The answer.
     float or None
-        That duration, s; None where nothing is missing, or no duration is foreseen.
+        The duration that would do, s; None where nothing is missing, or none is foreseen.
     """
     table = window.table
     wanders: tuple[str, ...] = ()
@@ -100,13 +107,39 @@ def judged_answer(
         notes=(*march_notes(steady), *ringing_notes(model, follows=follows), *wanders, *notes),
         **told,
     )  # fmt: skip
+    if not foretell:
+        return answer, None
     if across is not None:
         return answer, come_to_its_size(across, window.model)
-    if answer.settled:
+    if answer.settled or (is_far and home is not None):
         return answer, home
-    if is_far and home is not None:
-        return answer, home
-    near = next_to(body(), table)
+    return answer, foretold(window, body(), next_cycles, is_far=is_far, slips=slips)
+
+
+def foretold(
+    window: WindowMeans,
+    body: Integrator,
+    next_cycles: Iterator[float] | None = None,
+    *,
+    is_far: bool = False,
+    slips: bool = False,
+) -> float | None:
+    """Return the duration in s that would do of a march that has not settled; None where none is.
+
+    Parameters
+    ----------
+    window : WindowMeans
+        What it has come to.
+    body : Integrator
+        At its end; left as it is.
+    next_cycles : iterator of float, optional
+        As `judged_answer` takes it.
+    is_far : bool
+        Whether its mean agrees in the halves of the window, far from where it goes to.
+    slips : bool
+        Whether it is seen to stick and slip beside steady sliding.
+    """
+    near = next_to(body, window.table, next_cycles)
     if is_far and near is not None:
-        return answer, comes_there(near, window.model, most_off(near.ratio))
-    return answer, needed(window, near or ring_at_end(window, body()), slips=slips)
+        return comes_there(near, window.model, most_off(near.ratio))
+    return needed(window, near or ring_at_end(window, body), slips=slips)

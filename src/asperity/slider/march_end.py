@@ -7,6 +7,7 @@ its last cycles are marched again.
 """
 
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +20,7 @@ from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import at_state
 from asperity.slider.orders import ORDER_ONE, of_the_error, part_of_difference
-from asperity.slider.shooting import CLOSE
+from asperity.slider.shooting import CLOSE, run_cycle
 from asperity.slider.step_error import (
     CLOSING,
     LEFT,
@@ -154,6 +155,13 @@ def scales_at(cycle: Cycle) -> FloatArray:
     return scales[:count]
 
 
+def unknowns_of(body: Integrator) -> int:
+    """Return how many unknowns a body has."""
+    springs = body.kept.get("springs", np.zeros((2, 0)))
+    scales, q = np.empty(most_unknowns(springs)), getattr(body, "q", None)
+    return int(unknown_scales(body.kept["state"], springs, body.p, q, scales))
+
+
 def at_the_end(body: Integrator, table: Timetable) -> Cycle:
     """Return the map of a body over the cycle that follows its march."""
     end = cycle_after(body.model, table)
@@ -163,11 +171,16 @@ def at_the_end(body: Integrator, table: Timetable) -> Cycle:
 
 def ratios_of(cycle: Cycle, cycles: int) -> list[float]:
     """March on over so many cycles; returns the ratio of each."""
-    ratios = []
-    for _ in range(cycles):
-        run_once(cycle)
-        ratios.append(ratio_of(cycle))
-    return ratios
+    return [ratio for _, ratio in zip(range(cycles), marched_on(cycle), strict=False)]
+
+
+def marched_on(cycle: Cycle) -> Iterator[float]:
+    """March on, cycle by cycle; yields the ratio of each."""
+    body, waves = cycle.body, (cycle.increments, cycle.rises)
+    state, sums = body.kept["state"][0], body.sums
+    while True:
+        run_cycle(state, cycle.springs, body.p, cycle.q, *waves, sums)
+        yield float(sums["drive_force"] / sums["steps"])
 
 
 def cycle_after(model: Model, table: Timetable) -> Cycle:

@@ -12,9 +12,10 @@ from asperity.runs import Run
 from asperity.slider.astray import straight_or_askew
 from asperity.slider.cost import estimate
 from asperity.slider.homogenised import solve_homogenised
-from asperity.slider.longer import STILL_GOES, lasting, until_settled
+from asperity.slider.longer import lasting, until_settled
 from asperity.slider.march import March, march
 from asperity.slider.model import Model
+from asperity.slider.on_its_way import STILL_GOES
 from asperity.slider.periodic import GROWS, AperiodicError, none_stable, solve_periodic
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import as_it_rings

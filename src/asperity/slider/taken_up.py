@@ -12,18 +12,22 @@ from rest: a vibration that is slower than the drive adds nothing in the mean. L
 exponentially have :math:`i = 1` too, and are at their limit sooner under others.
 """
 
-import math
+import functools
 
 import numpy as np
+import numpy.typing as npt
 
 from asperity.arrays import FloatArray
+from asperity.slider.ladder import first_that_does
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.timetable import FAR, UNSTEADY, turns_back
 
 _LEFT, _LEFT_ABOUT = 0.8, 0.5  # of what is steady enough, that is let be
 _LACKS = np.geomspace(1.0, 1e-7, 4001)  # of the limit
+_LOGARITHMS = np.log(_LACKS)
 _SPARE = 1.02
 _NEXT, _MOST_TIMES = 1.001, 1e3  # times a duration: the next that is tried; the usual one
+_COARSE = 64  # in which one is tried at first: friction only comes nearer to its limit
 
 
 def taken_up_after(model: Model) -> float | None:
@@ -34,19 +38,24 @@ def taken_up_after(model: Model) -> float | None:
     friction = model.friction
     if friction.model == "coulomb" or turns_back(model):
         return 0.0
-    most = _MOST_TIMES * max(model.usual_duration / model.duration, 1.0)
-    durations = model.duration * _NEXT ** np.arange(math.ceil(math.log(most) / math.log(_NEXT)))
+    longest = _MOST_TIMES * max(model.usual_duration, model.duration)
+    is_near = functools.partial(_is_near, model)
+    first = first_that_does(is_near, model.duration, longest, _NEXT, _COARSE)
+    return first if first is None or first == model.duration else first * _SPARE
+
+
+def _is_near(model: Model, durations: FloatArray) -> npt.NDArray[np.bool_]:
+    """Whether friction is at its limit in the window of durations in s."""
     windows = np.minimum(model.window, WINDOW_SHARE * (durations - model.start))
     begin = durations - windows
     early, late = _means(model, np.array([begin, durations - 0.5 * windows, durations]))
     # Of springs, and under a load that changes, the equation is not the law.
-    exact = friction.model != "springs" and model.normal is None
+    exact = model.friction.model != "springs" and model.normal is None
     left = _LEFT if exact else _LEFT_ABOUT
-    near = (0.5 * (early + late) <= left * FAR) & (early - late <= left * UNSTEADY)
-    if not near.any():
-        return None
-    first = int(np.argmax(near))
-    return float(durations[first]) * _SPARE if first else model.duration
+    near: npt.NDArray[np.bool_] = (0.5 * (early + late) <= left * FAR) & (
+        early - late <= left * UNSTEADY
+    )
+    return near
 
 
 def _means(model: Model, ends: FloatArray) -> FloatArray:
@@ -60,14 +69,14 @@ def _means(model: Model, ends: FloatArray) -> FloatArray:
     bends = most * friction.deflection_limit(slider.normal_force)
     stiffness = slider.drive_stiffness
     stretch = 0.0 if stiffness is None else most * model.full_friction / stiffness
-    way = bends * _powers(w, 1.0 - power) + stretch * (1.0 - w)
-    summed = bends * _powers(w, 2.0 - power) + 0.5 * stretch * (1.0 - w * w)
+    way = bends * _powers(1.0 - power) + stretch * (1.0 - w)
+    summed = bends * _powers(2.0 - power) + 0.5 * stretch * (1.0 - w * w)
     at = np.interp(ends * slider.drive_velocity, way, summed)
     means: FloatArray = most * np.diff(at, axis=0) / np.diff(ends * slider.drive_velocity, axis=0)
     return means
 
 
-def _powers(w: FloatArray, power: float) -> FloatArray:
-    r"""Return :math:`\int_w^1 u^{p - 1}\,du`."""
-    found: FloatArray = -np.expm1(power * np.log(w)) / power if power else -np.log(w)
+def _powers(power: float) -> FloatArray:
+    r"""Return :math:`\int_w^1 u^{p - 1}\,du` of what friction lacks."""
+    found: FloatArray = -np.expm1(power * _LOGARITHMS) / power if power else -_LOGARITHMS
     return found

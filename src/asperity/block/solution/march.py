@@ -24,9 +24,10 @@ from asperity.runs import Run
 from asperity.runs.key import code_key, key
 from asperity.runs.tree import Tree, from_tree, to_tree
 from asperity.slider.fading import quarter_means
+from asperity.slider.foreseen import needed
 from asperity.slider.history import History
 from asperity.slider.kernels import condense
-from asperity.slider.longer import needed, until_settled
+from asperity.slider.longer import until_settled
 from asperity.slider.summary import of_stretches
 from asperity.slider.timetable import WindowMeans, march_standing, pull_across
 
