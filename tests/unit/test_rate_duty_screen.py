@@ -16,6 +16,10 @@ def actuator(*settings):
     return rate_case(read_case("actuator-duty", case_tables(), settings))
 
 
+def power_section(found):
+    return next(section for section in found.sections() if section.title == "Power")
+
+
 def test_the_screen_of_an_actuator_tells_its_loads_oil_life_and_start():
     found = actuator()
     text = found.brief()
@@ -61,6 +65,8 @@ def test_where_the_load_drives_in_all_parts_the_efficiency_is_that_of_the_load()
     assert iso["eta_ges2_1"] == pytest.approx(1.0 - lost / iso["output_power_W"], rel=1e-12)
     assert f"losses {lost:.4g} W of {iso['output_power_W']:.4g} W: teeth " in text
     assert found.of_power[0] in [str(line) for line in found.sections()[0].texts]
+    assert "In this duty the load does" in power_section(found).texts[0]
+    assert not power_section(rate_case(read_case("gearset-3", case_tables()))).texts
 
 
 def test_cases_side_by_side_have_the_efficiency_of_who_drives():

@@ -10,6 +10,7 @@ from asperity.rating.endurance import endurance_table
 from asperity.rating.forces import MEANINGS
 from asperity.rating.holding import held_table
 from asperity.rating.power_flow import power_flow
+from asperity.rating.power_words import load_drives
 from asperity.rating.result import Rating
 from asperity.rating.standing import NAMES
 from asperity.rating.starting import starting_table
@@ -27,6 +28,11 @@ _FRAME = (
     "the rotation is the worm's, seen from the end it is driven at. Each bearing of the worm "
     "carries what is across it, the fixed one its axial force too. The wheel's bearings are not "
     "part of a case: its shaft takes the wheel's forces at the reference circle."
+)
+
+_WORM_DRIVES = (
+    "Here the worm drives. In this duty the load does: what it puts in and loses stands in the "
+    "verdict."
 )
 
 _NO_CONTACT = (
@@ -54,9 +60,10 @@ def sections(rated: Reported) -> Iterator[Section]:
     yield Section("Verdict", tuple(_come_to(rated)), tables=verdict)
     yield dataclasses.replace(drawn(both_views(rated)), tables=(_geometry(rated),))
     if rated.iso14521 is not None:
-        flow = Picture("", svg=power_flow(rated.iso14521),
-                       caption="By ISO/TR 14521; bands as wide as the power.")  # fmt: skip
-        yield Section("Power", pictures=(flow,), tables=(_power(rated.iso14521),))
+        caption = "The worm driving, by ISO/TR 14521; bands as wide as the power."
+        flow = Picture("", svg=power_flow(rated.iso14521), caption=caption)
+        said = (_WORM_DRIVES,) if load_drives(rated.rating_inputs) else ()
+        yield Section("Power", said, pictures=(flow,), tables=(_power(rated.iso14521),))
         if rated.duty_cycle:
             yield _duty(rated)
         elif rated.rating_inputs.operation.housing is not None:
