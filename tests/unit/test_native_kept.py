@@ -405,28 +405,30 @@ def test_what_cannot_be_put_in_its_place_is_trouble(entry, tmp_path, quickly_mad
     assert not [path for path in tmp_path.iterdir() if path.is_dir()]
 
 
-FULL = """
-import io, sys
+WORKER = """
+import logging, sys
 from asperity.kernels.native import keys
 from asperity.kernels.native.entries import listed
 from asperity.kernels.building import making, worker
 def keep(*given):
-    raise OSError(28, "No space left on device")
+    {does}
 making.keep = keep
 sys.argv = ["worker", ".", "1"]
 wanted = iter([keys.key(listed().entries[0])])
 class Wanted:
     def listen(self): pass
-    def next(self): return next(wanted)
+    def next(self): return next(wanted, None)
 worker._Wanted = Wanted
 worker.main()
 """
+FULL = "raise OSError(28, 'No space left on device')"
+TALKS = "[logging.getLogger('asperity').warning('%d is so', n) for n in range(20_000)]"
 
 
 @pytest.mark.slow
 def test_a_process_that_can_keep_nothing_tells_it(tmp_path):
     done = subprocess.run(
-        [sys.executable, "-c", FULL],
+        [sys.executable, "-c", WORKER.format(does=FULL)],
         env=os.environ | {"ASPERITY_CACHE": str(tmp_path)},
         capture_output=True,
         text=True,
@@ -436,6 +438,20 @@ def test_a_process_that_can_keep_nothing_tells_it(tmp_path):
     assert (done.returncode, key) == (native_makers.UNWRITABLE, keys.key(listed().entries[0]))
     where = tmp_path / "asperity"
     assert told.startswith(f"! the cache folder {where} cannot be written to (no space left on dev")
+
+
+@pytest.mark.slow
+def test_a_process_whom_nobody_listens_to_goes_on():
+    """Who asked may be computing; what is told fills the pipe."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", WORKER.format(does=TALKS)], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert process.wait(60.0) == 0
+        assert process.stdout.read().count(" is so\n") > 1000
+    finally:
+        process.kill()
+        process.communicate()
 
 
 @pytest.mark.slow

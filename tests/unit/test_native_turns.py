@@ -16,8 +16,9 @@ KEY = "0" * 32
 
 @pytest.fixture
 def pulse(monkeypatch):
-    """Beats when it is told to."""
+    """Beats when it is told to; nothing is told yet."""
     pulse = turns._Pulse()
+    monkeypatch.setattr(turns.kernel_folder, "_TOLD", set())
     monkeypatch.setattr(turns, "_pulse", lambda: pulse)
     return pulse
 
@@ -91,20 +92,27 @@ def test_who_lives_is_waited_for_however_long_it_takes(tmp_path, pulse, other, c
     assert not caplog.messages
 
 
-def test_who_shows_no_life_has_no_turn(tmp_path, pulse, other, monkeypatch):
+def test_who_shows_no_life_has_no_turn_and_is_told_once(
+    tmp_path, pulse, other, monkeypatch, caplog
+):
     other("maker-0.lock")
     other("maker-1.lock")
     waited = []
 
     def sleep(seconds):
         waited.append(seconds)
+        assert len(waited) <= turns._BEATS
         os.utime(tmp_path / "maker-1.lock", (len(waited), len(waited)))
         pulse.beat()
 
     monkeypatch.setattr(turns.time, "sleep", sleep)
-    with turns.turn(tmp_path, 2):
-        assert len(waited) == turns._BEATS
-        assert {path.name for path in tmp_path.iterdir()} == {f"maker-{n}.lock" for n in range(3)}
+    for _ in range(3):
+        with turns.turn(tmp_path, 2):
+            assert len(waited) == turns._BEATS
+            held = {path.name for path in tmp_path.iterdir()}
+            assert held == {f"maker-{n}.lock" for n in range(3)}
+    (told,) = caplog.messages
+    assert told.startswith("process 4711 is at kernels")
 
 
 HOLDS = """

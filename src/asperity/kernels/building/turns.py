@@ -7,7 +7,6 @@ second, and whoever waits for one that nobody touches goes on beside its holder.
 import contextlib
 import functools
 import itertools
-import logging
 import os
 import threading
 import time
@@ -15,14 +14,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
+from asperity.kernels import folder as kernel_folder
 from asperity.kernels.native.makers import stopped
 
 _PATIENCE = 0.05
 _BEAT = 1.0
 _BEATS = 10
 """After so many beats without a sign of life nobody waits any longer."""
-
-_log = logging.getLogger(__name__)
 
 
 @contextlib.contextmanager
@@ -107,11 +105,11 @@ def _let_go(file: IO[bytes]) -> None:
 
 
 def _is_stopped(path: Path) -> bool:
-    """Return whether who holds a lock shows no life, and tell it."""
+    """Return whether who holds a lock shows no life, and tell it once."""
     is_so = _pulse().is_missed(path)
     if is_so:
         with contextlib.suppress(OSError, ValueError):
-            _log.warning("%s", stopped(int(path.read_bytes())))
+            kernel_folder.tell(stopped(int(path.read_bytes())))
     return is_so
 
 

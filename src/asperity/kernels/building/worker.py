@@ -50,6 +50,9 @@ def main() -> None:
     # Ctrl-C is for who waits; what is begun is wanted the next time.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ["ASPERITY_NATIVE"] = "0"
+    # Who asked may be computing and read nothing: a word for which there is no room is lost, and
+    # nobody waits.
+    os.set_blocking(1, False)
     # Of what it tries in vain Numba makes coloured messages.
     os.environ["NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING"] = "1"
     without_settings()
