@@ -507,6 +507,29 @@ def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkey
         link.write(tmp_path, [(entry, made)] * 2, b"common")
 
 
+def test_on_a_full_disk_what_is_kept_is_read_and_nothing_else_made(tmp_path, monkeypatch, caplog):
+    def full(folder):
+        raise OSError(28, "No space left on device")
+
+    def begun(kernels):
+        raise AssertionError
+
+    first, second = listed().entries[:2]
+    folder = tmp_path / "asperity" / "kernels" / keys.key(first)
+    folder.mkdir(parents=True, mode=0o700)
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+    monkeypatch.setattr(kept, "_begun", begun)
+    monkeypatch.setattr(kept.kernel_folder, "_TOLD", set())
+    monkeypatch.setattr(kept.kernel_folder, "require_room", full)
+    monkeypatch.setattr(kept.load, "checked", lambda *_given: {})
+    monkeypatch.setattr("asperity.kernels.native.unlinked.opened", lambda rows, files: rows)
+    assert kept._obtained(first) == {}
+    assert not caplog.messages
+    assert kept._obtained(second) is None
+    (told,) = caplog.messages
+    assert "cannot be written to (no space left on device)" in told
+
+
 def test_a_library_that_is_whole_but_does_not_load_is_left(entry, tmp_path, monkeypatch):
     monkeypatch.setattr(link, "linked", lambda *_given: b"no library")
     folder = tmp_path / keys.key(entry)

@@ -13,7 +13,7 @@ import shutil
 import time
 from pathlib import Path
 
-from asperity.files.folders import cache_root, is_ours_alone, made_folder
+from asperity.files.folders import cache_root, is_ours_alone, require_room, standing_folder
 from asperity.files.store import reason
 
 _KEPT_DAYS = 30
@@ -27,7 +27,8 @@ _log = logging.getLogger(__name__)
 def kernels() -> Path | None:
     """Return the folder, or None where there is none that is the user's alone, which is told once.
 
-    What has not been used for a month goes.
+    Whether anything can be written to it is not asked: what stands there is read all the same. What
+    has not been used for a month goes.
     """
     return _kernels(os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME"))
 
@@ -36,7 +37,7 @@ def kernels() -> Path | None:
 def _kernels(base: str | None, xdg: str | None) -> Path | None:
     # The arguments are what the answer depends on; they make it once per process and setting.
     try:
-        folder = made_folder("kernels")
+        folder = standing_folder("kernels")
     except (OSError, ValueError) as trouble:
         tell_unwritable(trouble)
         return None
@@ -46,6 +47,17 @@ def _kernels(base: str | None, xdg: str | None) -> Path | None:
         _remove_old(folder)
     # A process that makes something may outlive a link to the folder.
     return folder.resolve()
+
+
+def with_room() -> Path | None:
+    """Return the folder; None also where nothing can be written to it, which is told once."""
+    if (folder := kernels()) is not None:
+        try:
+            require_room(folder)
+        except OSError as trouble:
+            tell_unwritable(trouble)
+            return None
+    return folder
 
 
 def tell_unwritable(trouble: OSError | ValueError) -> None:
@@ -73,7 +85,8 @@ def tell(line: str) -> None:
 def is_kept(folder: Path) -> bool:
     """Return whether one of the folders inside may be read from, and note that it is used."""
     try:
-        os.utime(folder)
+        with contextlib.suppress(OSError):  # it may be on a disk that is only read
+            os.utime(folder)
         return is_ours_alone(folder, _INSTEAD)
     except OSError:
         return False

@@ -67,7 +67,7 @@ def build(
         link.linked([common])
     wanted = {entry.number: keys.key(entry) for entry in entries}
     with tempfile.TemporaryDirectory() as other:
-        kernels = kernel_folder.kernels() or Path(other)
+        kernels = kernel_folder.with_room() or Path(other)
         left = _Makers(kernels, entries, processes, tell).make()
         found: list[tuple[Entry, lean.Made]] = []
         for entry in entries:

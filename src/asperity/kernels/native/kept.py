@@ -110,7 +110,7 @@ def make(entries: Iterable[Entry]) -> None:
     entries : iterable of Entry
         Of the list.
     """
-    kernels = kernel_folder.kernels()
+    kernels = kernel_folder.with_room()
     if kernels is not None and load.is_for_here(_MADE_HERE, FEATURES):
         makers = _Makers(kernels)
         try:
@@ -128,7 +128,7 @@ def _obtained(entry: Entry) -> load.Library | None:
     except (OSError, LookupError, ImportError):
         return None  # there are no sources, or nothing that tells of Numba
     _ASKED.add(entry.number)
-    if not folder.exists():
+    if not folder.exists() and kernel_folder.with_room() is not None:
         _makers(kernels).make([entry])
     if not folder.exists() or not kernel_folder.is_kept(folder) or (folder / UNFIT).exists():
         return None

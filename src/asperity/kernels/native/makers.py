@@ -48,11 +48,11 @@ def begin_for(words: Sequence[str]) -> None:
     WORDS[:] = words
     if not _is_wanted() or _is_any_kept():
         return
-    from asperity.kernels.folder import kernels as kernel_folder
+    from asperity.kernels.folder import with_room
     from asperity.kernels.native.entries import listed
 
     asked = [numbers for line, numbers in listed().lines.items() if line.split()[0] == words[0]]
-    if 2 * sum(map(bool, asked)) <= len(asked) or (kernels := kernel_folder()) is None:
+    if 2 * sum(map(bool, asked)) <= len(asked) or (kernels := with_room()) is None:
         return
     with contextlib.suppress(OSError, ValueError):
         for _ in range(most_makers()):
