@@ -115,7 +115,7 @@ MADE = lean.Made(b"code", ["d"], (1, 2))
 
 
 def test_an_object_is_read_as_it_was_kept(entry, tmp_path, monkeypatch):
-    monkeypatch.setattr(link, "linked", lambda objects: b"linked")
+    monkeypatch.setattr(link, "linked", lambda *_given: b"linked")
     link.keep(tmp_path, entry, MADE, b"common")
     assert link.kept(tmp_path, entry) == MADE
     assert link.kept(tmp_path, Entry(0, entry.name, [["d"], ["q"]], 1.0)) is None
@@ -133,7 +133,7 @@ def test_an_entry_without_its_object_is_made_once_more(entry, tmp_path, monkeypa
     monkeypatch.setattr(making, "began", lambda: None)
     monkeypatch.setattr(making, "_support", lambda: b"common")
     monkeypatch.setattr(lean, "make", make)
-    monkeypatch.setattr(link, "linked", lambda objects: b"linked")
+    monkeypatch.setattr(link, "linked", lambda *_given: b"linked")
     folder = tmp_path / keys.key(entry)
     assert making.keep(tmp_path, entry, folder.name, 1)
     (folder / table.OBJECTS[0]).unlink()
@@ -232,7 +232,7 @@ def test_a_library_that_would_end_who_loads_it_is_none(objects, entry, tmp_path,
     (tmp_path / "ends.c").write_text(ENDS, "utf-8")
     monkeypatch.setenv("CC", f"{compiler()[0]} -fPIC {tmp_path / 'ends.c'}")
     with pytest.raises(OSError, match=r"does not load: it ends a process \(7\)"):
-        link.linked(objects)
+        link.linked(tmp_path, objects)
     folder = tmp_path / "kept"
     folder.mkdir()
     link.keep(folder, entry, lean.Made(objects[1], ["d"], (1, 2)), objects[0])
@@ -250,17 +250,29 @@ def test_a_library_of_something_else_is_none(objects, tmp_path, monkeypatch):
     script.chmod(0o700)
     monkeypatch.setenv("CC", str(script))
     with pytest.raises(OSError, match=r"does not load: .*asperity_gather"):
-        link.linked(objects)
+        link.linked(tmp_path, objects)
 
 
 @needs_compiler
-def test_a_compiler_is_tried_once_with_each_of_its_options(objects, monkeypatch):
+def test_what_is_linked_is_tried_where_it_will_stand(objects, tmp_path, monkeypatch):
+    """From the folder of what passes, which everybody writes to, nothing may be loaded."""
+    tried = []
+    monkeypatch.setattr(link, "_try", tried.append)
+    place = tmp_path / "place"
+    place.mkdir()
+    link.linked(place, objects)
+    assert place in tried[0].parents
+    assert not list(place.iterdir())
+
+
+@needs_compiler
+def test_a_compiler_is_tried_once_with_each_of_its_options(objects, tmp_path, monkeypatch):
     tried = []
     monkeypatch.setattr(link, "_try", tried.append)
     words = compiler()[0]
     for options in ("", "-O1", "-O1", ""):
         monkeypatch.setenv("CC", f"{words} {options}")
-        link.linked(objects)
+        link.linked(tmp_path, objects)
     assert len(tried) == 2
 
 

@@ -62,9 +62,10 @@ def build(
         raise NoLibraryError(why)
     making.began()
     common = link.support()
+    folder.mkdir(parents=True, exist_ok=True)
     with _said_by_the_compiler():
         # Before minutes of compiling: what does not link this links nothing.
-        link.linked([common])
+        link.linked(folder, [common])
     wanted = {entry.number: keys.key(entry) for entry in entries}
     with tempfile.TemporaryDirectory() as other:
         kernels = kernel_folder.with_room() or Path(other)
@@ -80,7 +81,6 @@ def build(
         raise NoLibraryError("no kernel can be made")
     if not all(keys.stands(entry.module) for entry, _ in found):
         raise NoLibraryError("sources changed while it was made")
-    folder.mkdir(parents=True, exist_ok=True)
     with _said_by_the_compiler():
         link.write(folder, found, common)
     if load.is_for_here(TARGET, FEATURES) and load.from_folder(folder) is None:

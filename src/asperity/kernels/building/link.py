@@ -54,7 +54,7 @@ def write(folder: Path, made: Sequence[tuple[Entry, lean.Made]], common: bytes) 
     OSError, subprocess.SubprocessError
         Nothing links, or what is linked does not load.
     """
-    held = linked([*(one.code for _, one in made), common])
+    held = linked(folder, [*(one.code for _, one in made), common])
     (folder / table.LIBRARY).write_bytes(held)
     table.write(folder, _table(made, held))
 
@@ -78,7 +78,7 @@ def keep(folder: Path, entry: Entry, made: lean.Made, common: bytes) -> None:
     code, other = (folder / name for name in table.OBJECTS)
     code.write_bytes(made.code)
     try:
-        held = linked([made.code, common])
+        held = linked(folder, [made.code, common])
     except (OSError, subprocess.SubprocessError):
         # There is no compiler, or it lacks what it links with, or links something else.
         other.write_bytes(common)
@@ -104,11 +104,13 @@ def kept(folder: Path, entry: Entry) -> lean.Made | None:
     return lean.Made(code, row["returns"], tuple(row["words"]))
 
 
-def linked(objects: Iterable[bytes]) -> bytes:
+def linked(place: Path, objects: Iterable[bytes]) -> bytes:
     """Return a shared library of object files.
 
     Parameters
     ----------
+    place : path
+        A folder on the disk that it is for: from others nothing may be loaded.
     objects : iterable of bytes
         Their contents.
 
@@ -120,7 +122,7 @@ def linked(objects: Iterable[bytes]) -> bytes:
     words = compiler()
     if words is None:
         raise FileNotFoundError("no C compiler")
-    with tempfile.TemporaryDirectory() as name:
+    with tempfile.TemporaryDirectory(dir=place) as name:
         folder = Path(name)
         files = []
         for number, content in enumerate(objects):
