@@ -328,9 +328,11 @@ def test_of_a_cache_that_takes_no_more_what_stands_there_is_read(
     [
         (OSError(errno.ENOSPC, "No space left on device"), 1),
         (FileNotFoundError(errno.ENOENT, "removed since"), 0),
+        (PermissionError(errno.EACCES, "Permission denied", "/usr/bin/cc"), 0),
+        (OSError(errno.EIO, "Input/output error"), 0),
         (pickle.PicklingError(), 0),
     ],
-    ids=["full", "removed", "not to be written down"],
+    ids=["full", "removed", "elsewhere", "passes", "not to be written down"],
 )
 def test_a_cache_that_fills_up_is_told_of_by_the_run_that_fills_it(
     monkeypatch, tmp_path, caplog, trouble, lines

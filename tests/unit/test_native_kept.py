@@ -185,6 +185,47 @@ def test_what_a_process_says_is_not_what_it_is_at(begun, tmp_path, monkeypatch):
     assert started == [SAYS.format(code=1), MAKES]
 
 
+HINDERED = """
+import sys
+for line in sys.stdin:
+    for key in line.split():
+        print(key, "- " + key, "", sep="\\n", flush=True)
+"""
+
+
+def test_what_a_process_leaves_is_not_waited_for_and_costs_no_process(
+    begun, tmp_path, monkeypatch, caplog
+):
+    programs, started = begun
+    programs += [HINDERED]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept, "_REMIND", 0.01)
+    makers = kept._Makers(tmp_path)
+    makers.make(listed().entries[:5])
+    makers.leave()
+    assert makers._lost == {keys.key(entry) for entry in listed().entries[:5]}
+    assert started == [HINDERED]
+    assert not caplog.messages
+
+
+def test_a_source_that_cannot_be_read_hinders_no_other_entry(entry, begun, tmp_path, monkeypatch):
+    programs, _ = begun
+    programs += [MAKES]
+    other = next(each for each in listed().entries if each.module != entry.module)
+
+    def key(each):
+        if each is other:
+            raise PermissionError(13, "Permission denied", "kernels.py")
+        return f"{each.number:032}"
+
+    monkeypatch.setattr(kept.keys, "key", key)
+    monkeypatch.setattr(kept, "likely", lambda asked, words: [other])
+    makers = kept._Makers(tmp_path)
+    makers.make([entry])
+    makers.leave()
+    assert (tmp_path / key(entry)).exists()
+
+
 STOPS = """
 import os, signal
 print(input().split()[0], flush=True)
@@ -217,7 +258,7 @@ def test_a_process_that_is_stopped_for_a_moment_is_waited_for():
         stdout=subprocess.PIPE,
         text=True,
     )
-    maker = kept._Maker(process)
+    maker = kept._Maker(process, set())
     try:
         for _ in range(2):
             process.send_signal(signal.SIGSTOP)
@@ -421,6 +462,7 @@ class Wanted:
 worker._Wanted = Wanted
 worker.main()
 """
+HINDERS = "raise PermissionError(13, 'Permission denied', '/usr/bin/cc')"
 FULL = "raise OSError(28, 'No space left on device')"
 TALKS = "[logging.getLogger('asperity').warning('%d is so', n) for n in range(20_000)]"
 
@@ -438,6 +480,18 @@ def test_a_process_that_can_keep_nothing_tells_it(tmp_path):
     assert (done.returncode, key) == (native_makers.UNWRITABLE, keys.key(listed().entries[0]))
     where = tmp_path / "asperity"
     assert told.startswith(f"! the cache folder {where} cannot be written to (no space left on dev")
+
+
+@pytest.mark.slow
+def test_trouble_that_is_not_the_folders_is_not_told_as_such():
+    done = subprocess.run(
+        [sys.executable, "-c", WORKER.format(does=HINDERS)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    key = keys.key(listed().entries[0])
+    assert (done.returncode, done.stdout.splitlines()) == (0, [key, f"- {key}", ""])
 
 
 @pytest.mark.slow

@@ -8,6 +8,7 @@ import textwrap
 import pytest
 from apparatus.native_library import object_files
 
+from asperity import exit_codes
 from asperity.kernels.building import lean, library, link, making
 from asperity.kernels.building.compiler import compiler, hindrance
 from asperity.kernels.native import keys, load, table
@@ -209,6 +210,18 @@ def test_where_there_is_nothing_to_link_or_to_link_with_it_is_told(
     with pytest.raises(library.NoLibraryError, match=why):
         library.build(tmp_path, entries, 1)
     assert not list(tmp_path.iterdir())
+
+
+@needs_compiler
+def test_a_folder_that_cannot_be_made_is_told(tmp_path, monkeypatch, capsys):
+    (tmp_path / "file").touch()
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(link, "support", lambda: b"common")
+    monkeypatch.setattr(sys, "argv", ["library", str(tmp_path / "file" / "made")])
+    with pytest.raises(SystemExit) as end:
+        library.main()
+    assert end.value.code == exit_codes.NO_LIBRARY
+    assert "no library of kernels: " in capsys.readouterr().err
 
 
 def test_another_platform_is_told(monkeypatch):

@@ -1,5 +1,6 @@
 """Who makes which entry: one process at a time, of those that live."""
 
+import errno
 import fcntl
 import os
 import signal
@@ -113,6 +114,18 @@ def test_who_shows_no_life_has_no_turn_and_is_told_once(
             assert held == {f"maker-{n}.lock" for n in range(3)}
     (told,) = caplog.messages
     assert told.startswith("process 4711 is at kernels")
+
+
+def test_where_the_disk_knows_no_locks_everybody_goes_on(tmp_path, pulse, monkeypatch):
+    def flock(file, how):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    with turns.entry(tmp_path, KEY) as ours, turns.turn(tmp_path, 1):
+        assert ours
+        assert is_ours(tmp_path)
+        with turns.turn(tmp_path, 1):
+            pass
 
 
 HOLDS = """

@@ -5,6 +5,7 @@ may write to.
 """
 
 import contextlib
+import errno
 import functools
 import logging
 import os
@@ -18,6 +19,8 @@ from asperity.files.store import reason
 
 _KEPT_DAYS = 30
 _INSTEAD = "kernels are compiled anew"
+
+_UNWRITABLE = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES)
 
 _TOLD: set[str] = set()
 
@@ -69,10 +72,13 @@ def tell_unwritable(trouble: OSError | ValueError) -> None:
     )
 
 
-def tell_unkept(trouble: OSError) -> None:
-    """Log that something cannot be kept, once; not where the folder was removed since."""
-    if not isinstance(trouble, FileNotFoundError):
+def tell_unkept(trouble: OSError) -> bool:
+    """Return whether nothing more can be kept, by what was in the way; then it is told, once."""
+    where = trouble.filename
+    is_here = where is None or Path(where).is_relative_to(kernels() or "")
+    if is_unwritable := is_here and trouble.errno in _UNWRITABLE:
         tell_unwritable(trouble)
+    return is_unwritable
 
 
 def tell(line: str) -> None:

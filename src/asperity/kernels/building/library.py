@@ -246,7 +246,7 @@ def main() -> None:
         build(given.folder, entries, given.processes, lambda line: print(line, flush=True))
     except KeyboardInterrupt:
         sys.exit(exit_codes.INTERRUPTED)
-    except NoLibraryError as error:
+    except (NoLibraryError, OSError) as error:
         print(f"no library of kernels: {error}", file=sys.stderr)
         sys.exit(exit_codes.NO_LIBRARY)
 

@@ -75,12 +75,10 @@ def turn(kernels: Path, processes: int) -> Iterator[None]:
 
 
 def _locked(path: Path) -> IO[bytes] | None:
-    import fcntl
-
     while True:
         file = path.open("ab", buffering=0)
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _lock(file)
             if os.path.samestat(path.stat(), os.fstat(file.fileno())):
                 file.truncate(0)
                 file.write(b"%d\n" % os.getpid())
@@ -96,6 +94,17 @@ def _locked(path: Path) -> IO[bytes] | None:
             file.close()
             raise
         file.close()
+
+
+def _lock(file: IO[bytes]) -> None:
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise
+    except OSError:
+        pass  # A disk in a network may know no locks: several make the same there, and one stays.
 
 
 def _let_go(file: IO[bytes]) -> None:

@@ -159,10 +159,11 @@ _TOLD: set[Path] = set()
 
 
 class _Maker:
-    """A process that makes entries, and says which one it is at."""
+    """A process that makes entries, and says which one it is at, and which are lost."""
 
-    def __init__(self, process: subprocess.Popen[str]) -> None:
+    def __init__(self, process: subprocess.Popen[str], lost: set[str]) -> None:
         self._process = process
+        self._lost = lost
         self._at = ""
         self._rest = b""
         self._stops = 0
@@ -202,6 +203,8 @@ class _Maker:
         for line in (each.decode("utf-8", "replace") for each in lines):
             if line.startswith(makers.TOLD):
                 kernel_folder.tell(line.removeprefix(makers.TOLD))
+            elif line.startswith(makers.LEFT):
+                self._lost.add(line.removeprefix(makers.LEFT))
             else:
                 self._at = line
 
@@ -306,7 +309,7 @@ class _Makers:
 
     def _tell(self) -> None:
         wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED, makers.WORDS)])
-        missing = {keys.key(entry): entry for entry in wanted}
+        missing = keys.keyed(wanted)
         for key in list(missing):
             if key in self._lost or (self._kernels / key).exists():
                 del missing[key]
@@ -316,7 +319,7 @@ class _Makers:
         if self._begins and self._deaths <= most:
             try:
                 while len(self._running) < count:
-                    self._running.append(_Maker(_begun(self._kernels)))
+                    self._running.append(_Maker(_begun(self._kernels), self._lost))
             except (OSError, ValueError):
                 self._begins = False
         orders = self._orders(missing, len(self._running), begin)

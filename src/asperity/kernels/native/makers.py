@@ -31,7 +31,10 @@ UNWRITABLE = exit_codes.BAD_INPUT
 """With this such a process ends where nothing can be kept; it has told why."""
 
 TOLD = "! "
-"""Before what it says for the user; the rest tells what it is at."""
+"""Before what it says for the user."""
+
+LEFT = "- "
+"""Before the key of what it leaves, for trouble that may pass; the rest tells what it is at."""
 
 WORDS: list[str] = []
 """The command line that this process was begun with; empty where there is none."""
