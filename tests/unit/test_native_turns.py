@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
@@ -114,6 +115,16 @@ def test_who_shows_no_life_has_no_turn_and_is_told_once(
             assert held == {f"maker-{n}.lock" for n in range(3)}
     (told,) = caplog.messages
     assert told.startswith("process 4711 is at kernels")
+
+
+def test_a_lock_that_cannot_be_removed_is_let_go(tmp_path, pulse, monkeypatch):
+    def unlink(path, **_options):
+        raise OSError(errno.ESTALE, "Stale file handle")
+
+    monkeypatch.setattr(Path, "unlink", unlink)
+    assert is_ours(tmp_path)
+    assert not pulse.held
+    assert is_ours(tmp_path)
 
 
 def test_where_the_disk_knows_no_locks_everybody_goes_on(tmp_path, pulse, monkeypatch):

@@ -44,7 +44,9 @@ def entry(kernels: Path, key: str) -> Iterator[bool]:
     finally:
         if file is not None:
             # Who opened it before looks whether it stands once they hold it.
-            path.unlink(missing_ok=True)
+            # One that stays, on a disk that takes nothing more, is held by nobody.
+            with contextlib.suppress(OSError):
+                path.unlink()
             _let_go(file)
 
 
