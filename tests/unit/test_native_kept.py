@@ -557,7 +557,7 @@ def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkey
     link.keep(tmp_path, entry, made, b"common")
     assert [(tmp_path / name).read_bytes() for name in table.OBJECTS] == [b"code", b"common"]
     assert not (tmp_path / table.LIBRARY).exists()
-    with pytest.raises(subprocess.CalledProcessError):
+    with pytest.raises(link.NotLinkedError):
         link.write(tmp_path, [(entry, made)] * 2, b"common")
 
 

@@ -89,11 +89,12 @@ def build(
 
 @contextlib.contextmanager
 def _said_by_the_compiler() -> Iterator[None]:
+    from asperity.kernels.building import link
+
     try:
         yield
-    except (OSError, subprocess.SubprocessError) as error:
-        said = str(getattr(error, "stderr", None) or error).strip().splitlines()
-        raise NoLibraryError(f"the C compiler does not link: {said[-1]}") from None
+    except (link.NotLinkedError, OSError, subprocess.SubprocessError) as error:
+        raise NoLibraryError(f"the C compiler does not link: {error}") from None
 
 
 @dataclasses.dataclass
