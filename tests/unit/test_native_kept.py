@@ -1,5 +1,6 @@
 """Entries that other processes make: what is waited for, by whom, and what is not kept."""
 
+import contextlib
 import os
 import re
 import signal
@@ -7,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 from pathlib import Path
 
 import pytest
@@ -103,21 +105,29 @@ LEAVES = "import sys; input(); sys.exit(1)"
 @pytest.fixture
 def begun(tmp_path, monkeypatch):
     """Programs of the processes that begin, in turn; which have begun."""
-    programs, begun = [], []
+    programs, begun, processes = [], [], []
 
     def begin(kernels):
         program = programs[min(len(begun), len(programs) - 1)]
         begun.append(program)
-        return subprocess.Popen(
+        process = subprocess.Popen(
             [sys.executable, "-S", "-c", program, str(tmp_path)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
         )
+        processes.append(process.pid)
+        return process
 
     monkeypatch.setattr(kept, "_begun", begin)
     monkeypatch.setattr(kept, "likely", lambda asked, words: [])
-    return programs, begun
+    yield programs, begun
+    for process in processes:
+        # But for those whose end was seen.
+        with contextlib.suppress(ChildProcessError):
+            os.waitid(os.P_PID, process, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+            os.kill(process, signal.SIGKILL)
+            os.waitpid(process, 0)
 
 
 @pytest.mark.parametrize("cores", [1, 2])
@@ -170,6 +180,19 @@ def test_where_nothing_can_be_kept_nobody_waits_and_it_is_told(
     assert len(started) == 1
     # What differs in a number is told once.
     assert caplog.messages == ["the disk is full", "of process 1"]
+
+
+def test_where_nothing_can_be_kept_the_others_are_left_too(begun, tmp_path, monkeypatch):
+    programs, _ = begun
+    programs += [SAYS.format(code=native_makers.UNWRITABLE), "import sys; sys.stdin.read()"]
+    monkeypatch.setattr(kept, "most_makers", lambda: 2)
+    makers = kept._Makers(tmp_path)
+    waits = threading.Thread(target=makers.make, args=(listed().entries[:2],), daemon=True)
+    waits.start()
+    waits.join(30.0)
+    is_over = not waits.is_alive()
+    makers.leave()
+    assert is_over
 
 
 def test_what_a_process_says_is_not_what_it_is_at(begun, tmp_path, monkeypatch):
@@ -246,7 +269,41 @@ def test_a_process_that_is_stopped_is_not_waited_for(begun, tmp_path, monkeypatc
     thread.join(60.0)
     makers.leave()
     (told,) = caplog.messages
-    os.kill(int(re.match("process ([0-9]+) is at kernels", told)[1]), signal.SIGKILL)
+    assert re.match("process ([0-9]+) is at kernels", told)
+    assert (tmp_path / keys.key(first)).exists()
+    assert started == [STOPS, MAKES]
+
+
+def test_processes_that_are_all_stopped_are_not_begun_for_ever(begun, tmp_path, monkeypatch):
+    programs, started = begun
+    programs += [STOPS]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept, "_REMIND", 0.01)
+    monkeypatch.setattr(kept, "_LOOKS", 1)
+    makers = kept._Makers(tmp_path)
+    makers.make(listed().entries[:1])
+    assert len(started) == 2
+
+
+def test_another_process_begins_as_soon_as_one_is_not_waited_for(begun, tmp_path, monkeypatch):
+    """However long after the last reminder: who waits would have none."""
+    programs, started = begun
+    programs += [STOPS, MAKES]
+    now = [0.0]
+
+    def sleep(seconds):
+        time.sleep(0.001)
+        now[0] += seconds
+
+    clock = types.SimpleNamespace(monotonic=lambda: now[0], sleep=sleep)
+    monkeypatch.setattr(kept, "time", clock)
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept, "_LOOKS", 1)
+    makers = kept._Makers(tmp_path)
+    now[0] += 0.5 * kept._REMIND
+    first = listed().entries[0]
+    makers.make([first])
+    makers.leave()
     assert (tmp_path / keys.key(first)).exists()
     assert started == [STOPS, MAKES]
 
@@ -264,7 +321,8 @@ def test_a_process_that_is_stopped_for_a_moment_is_waited_for():
             process.send_signal(signal.SIGSTOP)
             while os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOWAIT) is None:
                 pass
-            assert not any(maker.is_stopped() for _ in range(kept._LOOKS))
+            looks = [maker.is_stopped() for _ in range(kept._LOOKS)]
+            assert looks == [False] * (kept._LOOKS - 1) + [True]
             # More than a pipe holds.
             asks = threading.Thread(target=maker.ask, args=("0" * 200_000,), daemon=True)
             asks.start()

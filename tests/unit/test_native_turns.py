@@ -14,6 +14,7 @@ import pytest
 from asperity.kernels.building import turns
 
 KEY = "0" * 32
+HOST = os.uname().nodename
 
 
 @pytest.fixture
@@ -30,10 +31,10 @@ def other(tmp_path):
     """Hold locks as another process does."""
     files = []
 
-    def hold(name):
+    def hold(name, host=HOST):
         files.append((tmp_path / name).open("wb", buffering=0))
         fcntl.flock(files[-1], fcntl.LOCK_EX)
-        files[-1].write(b"4711\n")
+        files[-1].write(f"4711 {host}".encode())
 
     yield hold
     for file in files:
@@ -48,7 +49,7 @@ def is_ours(folder):
 def test_an_entry_is_held_alone_and_its_lock_goes_with_it(tmp_path, pulse):
     with turns.entry(tmp_path, KEY) as ours:
         assert ours
-        assert (tmp_path / f"{KEY}.lock").read_text() == f"{os.getpid()}\n"
+        assert (tmp_path / f"{KEY}.lock").read_text() == f"{os.getpid()} {HOST}"
         assert not is_ours(tmp_path)
     assert not list(tmp_path.iterdir())
     assert not pulse.held
@@ -76,8 +77,26 @@ def test_who_shows_no_life_is_not_waited_for_and_told(tmp_path, pulse, other, ca
         assert ours
         # Of those beside it one does it.
         assert not is_ours(tmp_path)
-    assert "process 4711 is at kernels that are wanted here and has stood still" in caplog.text
+    (told,) = caplog.messages
+    assert told.startswith("process 4711 is at kernels that are wanted here and has stood still ")
+    assert told.endswith("(fg, or kill -CONT 4711) or end it (kill -9 4711)")
     assert [path.name for path in tmp_path.iterdir()] == [f"{KEY}.lock"]
+
+
+@pytest.mark.parametrize(
+    ("host", "told"), [("elsewhere", "process 4711 on elsewhere is"), ("", "process 4711 is")]
+)
+def test_nobody_is_told_to_end_what_may_be_a_stranger_here(
+    host, told, tmp_path, pulse, other, caplog
+):
+    other(f"{KEY}.lock", host)
+    for _ in range(turns._BEATS):
+        assert not is_ours(tmp_path)
+        pulse.beat()
+    assert is_ours(tmp_path)
+    (line,) = caplog.messages
+    assert line.startswith(told)
+    assert "kill" not in line
 
 
 def test_who_lives_is_waited_for_however_long_it_takes(tmp_path, pulse, other, caplog):
@@ -125,6 +144,21 @@ def test_a_lock_that_cannot_be_removed_is_let_go(tmp_path, pulse, monkeypatch):
     assert is_ours(tmp_path)
     assert not pulse.held
     assert is_ours(tmp_path)
+
+
+def test_a_lock_of_what_was_removed_meanwhile_is_none(tmp_path, pulse, other, monkeypatch):
+    """Its holder went, and another began, between opening and locking."""
+    flock = fcntl.flock
+
+    def later(file, how):
+        monkeypatch.setattr(fcntl, "flock", flock)
+        (tmp_path / f"{KEY}.lock").unlink()
+        other(f"{KEY}.lock")
+        flock(file, how)
+
+    monkeypatch.setattr(fcntl, "flock", later)
+    assert not is_ours(tmp_path)
+    assert not pulse.held
 
 
 def test_where_the_disk_knows_no_locks_everybody_goes_on(tmp_path, pulse, monkeypatch):

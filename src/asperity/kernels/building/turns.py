@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import IO
 
 from asperity.kernels import folder as kernel_folder
-from asperity.kernels.native.makers import stopped
+from asperity.kernels.native.makers import holder, stopped
 
 _PATIENCE = 0.05
 _BEAT = 1.0
@@ -83,7 +83,7 @@ def _locked(path: Path) -> IO[bytes] | None:
             _lock(file)
             if os.path.samestat(path.stat(), os.fstat(file.fileno())):
                 file.truncate(0)
-                file.write(b"%d\n" % os.getpid())
+                file.write(holder(os.getpid()).encode())
                 with _pulse().lock:
                     _pulse().held.add(file)
                 return file
@@ -120,7 +120,7 @@ def _is_stopped(path: Path) -> bool:
     is_so = _pulse().is_missed(path)
     if is_so:
         with contextlib.suppress(OSError, ValueError):
-            kernel_folder.tell(stopped(int(path.read_bytes())))
+            kernel_folder.tell(stopped(path.read_text("utf-8")))
     return is_so
 
 

@@ -214,7 +214,7 @@ class _Maker:
         with contextlib.suppress(OSError):
             is_so = os.waitid(os.P_PID, self.number, flags) is not None
             self._stops = self._stops + 1 if is_so else 0
-        return self._stops > _LOOKS
+        return self._stops >= _LOOKS
 
     def leave(self) -> None:
         """Let it end by itself, after what it is at."""
@@ -301,7 +301,7 @@ class _Makers:
         """Pass on what a process says, and wait no longer for one that is stopped."""
         maker.listen()
         if maker.is_stopped():
-            kernel_folder.tell(makers.stopped(maker.number))
+            kernel_folder.tell(makers.stopped(makers.holder(maker.number)))
             self._running.remove(maker)
             maker.leave()
             self._deaths += 1

@@ -108,13 +108,27 @@ def _new(kernels: Path) -> subprocess.Popen[str]:
     )
 
 
-def stopped(process: int) -> str:
-    """Return the line about a process that makes entries and shows no life."""
+def stopped(by: str) -> str:
+    """Return the line about a process that makes entries and shows no life.
+
+    Parameters
+    ----------
+    by : str
+        Its number and machine, as `holder` tells them; its number alone if that is not known.
+    """
+    process, *host = by.split()
+    is_here = host == [os.uname().nodename]
+    end = f"; let it go on (fg, or kill -CONT {process}) or end it (kill -9 {process})"
     return (
-        f"process {process} is at kernels that are wanted here and has stood still for 10 s: they "
-        f"are compiled without it; let it go on (fg, or kill -CONT {process}) or end it (kill -9 "
-        f"{process})"
+        f"process {process if is_here else ' on '.join((process, *host))} is at kernels that are "
+        "wanted here and has stood still for 10 s: they are compiled without it"
+        + (end if is_here else "")
     )
+
+
+def holder(process: int) -> str:
+    """Return what `stopped` takes of a process of this machine."""
+    return f"{process} {os.uname().nodename}"
 
 
 def _leave() -> None:
