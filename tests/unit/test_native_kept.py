@@ -182,17 +182,23 @@ def test_where_nothing_can_be_kept_nobody_waits_and_it_is_told(
     assert caplog.messages == ["the disk is full", "of process 1"]
 
 
+def ends(makers, entries):
+    """Return whether a wait for entries comes to an end; then the processes are left."""
+    waits = threading.Thread(target=makers.make, args=(entries,), daemon=True)
+    waits.start()
+    waits.join(20.0)
+    is_over = not waits.is_alive()
+    makers._lost |= {keys.key(entry) for entry in entries}
+    makers.leave()
+    return is_over
+
+
 def test_where_nothing_can_be_kept_the_others_are_left_too(begun, tmp_path, monkeypatch):
     programs, _ = begun
     programs += [SAYS.format(code=native_makers.UNWRITABLE), "import sys; sys.stdin.read()"]
     monkeypatch.setattr(kept, "most_makers", lambda: 2)
     makers = kept._Makers(tmp_path)
-    waits = threading.Thread(target=makers.make, args=(listed().entries[:2],), daemon=True)
-    waits.start()
-    waits.join(30.0)
-    is_over = not waits.is_alive()
-    makers.leave()
-    assert is_over
+    assert ends(makers, listed().entries[:2])
 
 
 def test_what_a_process_says_is_not_what_it_is_at(begun, tmp_path, monkeypatch):
@@ -281,7 +287,7 @@ def test_processes_that_are_all_stopped_are_not_begun_for_ever(begun, tmp_path, 
     monkeypatch.setattr(kept, "_REMIND", 0.01)
     monkeypatch.setattr(kept, "_LOOKS", 1)
     makers = kept._Makers(tmp_path)
-    makers.make(listed().entries[:1])
+    assert ends(makers, listed().entries[:1])
     assert len(started) == 2
 
 

@@ -233,7 +233,8 @@ class _Makers:
     """Processes that make entries, and end when this one has.
 
     One that is killed at an entry has perhaps asked for more memory than there is: that entry is
-    not waited for any more, and there is one process less, but for the last.
+    not waited for any more, and there is one process less, but for the last. Nor is one waited for
+    that is left, for trouble that may pass.
     """
 
     def __init__(self, kernels: Path) -> None:
