@@ -75,7 +75,7 @@ def tell_unwritable(trouble: OSError | ValueError) -> None:
 def tell_unkept(trouble: OSError) -> bool:
     """Return whether nothing more can be kept, by what was in the way; then it is told, once."""
     where = trouble.filename
-    is_here = where is None or Path(where).is_relative_to(kernels() or "")
+    is_here = where is None or Path(str(where)).is_relative_to(kernels() or "")
     if is_unwritable := is_here and trouble.errno in _UNWRITABLE:
         tell_unwritable(trouble)
     return is_unwritable
