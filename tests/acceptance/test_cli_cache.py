@@ -108,7 +108,7 @@ def test_every_kind_has_a_row_with_files_bytes_and_the_oldest(cache, shown, fill
 
 def test_every_kind_that_the_package_keeps_is_known():
     source = Path(__file__).parents[2] / "src" / "asperity"
-    words = ('of_this_user("', 'cache_folder("', 'made_folder("')
+    words = ('of_this_user("', 'cache_folder("', 'standing_folder("')
     named = {
         text.partition('"')[0]
         for path in source.rglob("*.py")

@@ -301,12 +301,26 @@ def test_a_cache_that_takes_no_kernels_is_told_of_once(
     monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / method))
     monkeypatch.setattr(kernel_folder, "_TOLD", set())
     monkeypatch.setattr(Path, method, instead)
-    assert kernel_folder.kernels() is None
-    assert kernel_folder.kernels() is None
+    assert kernel_folder.with_room() is None
+    assert kernel_folder.with_room() is None
     (told,) = caplog.messages
     assert told.startswith(f"the cache folder {tmp_path / method / 'asperity'} cannot be written ")
     assert f"({why}" in told
     assert "set ASPERITY_CACHE" in told
+
+
+def test_of_a_cache_that_takes_no_more_what_stands_there_is_read(
+    run, tmp_path, monkeypatch, caplog
+):
+    def fails(*_given, **_options):
+        raise OSError(errno.EROFS, "Read-only file system")
+
+    run()
+    for name in ("write_bytes", "write_text", "touch"):
+        monkeypatch.setattr(Path, name, fails)
+    monkeypatch.setattr(os, "utime", fails)
+    assert run()[:2] == [30.0, 1]
+    assert not caplog.messages
 
 
 @pytest.mark.parametrize(
@@ -314,9 +328,11 @@ def test_a_cache_that_takes_no_kernels_is_told_of_once(
     [
         (OSError(errno.ENOSPC, "No space left on device"), 1),
         (FileNotFoundError(errno.ENOENT, "removed since"), 0),
+        (PermissionError(errno.EACCES, "Permission denied", "/usr/bin/cc"), 0),
+        (OSError(errno.EIO, "Input/output error"), 0),
         (pickle.PicklingError(), 0),
     ],
-    ids=["full", "removed", "not to be written down"],
+    ids=["full", "removed", "elsewhere", "passes", "not to be written down"],
 )
 def test_a_cache_that_fills_up_is_told_of_by_the_run_that_fills_it(
     monkeypatch, tmp_path, caplog, trouble, lines

@@ -1,5 +1,6 @@
 """Entries that other processes make: what is waited for, by whom, and what is not kept."""
 
+import contextlib
 import os
 import re
 import signal
@@ -7,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+import types
 from pathlib import Path
 
 import pytest
@@ -103,21 +105,29 @@ LEAVES = "import sys; input(); sys.exit(1)"
 @pytest.fixture
 def begun(tmp_path, monkeypatch):
     """Programs of the processes that begin, in turn; which have begun."""
-    programs, begun = [], []
+    programs, begun, processes = [], [], []
 
     def begin(kernels):
         program = programs[min(len(begun), len(programs) - 1)]
         begun.append(program)
-        return subprocess.Popen(
+        process = subprocess.Popen(
             [sys.executable, "-S", "-c", program, str(tmp_path)],
             stdin=subprocess.PIPE,
             stdout=subprocess.PIPE,
             text=True,
         )
+        processes.append(process.pid)
+        return process
 
     monkeypatch.setattr(kept, "_begun", begin)
     monkeypatch.setattr(kept, "likely", lambda asked, words: [])
-    return programs, begun
+    yield programs, begun
+    for process in processes:
+        # But for those whose end was seen.
+        with contextlib.suppress(ChildProcessError):
+            os.waitid(os.P_PID, process, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+            os.kill(process, signal.SIGKILL)
+            os.waitpid(process, 0)
 
 
 @pytest.mark.parametrize("cores", [1, 2])
@@ -172,6 +182,25 @@ def test_where_nothing_can_be_kept_nobody_waits_and_it_is_told(
     assert caplog.messages == ["the disk is full", "of process 1"]
 
 
+def ends(makers, entries):
+    """Return whether a wait for entries comes to an end; then the processes are left."""
+    waits = threading.Thread(target=makers.make, args=(entries,), daemon=True)
+    waits.start()
+    waits.join(20.0)
+    is_over = not waits.is_alive()
+    makers._lost |= {keys.key(entry) for entry in entries}
+    makers.leave()
+    return is_over
+
+
+def test_where_nothing_can_be_kept_the_others_are_left_too(begun, tmp_path, monkeypatch):
+    programs, _ = begun
+    programs += [SAYS.format(code=native_makers.UNWRITABLE), "import sys; sys.stdin.read()"]
+    monkeypatch.setattr(kept, "most_makers", lambda: 2)
+    makers = kept._Makers(tmp_path)
+    assert ends(makers, listed().entries[:2])
+
+
 def test_what_a_process_says_is_not_what_it_is_at(begun, tmp_path, monkeypatch):
     programs, started = begun
     programs += [SAYS.format(code=1), MAKES]
@@ -183,6 +212,47 @@ def test_what_a_process_says_is_not_what_it_is_at(begun, tmp_path, monkeypatch):
     makers.leave()
     assert makers._lost == {keys.key(first)}
     assert started == [SAYS.format(code=1), MAKES]
+
+
+HINDERED = """
+import sys
+for line in sys.stdin:
+    for key in line.split():
+        print(key, "- " + key, "", sep="\\n", flush=True)
+"""
+
+
+def test_what_a_process_leaves_is_not_waited_for_and_costs_no_process(
+    begun, tmp_path, monkeypatch, caplog
+):
+    programs, started = begun
+    programs += [HINDERED]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept, "_REMIND", 0.01)
+    makers = kept._Makers(tmp_path)
+    makers.make(listed().entries[:5])
+    makers.leave()
+    assert makers._lost == {keys.key(entry) for entry in listed().entries[:5]}
+    assert started == [HINDERED]
+    assert not caplog.messages
+
+
+def test_a_source_that_cannot_be_read_hinders_no_other_entry(entry, begun, tmp_path, monkeypatch):
+    programs, _ = begun
+    programs += [MAKES]
+    other = next(each for each in listed().entries if each.module != entry.module)
+
+    def key(each):
+        if each is other:
+            raise PermissionError(13, "Permission denied", "kernels.py")
+        return f"{each.number:032}"
+
+    monkeypatch.setattr(kept.keys, "key", key)
+    monkeypatch.setattr(kept, "likely", lambda asked, words: [other])
+    makers = kept._Makers(tmp_path)
+    makers.make([entry])
+    makers.leave()
+    assert (tmp_path / key(entry)).exists()
 
 
 STOPS = """
@@ -205,7 +275,41 @@ def test_a_process_that_is_stopped_is_not_waited_for(begun, tmp_path, monkeypatc
     thread.join(60.0)
     makers.leave()
     (told,) = caplog.messages
-    os.kill(int(re.match("process ([0-9]+) is at kernels", told)[1]), signal.SIGKILL)
+    assert re.match("process ([0-9]+) is at kernels", told)
+    assert (tmp_path / keys.key(first)).exists()
+    assert started == [STOPS, MAKES]
+
+
+def test_processes_that_are_all_stopped_are_not_begun_for_ever(begun, tmp_path, monkeypatch):
+    programs, started = begun
+    programs += [STOPS]
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept, "_REMIND", 0.01)
+    monkeypatch.setattr(kept, "_LOOKS", 1)
+    makers = kept._Makers(tmp_path)
+    assert ends(makers, listed().entries[:1])
+    assert len(started) == 2
+
+
+def test_another_process_begins_as_soon_as_one_is_not_waited_for(begun, tmp_path, monkeypatch):
+    """However long after the last reminder: who waits would have none."""
+    programs, started = begun
+    programs += [STOPS, MAKES]
+    now = [0.0]
+
+    def sleep(seconds):
+        time.sleep(0.001)
+        now[0] += seconds
+
+    clock = types.SimpleNamespace(monotonic=lambda: now[0], sleep=sleep)
+    monkeypatch.setattr(kept, "time", clock)
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    monkeypatch.setattr(kept, "_LOOKS", 1)
+    makers = kept._Makers(tmp_path)
+    now[0] += 0.5 * kept._REMIND
+    first = listed().entries[0]
+    makers.make([first])
+    makers.leave()
     assert (tmp_path / keys.key(first)).exists()
     assert started == [STOPS, MAKES]
 
@@ -217,13 +321,14 @@ def test_a_process_that_is_stopped_for_a_moment_is_waited_for():
         stdout=subprocess.PIPE,
         text=True,
     )
-    maker = kept._Maker(process)
+    maker = kept._Maker(process, set())
     try:
         for _ in range(2):
             process.send_signal(signal.SIGSTOP)
             while os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WNOWAIT) is None:
                 pass
-            assert not any(maker.is_stopped() for _ in range(kept._LOOKS))
+            looks = [maker.is_stopped() for _ in range(kept._LOOKS)]
+            assert looks == [False] * (kept._LOOKS - 1) + [True]
             # More than a pipe holds.
             asks = threading.Thread(target=maker.ask, args=("0" * 200_000,), daemon=True)
             asks.start()
@@ -405,28 +510,31 @@ def test_what_cannot_be_put_in_its_place_is_trouble(entry, tmp_path, quickly_mad
     assert not [path for path in tmp_path.iterdir() if path.is_dir()]
 
 
-FULL = """
-import io, sys
+WORKER = """
+import logging, sys
 from asperity.kernels.native import keys
 from asperity.kernels.native.entries import listed
 from asperity.kernels.building import making, worker
 def keep(*given):
-    raise OSError(28, "No space left on device")
+    {does}
 making.keep = keep
 sys.argv = ["worker", ".", "1"]
 wanted = iter([keys.key(listed().entries[0])])
 class Wanted:
     def listen(self): pass
-    def next(self): return next(wanted)
+    def next(self): return next(wanted, None)
 worker._Wanted = Wanted
 worker.main()
 """
+HINDERS = "raise PermissionError(13, 'Permission denied', '/usr/bin/cc')"
+FULL = "raise OSError(28, 'No space left on device')"
+TALKS = "[logging.getLogger('asperity').warning('%d is so', n) for n in range(20_000)]"
 
 
 @pytest.mark.slow
 def test_a_process_that_can_keep_nothing_tells_it(tmp_path):
     done = subprocess.run(
-        [sys.executable, "-c", FULL],
+        [sys.executable, "-c", WORKER.format(does=FULL)],
         env=os.environ | {"ASPERITY_CACHE": str(tmp_path)},
         capture_output=True,
         text=True,
@@ -436,6 +544,32 @@ def test_a_process_that_can_keep_nothing_tells_it(tmp_path):
     assert (done.returncode, key) == (native_makers.UNWRITABLE, keys.key(listed().entries[0]))
     where = tmp_path / "asperity"
     assert told.startswith(f"! the cache folder {where} cannot be written to (no space left on dev")
+
+
+@pytest.mark.slow
+def test_trouble_that_is_not_the_folders_is_not_told_as_such():
+    done = subprocess.run(
+        [sys.executable, "-c", WORKER.format(does=HINDERS)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    key = keys.key(listed().entries[0])
+    assert (done.returncode, done.stdout.splitlines()) == (0, [key, f"- {key}", ""])
+
+
+@pytest.mark.slow
+def test_a_process_whom_nobody_listens_to_goes_on():
+    """Who asked may be computing; what is told fills the pipe."""
+    process = subprocess.Popen(
+        [sys.executable, "-c", WORKER.format(does=TALKS)], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert process.wait(60.0) == 0
+        assert process.stdout.read().count(" is so\n") > 1000
+    finally:
+        process.kill()
+        process.communicate()
 
 
 @pytest.mark.slow
@@ -487,8 +621,31 @@ def test_a_compiler_that_cannot_link_leaves_object_files(entry, tmp_path, monkey
     link.keep(tmp_path, entry, made, b"common")
     assert [(tmp_path / name).read_bytes() for name in table.OBJECTS] == [b"code", b"common"]
     assert not (tmp_path / table.LIBRARY).exists()
-    with pytest.raises(subprocess.CalledProcessError):
+    with pytest.raises(link.NotLinkedError):
         link.write(tmp_path, [(entry, made)] * 2, b"common")
+
+
+def test_on_a_full_disk_what_is_kept_is_read_and_nothing_else_made(tmp_path, monkeypatch, caplog):
+    def full(folder):
+        raise OSError(28, "No space left on device")
+
+    def begun(kernels):
+        raise AssertionError
+
+    first, second = listed().entries[:2]
+    folder = tmp_path / "asperity" / "kernels" / keys.key(first)
+    folder.mkdir(parents=True, mode=0o700)
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
+    monkeypatch.setattr(kept, "_begun", begun)
+    monkeypatch.setattr(kept.kernel_folder, "_TOLD", set())
+    monkeypatch.setattr(kept.kernel_folder, "require_room", full)
+    monkeypatch.setattr(kept.load, "checked", lambda *_given: {})
+    monkeypatch.setattr("asperity.kernels.native.unlinked.opened", lambda rows, files: rows)
+    assert kept._obtained(first) == {}
+    assert not caplog.messages
+    assert kept._obtained(second) is None
+    (told,) = caplog.messages
+    assert "cannot be written to (no space left on device)" in told
 
 
 def test_a_library_that_is_whole_but_does_not_load_is_left(entry, tmp_path, monkeypatch):

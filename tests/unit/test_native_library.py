@@ -8,6 +8,7 @@ import textwrap
 import pytest
 from apparatus.native_library import object_files
 
+from asperity import exit_codes
 from asperity.kernels.building import lean, library, link, making
 from asperity.kernels.building.compiler import compiler, hindrance
 from asperity.kernels.native import keys, load, table
@@ -115,7 +116,7 @@ MADE = lean.Made(b"code", ["d"], (1, 2))
 
 
 def test_an_object_is_read_as_it_was_kept(entry, tmp_path, monkeypatch):
-    monkeypatch.setattr(link, "linked", lambda objects: b"linked")
+    monkeypatch.setattr(link, "linked", lambda *_given: b"linked")
     link.keep(tmp_path, entry, MADE, b"common")
     assert link.kept(tmp_path, entry) == MADE
     assert link.kept(tmp_path, Entry(0, entry.name, [["d"], ["q"]], 1.0)) is None
@@ -133,7 +134,7 @@ def test_an_entry_without_its_object_is_made_once_more(entry, tmp_path, monkeypa
     monkeypatch.setattr(making, "began", lambda: None)
     monkeypatch.setattr(making, "_support", lambda: b"common")
     monkeypatch.setattr(lean, "make", make)
-    monkeypatch.setattr(link, "linked", lambda objects: b"linked")
+    monkeypatch.setattr(link, "linked", lambda *_given: b"linked")
     folder = tmp_path / keys.key(entry)
     assert making.keep(tmp_path, entry, folder.name, 1)
     (folder / table.OBJECTS[0]).unlink()
@@ -211,6 +212,18 @@ def test_where_there_is_nothing_to_link_or_to_link_with_it_is_told(
     assert not list(tmp_path.iterdir())
 
 
+@needs_compiler
+def test_a_folder_that_cannot_be_made_is_told(tmp_path, monkeypatch, capsys):
+    (tmp_path / "file").touch()
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(link, "support", lambda: b"common")
+    monkeypatch.setattr(sys, "argv", ["library", str(tmp_path / "file" / "made")])
+    with pytest.raises(SystemExit) as end:
+        library.main()
+    assert end.value.code == exit_codes.NO_LIBRARY
+    assert "no library of kernels: " in capsys.readouterr().err
+
+
 def test_another_platform_is_told(monkeypatch):
     monkeypatch.setattr("asperity.kernels.building.compiler.platform_name", lambda: "arm64-darwin")
     assert hindrance() == "it is made for x86_64-linux only, not for arm64-darwin"
@@ -223,16 +236,25 @@ def objects(tmp_path, monkeypatch):
     return [path.read_bytes() for path in object_files(tmp_path)]
 
 
-ENDS = "#include <unistd.h>\n__attribute__((constructor)) static void end(void) { _exit(7); }\n"
+@pytest.fixture
+def adds(tmp_path, monkeypatch):
+    """Let the compiler add to a library what runs as it is loaded."""
+
+    def add(text, includes="<unistd.h>"):
+        source = tmp_path / "added.c"
+        loads = "__attribute__((constructor)) static void loads(void)"
+        source.write_text(f"#include {includes}\n{loads} {{ {text} }}\n", "utf-8")
+        monkeypatch.setenv("CC", f"{compiler()[0]} -fPIC {source}")
+
+    return add
 
 
 @needs_compiler
-def test_a_library_that_would_end_who_loads_it_is_none(objects, entry, tmp_path, monkeypatch):
+def test_a_library_that_would_end_who_loads_it_is_none(objects, entry, tmp_path, adds):
     """As one does whose compiler was told to add what must be loaded before anything else."""
-    (tmp_path / "ends.c").write_text(ENDS, "utf-8")
-    monkeypatch.setenv("CC", f"{compiler()[0]} -fPIC {tmp_path / 'ends.c'}")
-    with pytest.raises(OSError, match=r"does not load: it ends a process \(7\)"):
-        link.linked(objects)
+    adds("_exit(7);")
+    with pytest.raises(link.NotLinkedError, match=r"does not load: it ends a process \(7\)"):
+        link.linked(tmp_path, objects)
     folder = tmp_path / "kept"
     folder.mkdir()
     link.keep(folder, entry, lean.Made(objects[1], ["d"], (1, 2)), objects[0])
@@ -241,26 +263,111 @@ def test_a_library_that_would_end_who_loads_it_is_none(objects, entry, tmp_path,
 
 
 @needs_compiler
-def test_a_library_of_something_else_is_none(objects, tmp_path, monkeypatch):
-    (tmp_path / "other.c").write_text("int other(void) { return 1; }\n", "utf-8")
-    script = tmp_path / "script"
-    script.write_text(
-        f'#!/bin/sh\nexec {compiler()[0]} -shared -fPIC -o "$4" {tmp_path / "other.c"}\n', "utf-8"
-    )
-    script.chmod(0o700)
-    monkeypatch.setenv("CC", str(script))
-    with pytest.raises(OSError, match=r"does not load: .*asperity_gather"):
-        link.linked(objects)
+def test_a_library_that_changes_how_is_calculated_is_none(objects, tmp_path, adds):
+    """As one does that -ffast-math links: 5e-311 would be 0 in all that the process calculates."""
+    adds("_mm_setcsr(_mm_getcsr() | 0x8040);", "<xmmintrin.h>")
+    with pytest.raises(link.NotLinkedError, match="does not load: it takes the smallest numbers"):
+        link.linked(tmp_path, objects)
 
 
 @needs_compiler
-def test_a_compiler_is_tried_once_with_each_of_its_options(objects, monkeypatch):
+def test_a_library_of_something_else_is_none(objects, tmp_path, script):
+    (tmp_path / "other.c").write_text("int other(void) { return 1; }\n", "utf-8")
+    script(f'exec {compiler()[0]} -shared -fPIC -o "$4" {tmp_path / "other.c"}')
+    with pytest.raises(link.NotLinkedError, match=r"does not load: .*asperity_gather"):
+        link.linked(tmp_path, objects)
+
+
+@pytest.fixture
+def script(tmp_path, monkeypatch):
+    """Let a shell's words be the compiler."""
+
+    def write(text):
+        path = tmp_path / "script"
+        path.write_text(f"#!/bin/sh\n{text}\n", "utf-8")
+        path.chmod(0o700)
+        monkeypatch.setenv("CC", str(path))
+
+    return write
+
+
+@needs_compiler
+def test_a_library_that_needs_what_was_loaded_before_is_none(objects, tmp_path, adds, monkeypatch):
+    before = tmp_path / "before.so"
+    (tmp_path / "before.c").write_text("int before(void) { return 1; }\n", "utf-8")
+    command = [*compiler(), "-shared", "-fPIC", "-o", before, tmp_path / "before.c"]
+    subprocess.run(command, check=True)
+    adds("extern int before(void); before();")
+    monkeypatch.setenv("LD_PRELOAD", str(before))
+    with pytest.raises(link.NotLinkedError, match="undefined symbol: before"):
+        link.linked(tmp_path, objects)
+
+
+@needs_compiler
+@pytest.mark.parametrize("text", ["kill(getpid(), SIGKILL);", "sleep(20);"])
+def test_trouble_at_loading_that_may_pass_keeps_nothing(
+    objects, entry, tmp_path, adds, script, monkeypatch, text
+):
+    """As where memory is short, or the machine has too much to do."""
+    adds(text, "<unistd.h>\n#include <signal.h>")
+    library = tmp_path / "made.so"
+    subprocess.run(
+        [*compiler(), "-shared", "-fPIC", "-o", library, tmp_path / "added.c"], check=True
+    )
+    script(f'cp {library} "$4"')
+    monkeypatch.setattr(link, "_TIMEOUT", 1.0)
+    folder = tmp_path / "kept"
+    folder.mkdir()
+    with pytest.raises(subprocess.SubprocessError):
+        link.keep(folder, entry, lean.Made(objects[1], ["d"], (1, 2)), objects[0])
+    assert not (folder / table.TABLE).exists()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "echo 'ld: final link failed: No space left on device' >&2; exit 1",
+        "echo 'collect2: fatal error: ld terminated with signal 9 [Killed]' >&2; exit 1",
+        "kill -9 $$",
+    ],
+)
+def test_trouble_at_linking_that_may_pass_keeps_nothing(entry, tmp_path, script, text):
+    script(text)
+    with pytest.raises(subprocess.SubprocessError):
+        link.keep(tmp_path, entry, MADE, b"common")
+    assert not (tmp_path / table.TABLE).exists()
+
+
+@needs_compiler
+@pytest.mark.parametrize("text", ["echo >&2; exit 1", "exit 1", "#"])
+def test_a_compiler_that_says_nothing_is_told(tmp_path, script, monkeypatch, text):
+    script(text)
+    monkeypatch.setattr(making, "began", lambda: None)
+    monkeypatch.setattr(link, "support", lambda: b"common")
+    with pytest.raises(library.NoLibraryError, match="the C compiler does not link: "):
+        library.build(tmp_path / "made", numbered(1), 1)
+
+
+@needs_compiler
+def test_what_is_linked_is_tried_where_it_will_stand(objects, tmp_path, monkeypatch):
+    """From the folder of what passes, which everybody writes to, nothing may be loaded."""
+    tried = []
+    monkeypatch.setattr(link, "_try", tried.append)
+    place = tmp_path / "place"
+    place.mkdir()
+    link.linked(place, objects)
+    assert place in tried[0].parents
+    assert not list(place.iterdir())
+
+
+@needs_compiler
+def test_a_compiler_is_tried_once_with_each_of_its_options(objects, tmp_path, monkeypatch):
     tried = []
     monkeypatch.setattr(link, "_try", tried.append)
     words = compiler()[0]
     for options in ("", "-O1", "-O1", ""):
         monkeypatch.setenv("CC", f"{words} {options}")
-        link.linked(objects)
+        link.linked(tmp_path, objects)
     assert len(tried) == 2
 
 

@@ -296,7 +296,7 @@ from asperity.kernels.building import link, runtime
 import ctypes, os, tempfile
 with tempfile.TemporaryDirectory() as folder:
     path = os.path.join(folder, "a.so")
-    open(path, "wb").write(link.linked([made.code, link.support()]))
+    open(path, "wb").write(link.linked(folder, [made.code, link.support()]))
     library = ctypes.CDLL(path)
     rows = numpy.arange(16.0).reshape(2, 8)
     release = library.asperity_release

@@ -1,23 +1,27 @@
 """Who makes which entry: one process at a time, of those that live."""
 
+import errno
 import fcntl
 import os
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
 from asperity.kernels.building import turns
 
 KEY = "0" * 32
+HOST = os.uname().nodename
 
 
 @pytest.fixture
 def pulse(monkeypatch):
-    """Beats when it is told to."""
+    """Beats when it is told to; nothing is told yet."""
     pulse = turns._Pulse()
+    monkeypatch.setattr(turns.kernel_folder, "_TOLD", set())
     monkeypatch.setattr(turns, "_pulse", lambda: pulse)
     return pulse
 
@@ -27,10 +31,10 @@ def other(tmp_path):
     """Hold locks as another process does."""
     files = []
 
-    def hold(name):
+    def hold(name, host=HOST):
         files.append((tmp_path / name).open("wb", buffering=0))
         fcntl.flock(files[-1], fcntl.LOCK_EX)
-        files[-1].write(b"4711\n")
+        files[-1].write(f"4711 {host}".encode())
 
     yield hold
     for file in files:
@@ -45,7 +49,7 @@ def is_ours(folder):
 def test_an_entry_is_held_alone_and_its_lock_goes_with_it(tmp_path, pulse):
     with turns.entry(tmp_path, KEY) as ours:
         assert ours
-        assert (tmp_path / f"{KEY}.lock").read_text() == f"{os.getpid()}\n"
+        assert (tmp_path / f"{KEY}.lock").read_text() == f"{os.getpid()} {HOST}"
         assert not is_ours(tmp_path)
     assert not list(tmp_path.iterdir())
     assert not pulse.held
@@ -73,8 +77,26 @@ def test_who_shows_no_life_is_not_waited_for_and_told(tmp_path, pulse, other, ca
         assert ours
         # Of those beside it one does it.
         assert not is_ours(tmp_path)
-    assert "process 4711 is at kernels that are wanted here and has stood still" in caplog.text
+    (told,) = caplog.messages
+    assert told.startswith("process 4711 is at kernels that are wanted here and has stood still ")
+    assert told.endswith("(fg, or kill -CONT 4711) or end it (kill -9 4711)")
     assert [path.name for path in tmp_path.iterdir()] == [f"{KEY}.lock"]
+
+
+@pytest.mark.parametrize(
+    ("host", "told"), [("elsewhere", "process 4711 on elsewhere is"), ("", "process 4711 is")]
+)
+def test_nobody_is_told_to_end_what_may_be_a_stranger_here(
+    host, told, tmp_path, pulse, other, caplog
+):
+    other(f"{KEY}.lock", host)
+    for _ in range(turns._BEATS):
+        assert not is_ours(tmp_path)
+        pulse.beat()
+    assert is_ours(tmp_path)
+    (line,) = caplog.messages
+    assert line.startswith(told)
+    assert "kill" not in line
 
 
 def test_who_lives_is_waited_for_however_long_it_takes(tmp_path, pulse, other, caplog):
@@ -91,20 +113,64 @@ def test_who_lives_is_waited_for_however_long_it_takes(tmp_path, pulse, other, c
     assert not caplog.messages
 
 
-def test_who_shows_no_life_has_no_turn(tmp_path, pulse, other, monkeypatch):
+def test_who_shows_no_life_has_no_turn_and_is_told_once(
+    tmp_path, pulse, other, monkeypatch, caplog
+):
     other("maker-0.lock")
     other("maker-1.lock")
     waited = []
 
     def sleep(seconds):
         waited.append(seconds)
+        assert len(waited) <= turns._BEATS
         os.utime(tmp_path / "maker-1.lock", (len(waited), len(waited)))
         pulse.beat()
 
     monkeypatch.setattr(turns.time, "sleep", sleep)
-    with turns.turn(tmp_path, 2):
-        assert len(waited) == turns._BEATS
-        assert {path.name for path in tmp_path.iterdir()} == {f"maker-{n}.lock" for n in range(3)}
+    for _ in range(3):
+        with turns.turn(tmp_path, 2):
+            assert len(waited) == turns._BEATS
+            held = {path.name for path in tmp_path.iterdir()}
+            assert held == {f"maker-{n}.lock" for n in range(3)}
+    (told,) = caplog.messages
+    assert told.startswith("process 4711 is at kernels")
+
+
+def test_a_lock_that_cannot_be_removed_is_let_go(tmp_path, pulse, monkeypatch):
+    def unlink(path, **_options):
+        raise OSError(errno.ESTALE, "Stale file handle")
+
+    monkeypatch.setattr(Path, "unlink", unlink)
+    assert is_ours(tmp_path)
+    assert not pulse.held
+    assert is_ours(tmp_path)
+
+
+def test_a_lock_of_what_was_removed_meanwhile_is_none(tmp_path, pulse, other, monkeypatch):
+    """Its holder went, and another began, between opening and locking."""
+    flock = fcntl.flock
+
+    def later(file, how):
+        monkeypatch.setattr(fcntl, "flock", flock)
+        (tmp_path / f"{KEY}.lock").unlink()
+        other(f"{KEY}.lock")
+        flock(file, how)
+
+    monkeypatch.setattr(fcntl, "flock", later)
+    assert not is_ours(tmp_path)
+    assert not pulse.held
+
+
+def test_where_the_disk_knows_no_locks_everybody_goes_on(tmp_path, pulse, monkeypatch):
+    def flock(file, how):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", flock)
+    with turns.entry(tmp_path, KEY) as ours, turns.turn(tmp_path, 1):
+        assert ours
+        assert is_ours(tmp_path)
+        with turns.turn(tmp_path, 1):
+            pass
 
 
 HOLDS = """

@@ -30,18 +30,20 @@ def cache_folder(name: str) -> Path | None:
     It stands in :func:`cache_root`.
     """
     try:
-        return made_folder(name)
+        folder = standing_folder(name)
+        require_room(folder)
     except (OSError, ValueError):
         return None
+    return folder
 
 
-def made_folder(name: str) -> Path:
-    """Return the folder as `cache_folder`.
+def standing_folder(name: str) -> Path:
+    """Return the folder as `cache_folder`, also where it can only be read.
 
     Raises
     ------
     OSError
-        There is none, or nothing can be written to it: it may be full.
+        There is none, and none can be made.
     """
     root = cache_root()
     if root is None:
@@ -49,13 +51,17 @@ def made_folder(name: str) -> Path:
     folder = root / name
     root.mkdir(mode=0o700, parents=True, exist_ok=True)
     folder.mkdir(mode=0o700, exist_ok=True)
+    return folder
+
+
+def require_room(folder: Path) -> None:
+    """Raise an OSError where nothing can be written to a folder."""
     # Permission bits do not tell about read-only file systems, nor of full ones: write and see.
     probe = folder / f".probe-{secrets.token_hex(6)}"
     try:
         probe.write_bytes(bytes(_PROBED))
     finally:
         probe.unlink(missing_ok=True)
-    return folder
 
 
 def is_ours_alone(folder: Path, instead: str) -> bool:

@@ -5,6 +5,7 @@ may write to.
 """
 
 import contextlib
+import errno
 import functools
 import logging
 import os
@@ -13,11 +14,13 @@ import shutil
 import time
 from pathlib import Path
 
-from asperity.files.folders import cache_root, is_ours_alone, made_folder
+from asperity.files.folders import cache_root, is_ours_alone, require_room, standing_folder
 from asperity.files.store import reason
 
 _KEPT_DAYS = 30
 _INSTEAD = "kernels are compiled anew"
+
+_UNWRITABLE = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EACCES)
 
 _TOLD: set[str] = set()
 
@@ -27,7 +30,8 @@ _log = logging.getLogger(__name__)
 def kernels() -> Path | None:
     """Return the folder, or None where there is none that is the user's alone, which is told once.
 
-    What has not been used for a month goes.
+    Whether anything can be written to it is not asked: what stands there is read all the same. What
+    has not been used for a month goes.
     """
     return _kernels(os.environ.get("ASPERITY_CACHE"), os.environ.get("XDG_CACHE_HOME"))
 
@@ -36,7 +40,7 @@ def kernels() -> Path | None:
 def _kernels(base: str | None, xdg: str | None) -> Path | None:
     # The arguments are what the answer depends on; they make it once per process and setting.
     try:
-        folder = made_folder("kernels")
+        folder = standing_folder("kernels")
     except (OSError, ValueError) as trouble:
         tell_unwritable(trouble)
         return None
@@ -48,6 +52,17 @@ def _kernels(base: str | None, xdg: str | None) -> Path | None:
     return folder.resolve()
 
 
+def with_room() -> Path | None:
+    """Return the folder; None also where nothing can be written to it, which is told once."""
+    if (folder := kernels()) is not None:
+        try:
+            require_room(folder)
+        except OSError as trouble:
+            tell_unwritable(trouble)
+            return None
+    return folder
+
+
 def tell_unwritable(trouble: OSError | ValueError) -> None:
     """Log that nothing can be written to the folder, once."""
     why = reason(trouble) if isinstance(trouble, OSError) else str(trouble)
@@ -57,10 +72,13 @@ def tell_unwritable(trouble: OSError | ValueError) -> None:
     )
 
 
-def tell_unkept(trouble: OSError) -> None:
-    """Log that something cannot be kept, once; not where the folder was removed since."""
-    if not isinstance(trouble, FileNotFoundError):
+def tell_unkept(trouble: OSError) -> bool:
+    """Return whether nothing more can be kept, by what was in the way; then it is told, once."""
+    where = trouble.filename
+    is_here = where is None or Path(str(where)).is_relative_to(kernels() or "")
+    if is_unwritable := is_here and trouble.errno in _UNWRITABLE:
         tell_unwritable(trouble)
+    return is_unwritable
 
 
 def tell(line: str) -> None:
@@ -73,7 +91,8 @@ def tell(line: str) -> None:
 def is_kept(folder: Path) -> bool:
     """Return whether one of the folders inside may be read from, and note that it is used."""
     try:
-        os.utime(folder)
+        with contextlib.suppress(OSError):  # it may be on a disk that is only read
+            os.utime(folder)
         return is_ours_alone(folder, _INSTEAD)
     except OSError:
         return False

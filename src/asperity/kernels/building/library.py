@@ -62,12 +62,13 @@ def build(
         raise NoLibraryError(why)
     making.began()
     common = link.support()
+    folder.mkdir(parents=True, exist_ok=True)
     with _said_by_the_compiler():
         # Before minutes of compiling: what does not link this links nothing.
-        link.linked([common])
+        link.linked(folder, [common])
     wanted = {entry.number: keys.key(entry) for entry in entries}
     with tempfile.TemporaryDirectory() as other:
-        kernels = kernel_folder.kernels() or Path(other)
+        kernels = kernel_folder.with_room() or Path(other)
         left = _Makers(kernels, entries, processes, tell).make()
         found: list[tuple[Entry, lean.Made]] = []
         for entry in entries:
@@ -80,7 +81,6 @@ def build(
         raise NoLibraryError("no kernel can be made")
     if not all(keys.stands(entry.module) for entry, _ in found):
         raise NoLibraryError("sources changed while it was made")
-    folder.mkdir(parents=True, exist_ok=True)
     with _said_by_the_compiler():
         link.write(folder, found, common)
     if load.is_for_here(TARGET, FEATURES) and load.from_folder(folder) is None:
@@ -89,11 +89,12 @@ def build(
 
 @contextlib.contextmanager
 def _said_by_the_compiler() -> Iterator[None]:
+    from asperity.kernels.building import link
+
     try:
         yield
-    except (OSError, subprocess.SubprocessError) as error:
-        said = str(getattr(error, "stderr", None) or error).strip().splitlines()
-        raise NoLibraryError(f"the C compiler does not link: {said[-1]}") from None
+    except (link.NotLinkedError, OSError, subprocess.SubprocessError) as error:
+        raise NoLibraryError(f"the C compiler does not link: {error}") from None
 
 
 @dataclasses.dataclass
@@ -246,7 +247,7 @@ def main() -> None:
         build(given.folder, entries, given.processes, lambda line: print(line, flush=True))
     except KeyboardInterrupt:
         sys.exit(exit_codes.INTERRUPTED)
-    except NoLibraryError as error:
+    except (NoLibraryError, OSError) as error:
         print(f"no library of kernels: {error}", file=sys.stderr)
         sys.exit(exit_codes.NO_LIBRARY)
 

@@ -1,12 +1,14 @@
 """Object files made into a library, and the table that stands beside it."""
 
+import errno
 import hashlib
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,12 +20,24 @@ from asperity.kernels.native.target import FEATURES, platform_name
 
 _LOAD = (
     "import ctypes, sys; made = ctypes.CDLL(sys.argv[1]); "
-    f"made.{gather.NAME}, made.asperity_release"
+    f"made.{gather.NAME}, made.asperity_release; "
+    # As what -ffast-math adds to a library has it, for all that the process calculates.
+    "float('1e-310') * 0.5 or sys.exit('it takes the smallest numbers for 0')"
 )
 _LOADS: set[tuple[str, ...]] = set()
 """Compilers that this process has seen to link what loads."""
 
 _TIMEOUT = 60.0  # s
+_PASSES = (
+    *map(os.strerror, (errno.ENOSPC, errno.EDQUOT, errno.ENOMEM, errno.EAGAIN, errno.EIO)),
+    *map(os.strerror, (errno.EMFILE, errno.ENFILE, errno.ETXTBSY)),
+    str(signal.strsignal(signal.SIGKILL)),
+)
+"""Words of trouble that is neither the compiler's nor the loader's own."""
+
+
+class NotLinkedError(Exception):
+    """There is nothing that links, or what is linked does not load."""
 
 
 def support() -> bytes:
@@ -51,10 +65,12 @@ def write(folder: Path, made: Sequence[tuple[Entry, lean.Made]], common: bytes) 
 
     Raises
     ------
-    OSError, subprocess.SubprocessError
+    NotLinkedError
         Nothing links, or what is linked does not load.
+    OSError, subprocess.SubprocessError
+        Trouble that may pass.
     """
-    held = linked([*(one.code for _, one in made), common])
+    held = linked(folder, [*(one.code for _, one in made), common])
     (folder / table.LIBRARY).write_bytes(held)
     table.write(folder, _table(made, held))
 
@@ -78,8 +94,8 @@ def keep(folder: Path, entry: Entry, made: lean.Made, common: bytes) -> None:
     code, other = (folder / name for name in table.OBJECTS)
     code.write_bytes(made.code)
     try:
-        held = linked([made.code, common])
-    except (OSError, subprocess.SubprocessError):
+        held = linked(folder, [made.code, common])
+    except NotLinkedError:
         # There is no compiler, or it lacks what it links with, or links something else.
         other.write_bytes(common)
         held = made.code + common
@@ -104,35 +120,34 @@ def kept(folder: Path, entry: Entry) -> lean.Made | None:
     return lean.Made(code, row["returns"], tuple(row["words"]))
 
 
-def linked(objects: Iterable[bytes]) -> bytes:
+def linked(place: Path, objects: Iterable[bytes]) -> bytes:
     """Return a shared library of object files.
 
     Parameters
     ----------
+    place : path
+        A folder on the disk that it is for: from others nothing may be loaded.
     objects : iterable of bytes
         Their contents.
 
     Raises
     ------
-    OSError, subprocess.SubprocessError
+    NotLinkedError
         Nothing links, or what is linked does not load.
+    OSError, subprocess.SubprocessError
+        Trouble that may pass.
     """
     words = compiler()
     if words is None:
-        raise FileNotFoundError("no C compiler")
-    with tempfile.TemporaryDirectory() as name:
+        raise NotLinkedError("no C compiler")
+    with tempfile.TemporaryDirectory(dir=place) as name:
         folder = Path(name)
         files = []
         for number, content in enumerate(objects):
             files.append(folder / f"{number}.o")
             files[-1].write_bytes(content)
         library = folder / table.LIBRARY
-        subprocess.run(
-            [*words, "-shared", "-s", "-o", library, *files, "-lm"],
-            check=True,
-            capture_output=True,
-            text=True,
-        )
+        _run([*words, "-shared", "-s", "-o", library, *files, "-lm"], os.environ)
         if (*words,) not in _LOADS:
             _try(library)
             _LOADS.add((*words,))
@@ -143,18 +158,35 @@ def _try(library: Path) -> None:
     """Load a library in a process of its own: a compiler's options may make one that ends it."""
     # It is for processes without what may be loaded before this one.
     environment = {name: os.environ[name] for name in os.environ if name != "LD_PRELOAD"}
-    done = subprocess.run(
-        [sys.executable, "-I", "-S", "-c", _LOAD, library],
-        env=environment,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        timeout=_TIMEOUT,
-        check=False,
-    )
-    if done.returncode:
-        said = done.stderr.strip().splitlines() or [f"it ends a process ({done.returncode})"]
-        raise OSError(f"what it links does not load: {said[-1]}")
+    try:
+        _run([sys.executable, "-I", "-S", "-c", _LOAD, library], environment)
+    except NotLinkedError as error:
+        raise NotLinkedError(f"what it links does not load: {error}") from None
+
+
+def _run(command: Sequence[str | Path], environment: Mapping[str, str]) -> None:
+    """Run a command to its end, which says with NotLinkedError that it cannot."""
+    try:
+        done = subprocess.run(
+            command,
+            env={**environment, "LC_ALL": "C"},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            timeout=_TIMEOUT,
+            check=False,
+        )
+        code, said = done.returncode, done.stderr.strip()
+    except OSError as error:
+        code, said = 1, str(error)
+    except subprocess.TimeoutExpired:
+        raise subprocess.SubprocessError(f"it takes more than {_TIMEOUT:g} s") from None
+    if code:
+        last = said.splitlines()[-1] if said else f"it ends a process ({code})"
+        if code == -signal.SIGKILL or any(word in said for word in _PASSES):
+            raise subprocess.SubprocessError(last)
+        raise NotLinkedError(last)
 
 
 def _table(made: Sequence[tuple[Entry, lean.Made]], held: bytes) -> dict[str, Any]:

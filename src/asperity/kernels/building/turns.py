@@ -7,7 +7,6 @@ second, and whoever waits for one that nobody touches goes on beside its holder.
 import contextlib
 import functools
 import itertools
-import logging
 import os
 import threading
 import time
@@ -15,14 +14,13 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import IO
 
-from asperity.kernels.native.makers import stopped
+from asperity.kernels import folder as kernel_folder
+from asperity.kernels.native.makers import holder, stopped
 
 _PATIENCE = 0.05
 _BEAT = 1.0
 _BEATS = 10
 """After so many beats without a sign of life nobody waits any longer."""
-
-_log = logging.getLogger(__name__)
 
 
 @contextlib.contextmanager
@@ -46,7 +44,9 @@ def entry(kernels: Path, key: str) -> Iterator[bool]:
     finally:
         if file is not None:
             # Who opened it before looks whether it stands once they hold it.
-            path.unlink(missing_ok=True)
+            # One that stays, on a disk that takes nothing more, is held by nobody.
+            with contextlib.suppress(OSError):
+                path.unlink()
             _let_go(file)
 
 
@@ -77,15 +77,13 @@ def turn(kernels: Path, processes: int) -> Iterator[None]:
 
 
 def _locked(path: Path) -> IO[bytes] | None:
-    import fcntl
-
     while True:
         file = path.open("ab", buffering=0)
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            _lock(file)
             if os.path.samestat(path.stat(), os.fstat(file.fileno())):
                 file.truncate(0)
-                file.write(b"%d\n" % os.getpid())
+                file.write(holder(os.getpid()).encode())
                 with _pulse().lock:
                     _pulse().held.add(file)
                 return file
@@ -100,6 +98,17 @@ def _locked(path: Path) -> IO[bytes] | None:
         file.close()
 
 
+def _lock(file: IO[bytes]) -> None:
+    import fcntl
+
+    try:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise
+    except OSError:
+        pass  # A disk in a network may know no locks: several make the same there, and one stays.
+
+
 def _let_go(file: IO[bytes]) -> None:
     with _pulse().lock:
         _pulse().held.discard(file)
@@ -107,11 +116,11 @@ def _let_go(file: IO[bytes]) -> None:
 
 
 def _is_stopped(path: Path) -> bool:
-    """Return whether who holds a lock shows no life, and tell it."""
+    """Return whether who holds a lock shows no life, and tell it once."""
     is_so = _pulse().is_missed(path)
     if is_so:
         with contextlib.suppress(OSError, ValueError):
-            _log.warning("%s", stopped(int(path.read_bytes())))
+            kernel_folder.tell(stopped(path.read_text("utf-8")))
     return is_so
 
 

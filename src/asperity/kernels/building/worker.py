@@ -2,9 +2,9 @@
 
 Each line of its input tells entries of the list by their keys, the next wanted first; the last line
 counts. It answers with the key that it begins with, and with an empty line when that is done; what
-it says for the user has a mark before it. It ends with its input, when what it is at is done and
-kept, or when nothing was asked for long; where nothing can be kept; and where a key is none of
-those that follow from the sources as they stand here.
+it says for the user, and the key of what it leaves unmade, have a mark before them. It ends with
+its input, when what it is at is done and kept, or when nothing was asked for long; where nothing
+can be kept; and where a key is none of those that follow from the sources as they stand here.
 """
 
 import contextlib
@@ -12,12 +12,13 @@ import gc
 import logging
 import os
 import signal
+import subprocess
 import sys
 import threading
 from pathlib import Path
 
 from asperity.kernels.building.compiler import without_settings
-from asperity.kernels.native.makers import TOLD, UNWRITABLE
+from asperity.kernels.native.makers import LEFT, TOLD, UNWRITABLE
 
 _IDLE = 30.0  # s
 
@@ -50,6 +51,9 @@ def main() -> None:
     # Ctrl-C is for who waits; what is begun is wanted the next time.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.environ["ASPERITY_NATIVE"] = "0"
+    # Who asked may be computing and read nothing: a word for which there is no room is lost, and
+    # nobody waits.
+    os.set_blocking(1, False)
     # Of what it tries in vain Numba makes coloured messages.
     os.environ["NUMBA_DISABLE_ERROR_MESSAGE_HIGHLIGHTING"] = "1"
     without_settings()
@@ -71,16 +75,17 @@ def main() -> None:
     # Numba looks for BLAS, which no entry may need, and loads all of SciPy's linear algebra for it.
     linalg.ensure_blas = linalg.ensure_lapack = _no_blas
     # Of all, before a kernel is imported: sources may change while this process lives.
-    entries = {keys.key(entry): entry for entry in listed().entries}
+    entries = keys.keyed(listed().entries)
     while (key := wanted.next()) is not None:
         if key not in entries:
             raise making.ChangedError(key)
         _say(key)
         try:
             making.keep(folder, entries[key], key, processes)
-        except OSError as trouble:
-            kernel_folder.tell_unkept(trouble)
-            sys.exit(UNWRITABLE)
+        except (OSError, subprocess.SubprocessError) as trouble:
+            if isinstance(trouble, OSError) and kernel_folder.tell_unkept(trouble):
+                sys.exit(UNWRITABLE)
+            _say(LEFT + key)
         _say("")
 
 

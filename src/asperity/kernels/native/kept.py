@@ -110,7 +110,7 @@ def make(entries: Iterable[Entry]) -> None:
     entries : iterable of Entry
         Of the list.
     """
-    kernels = kernel_folder.kernels()
+    kernels = kernel_folder.with_room()
     if kernels is not None and load.is_for_here(_MADE_HERE, FEATURES):
         makers = _Makers(kernels)
         try:
@@ -128,7 +128,7 @@ def _obtained(entry: Entry) -> load.Library | None:
     except (OSError, LookupError, ImportError):
         return None  # there are no sources, or nothing that tells of Numba
     _ASKED.add(entry.number)
-    if not folder.exists():
+    if not folder.exists() and kernel_folder.with_room() is not None:
         _makers(kernels).make([entry])
     if not folder.exists() or not kernel_folder.is_kept(folder) or (folder / UNFIT).exists():
         return None
@@ -159,10 +159,11 @@ _TOLD: set[Path] = set()
 
 
 class _Maker:
-    """A process that makes entries, and says which one it is at."""
+    """A process that makes entries, and says which one it is at, and which are lost."""
 
-    def __init__(self, process: subprocess.Popen[str]) -> None:
+    def __init__(self, process: subprocess.Popen[str], lost: set[str]) -> None:
         self._process = process
+        self._lost = lost
         self._at = ""
         self._rest = b""
         self._stops = 0
@@ -202,6 +203,8 @@ class _Maker:
         for line in (each.decode("utf-8", "replace") for each in lines):
             if line.startswith(makers.TOLD):
                 kernel_folder.tell(line.removeprefix(makers.TOLD))
+            elif line.startswith(makers.LEFT):
+                self._lost.add(line.removeprefix(makers.LEFT))
             else:
                 self._at = line
 
@@ -211,7 +214,7 @@ class _Maker:
         with contextlib.suppress(OSError):
             is_so = os.waitid(os.P_PID, self.number, flags) is not None
             self._stops = self._stops + 1 if is_so else 0
-        return self._stops > _LOOKS
+        return self._stops >= _LOOKS
 
     def leave(self) -> None:
         """Let it end by itself, after what it is at."""
@@ -230,7 +233,8 @@ class _Makers:
     """Processes that make entries, and end when this one has.
 
     One that is killed at an entry has perhaps asked for more memory than there is: that entry is
-    not waited for any more, and there is one process less, but for the last.
+    not waited for any more, and there is one process less, but for the last. Nor is one waited for
+    that is left, for trouble that may pass.
     """
 
     def __init__(self, kernels: Path) -> None:
@@ -298,7 +302,7 @@ class _Makers:
         """Pass on what a process says, and wait no longer for one that is stopped."""
         maker.listen()
         if maker.is_stopped():
-            kernel_folder.tell(makers.stopped(maker.number))
+            kernel_folder.tell(makers.stopped(makers.holder(maker.number)))
             self._running.remove(maker)
             maker.leave()
             self._deaths += 1
@@ -306,7 +310,7 @@ class _Makers:
 
     def _tell(self) -> None:
         wanted = dict.fromkeys([*self._waited_for, *likely(_ASKED, makers.WORDS)])
-        missing = {keys.key(entry): entry for entry in wanted}
+        missing = keys.keyed(wanted)
         for key in list(missing):
             if key in self._lost or (self._kernels / key).exists():
                 del missing[key]
@@ -316,7 +320,7 @@ class _Makers:
         if self._begins and self._deaths <= most:
             try:
                 while len(self._running) < count:
-                    self._running.append(_Maker(_begun(self._kernels)))
+                    self._running.append(_Maker(_begun(self._kernels), self._lost))
             except (OSError, ValueError):
                 self._begins = False
         orders = self._orders(missing, len(self._running), begin)

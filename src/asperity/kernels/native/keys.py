@@ -1,5 +1,6 @@
 """What the machine code of an entry follows from, and the name it is kept under for that."""
 
+import contextlib
 import functools
 import hashlib
 import importlib.metadata
@@ -62,3 +63,12 @@ def key(entry: Entry) -> str:
     told = json.dumps([entry.arguments, entry.target])
     parts = (_maker(), closure_digest(entry.module), entry.name, told)
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:32]
+
+
+def keyed(entries: Iterable[Entry]) -> dict[str, Entry]:
+    """Return entries by their keys, but for those whose sources cannot be read."""
+    found = {}
+    for entry in entries:
+        with contextlib.suppress(OSError):
+            found[key(entry)] = entry
+    return found

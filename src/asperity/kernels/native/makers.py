@@ -31,7 +31,10 @@ UNWRITABLE = exit_codes.BAD_INPUT
 """With this such a process ends where nothing can be kept; it has told why."""
 
 TOLD = "! "
-"""Before what it says for the user; the rest tells what it is at."""
+"""Before what it says for the user."""
+
+LEFT = "- "
+"""Before the key of what it leaves, for trouble that may pass; the rest tells what it is at."""
 
 WORDS: list[str] = []
 """The command line that this process was begun with; empty where there is none."""
@@ -48,11 +51,11 @@ def begin_for(words: Sequence[str]) -> None:
     WORDS[:] = words
     if not _is_wanted() or _is_any_kept():
         return
-    from asperity.kernels.folder import kernels as kernel_folder
+    from asperity.kernels.folder import with_room
     from asperity.kernels.native.entries import listed
 
     asked = [numbers for line, numbers in listed().lines.items() if line.split()[0] == words[0]]
-    if 2 * sum(map(bool, asked)) <= len(asked) or (kernels := kernel_folder()) is None:
+    if 2 * sum(map(bool, asked)) <= len(asked) or (kernels := with_room()) is None:
         return
     with contextlib.suppress(OSError, ValueError):
         for _ in range(most_makers()):
@@ -105,13 +108,27 @@ def _new(kernels: Path) -> subprocess.Popen[str]:
     )
 
 
-def stopped(process: int) -> str:
-    """Return the line about a process that makes entries and shows no life."""
+def stopped(by: str) -> str:
+    """Return the line about a process that makes entries and shows no life.
+
+    Parameters
+    ----------
+    by : str
+        Its number and machine, as `holder` tells them; its number alone if that is not known.
+    """
+    process, *host = by.split()
+    is_here = host == [os.uname().nodename]
+    end = f"; let it go on (fg, or kill -CONT {process}) or end it (kill -9 {process})"
     return (
-        f"process {process} is at kernels that are wanted here and has stood still for 10 s: they "
-        f"are compiled without it; let it go on (fg, or kill -CONT {process}) or end it (kill -9 "
-        f"{process})"
+        f"process {process if is_here else ' on '.join((process, *host))} is at kernels that are "
+        "wanted here and has stood still for 10 s: they are compiled without it"
+        + (end if is_here else "")
     )
+
+
+def holder(process: int) -> str:
+    """Return what `stopped` takes of a process of this machine."""
+    return f"{process} {os.uname().nodename}"
 
 
 def _leave() -> None:
