@@ -205,3 +205,20 @@ def test_losses_and_energy_are_those_of_the_loads_in_their_hours():
 def test_of_wear_without_an_answer_no_shares_are_told():
     text = actuator("spectrum.step=200 N m, 1e6 rpm, 6 h").brief()
     assert "of all wear" not in text
+
+
+@pytest.mark.parametrize("shift", [-0.5, 0.0, 0.5])
+def test_how_far_losses_are_off_those_by_the_efficiency_is_told(shift):
+    # a = (z_2 + q + 2 x_2) m_x / 2
+    distance = 0.5 * (60.0 + 8.2 + 2.0 * shift) * 2.1962
+    case = read_case("gearset-3", case_tables(), [f"gearset.centre_distance={distance} mm"])
+    found = rate_case(case).agma6034
+    by_efficiency = found["output_power_W"] * (1.0 / found["eta"] - 1.0)
+    apart = found["loss_meshing_W"] / by_efficiency - 1.0
+    (note,) = (note for note in found.notes if "W_f is taken as Shigley has it" in note)
+    if shift == 0.0:
+        assert apart == pytest.approx(0.0, abs=1e-3)
+        assert "so that losses and e_W agree" in note
+    else:
+        way = "less" if apart < 0.0 else "more"
+        assert f"losses are {100.0 * abs(apart):.2g} % {way} than by e_W" in note

@@ -62,8 +62,8 @@ def sections(rated: Reported) -> Iterator[Section]:
     if rated.iso14521 is not None:
         caption = "The worm driving, by ISO/TR 14521; bands as wide as the power."
         flow = Picture("", svg=power_flow(rated.iso14521), caption=caption)
-        said = (_WORM_DRIVES,) if load_drives(rated.rating_inputs) else ()
-        yield Section("Power", said, pictures=(flow,), tables=(_power(rated.iso14521),))
+        drives = (_WORM_DRIVES,) if load_drives(rated.rating_inputs) else ()
+        yield Section("Power", drives, pictures=(flow,), tables=(_power(rated.iso14521),))
         if rated.duty_cycle:
             yield _duty(rated)
         elif rated.rating_inputs.operation.housing is not None:

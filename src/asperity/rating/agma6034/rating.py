@@ -21,6 +21,7 @@ from asperity.rating.iso14521 import losses, strength
 from asperity.rating.result import Rating
 from asperity.sources import Range, Source
 
+_AGREE = 1e-3  # of the losses, that those by powers and by e_W may be apart untold
 _MOMENTARY = 30.0  # s in all: what lasts no longer is a peak (our own rule)
 
 
@@ -186,8 +187,20 @@ def _violations(inputs: Inputs, values: Values) -> tuple[str, ...]:
     return tuple(sentence for sentence in found if sentence)
 
 
+def _losses_and_efficiency(inputs: Inputs) -> str:
+    apart = inputs.wheel_reference_diameter / inputs.wheel_mean_diameter - 1.0
+    if abs(apart) <= _AGREE:
+        return "the friction force W_f is taken as Shigley has it, so that losses and e_W agree"
+    way = "less" if apart < 0.0 else "more"
+    return (
+        "the friction force W_f is taken as Shigley has it; the load is that at the wheel's mean "
+        "diameter, the sliding velocity that on the worm's: with this profile shift losses are "
+        f"{100.0 * abs(apart):.2g} % {way} than by e_W"
+    )
+
+
 def _notes(inputs: Inputs, values: Values) -> tuple[str, ...]:
-    notes = ["the friction force W_f is taken as Shigley has it, so that losses and e_W agree"]
+    notes = [_losses_and_efficiency(inputs)]
     if inputs.duty:
         notes.append(
             "the duty cycle: the standard has no rule for one; its safety and its sump are those "
