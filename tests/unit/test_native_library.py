@@ -323,6 +323,18 @@ def test_trouble_at_loading_that_may_pass_keeps_nothing(
     assert not (folder / table.TABLE).exists()
 
 
+def test_a_compiler_that_hangs_is_waited_for_once(tmp_path, script, monkeypatch, caplog):
+    script('echo >> "$0.runs"; exec sleep 60')
+    monkeypatch.setattr(link, "_TIMEOUT", 0.5)
+    for _ in range(3):
+        with pytest.raises(subprocess.SubprocessError):
+            link.linked(tmp_path, [b"object"])
+    (runs,) = tmp_path.rglob("*.runs")
+    assert len(runs.read_text().splitlines()) == 1
+    (line,) = caplog.messages
+    assert "has not linked in 0.5 s: Numba compiles instead" in line
+
+
 @pytest.mark.parametrize(
     "text",
     [

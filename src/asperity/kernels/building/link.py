@@ -4,6 +4,7 @@ import errno
 import hashlib
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from asperity.kernels import folder as kernel_folder
 from asperity.kernels.building import lean, runtime
 from asperity.kernels.building.compiler import compiler
 from asperity.kernels.native import gather, keys, table
@@ -27,7 +29,10 @@ _LOAD = (
 _LOADS: set[tuple[str, ...]] = set()
 """Compilers that this process has seen to link what loads."""
 
-_TIMEOUT = 60.0  # s
+_HANG: set[tuple[str, ...]] = set()
+"""Those of which one run has not ended."""
+
+_TIMEOUT = 30.0  # s; it takes one where it has little to do
 _PASSES = (
     *map(os.strerror, (errno.ENOSPC, errno.EDQUOT, errno.ENOMEM, errno.EAGAIN, errno.EIO)),
     *map(os.strerror, (errno.EMFILE, errno.ENFILE, errno.ETXTBSY)),
@@ -140,6 +145,8 @@ def linked(place: Path, objects: Iterable[bytes]) -> bytes:
     words = compiler()
     if words is None:
         raise NotLinkedError("no C compiler")
+    if (*words,) in _HANG:
+        raise subprocess.SubprocessError("the C compiler hangs")
     with tempfile.TemporaryDirectory(dir=place) as name:
         folder = Path(name)
         files = []
@@ -147,10 +154,16 @@ def linked(place: Path, objects: Iterable[bytes]) -> bytes:
             files.append(folder / f"{number}.o")
             files[-1].write_bytes(content)
         library = folder / table.LIBRARY
-        _run([*words, "-shared", "-s", "-o", library, *files, "-lm"], os.environ)
-        if (*words,) not in _LOADS:
-            _try(library)
-            _LOADS.add((*words,))
+        try:
+            _run([*words, "-shared", "-s", "-o", library, *files, "-lm"], os.environ)
+            if (*words,) not in _LOADS:
+                _try(library)
+                _LOADS.add((*words,))
+        except subprocess.TimeoutExpired:
+            _HANG.add((*words,))
+            line = f"the C compiler {shlex.join(words)} has not linked in {_TIMEOUT:g} s"
+            kernel_folder.tell(f"{line}: Numba compiles instead, in each run; set CC to another")
+            raise
         return library.read_bytes()
 
 
@@ -180,8 +193,6 @@ def _run(command: Sequence[str | Path], environment: Mapping[str, str]) -> None:
         code, said = done.returncode, done.stderr.strip()
     except OSError as error:
         code, said = 1, str(error)
-    except subprocess.TimeoutExpired:
-        raise subprocess.SubprocessError(f"it takes more than {_TIMEOUT:g} s") from None
     if code:
         last = said.splitlines()[-1] if said else f"it ends a process ({code})"
         if code == -signal.SIGKILL or any(word in said for word in _PASSES):
