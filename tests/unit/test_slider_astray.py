@@ -179,3 +179,25 @@ def test_a_march_askew_is_of_another_body():
     straight, askew = body(), dataclasses.replace(body(), askew=2.0)
     assert March(straight).p.base_y == 0.0
     assert March(askew).p.base_y == pytest.approx(1e-6 * March(straight).p.base_x)
+
+
+@pytest.mark.slow
+def test_a_body_whose_cycles_do_not_repeat_is_marched_askew_whatever_a_push_does_in_some():
+    settings = (
+        "friction.law=vector", "friction.exponent=4.065131975330451", "slider.lateral=free",
+        "vibration.elevation=0.05 deg", "vibration.start=0 s",
+        "vibration.frequency=3478.003112669189 Hz", "vibration.velocity_ratio=0.12758459461010652",
+        "solve.method=march",
+    )  # fmt: skip
+
+    def march_of(*more):
+        return solve(Model.from_case(read_case("pin-on-disc", TABLES, [*settings, *more])))
+
+    # The straight one has 0.632 in all cycles of the window.
+    assert march_of("solve.duration=0.8 s", "slider.lateral=guided").ratio < 0.64
+    early = march_of("solve.duration=0.8 s")
+    assert not early.settled
+    assert any("none of which is like another" in note for note in early.notes)
+    # Both have left it for the limit, which they come to ever more slowly.
+    for late in (march_of("solve.duration=6 s"), march_of("vibration.direction=0.001 deg")):
+        assert late.ratio > 0.95

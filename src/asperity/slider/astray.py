@@ -20,7 +20,7 @@ from asperity.slider.model import ASKEW, Model
 from asperity.slider.result import SlideResult
 from asperity.slider.step_error import friction_of, power_missing, run_once
 from asperity.slider.straight import goes_straight
-from asperity.slider.timetable import WindowMeans, in_whose_window
+from asperity.slider.timetable import WindowMeans, bends_ever_more, in_whose_window
 
 # Of the deflection limit, or of the velocity that gives the body as much energy. Low exponents have
 # smaller ones grow, up to where the mean drive force tells nothing of them.
@@ -30,6 +30,8 @@ _FOLLOWED = 1e-4  # of mu F_N, by which the mean friction follows a swing across
 _CYCLES = 4, 16, 64  # after which pushes are looked at
 _GONE = 1e-3  # of a push, of which nothing is left that lasts
 _CLEARLY = 1.05  # times as much or as little, that tells before the last of them
+_ALIKE = 1e-3  # of mu F_N, that the mean friction of cycles is apart which repeat
+_UNKNOWN = 1.0  # growth of a push where cycles do not repeat: each tells another
 _NEARLY = 1e-2  # of the vibration, that the contact sees of it across a way that is nearly straight
 
 
@@ -74,6 +76,8 @@ def motion_across(body: Callable[[], Integrator], window: WindowMeans) -> Growin
     if goes_straight(model) and not model.askew:
         if (growth := growth_of_pushes(there)) > UNSTABLE:
             raise AstrayError(growth)
+        if bends_ever_more(model) and not repeats(there):
+            raise AstrayError(_UNKNOWN)
         return None
     early, late = window.across_at_most
     last = 0.0
@@ -122,6 +126,13 @@ def growth_of_pushes(cycle: Cycle) -> float:
     if max(abs(mean - means[0]) for mean in means) <= _FOLLOWED:
         return growth
     return max(growth, _growth(_pushed(cycle, _LEAST)[1:], _LEAST))
+
+
+def repeats(cycle: Cycle) -> bool:
+    """Whether a body does the same in each cycle from one on, or goes slowly to where it does."""
+    body = cycle.copied()
+    means = [friction_of(body, 1) for _ in range(_CYCLES[-1])]
+    return float(np.abs(np.diff(means)).max()) <= _ALIKE
 
 
 def _pushed(cycle: Cycle, push: float) -> list[Cycle]:
@@ -188,13 +199,19 @@ def straight_or_askew(
             askew = error.growth
     answer = once(dataclasses.replace(model, askew=askew))
     note = (
-        f"{_grows(askew)}, so that no body stays on it: it was shaken {ASKEW:g} rad askew; "
+        f"{_grows(askew)}, so that no body {'is sure to stay' if askew == _UNKNOWN else 'stays'} "
+        f"on it: it was shaken {ASKEW:g} rad askew; "
         "slider.lateral = 'guided' keeps the body on its way"
     )
     return dataclasses.replace(answer, model=model, notes=(note, *answer.notes))
 
 
 def _grows(growth: float) -> str:
+    if growth == _UNKNOWN:
+        return (
+            "a push across the body's way may grow in some of its cycles, none of which is like "
+            "another"
+        )
     return f"a push across the body's way grows {times(growth)} a cycle"
 
 
