@@ -58,9 +58,10 @@ def needed(
     there = _to_the_state(window, end, loaded) if isinstance(end, Nearby) else None
     if there is not None:
         least += there
-    elif (window.broke and _sticks(model, end, slips=slips)) or (
-        up := taken_up_after(model)
-    ) is None:
+    elif window.broke and _sticks(model, end, slips=slips):
+        # One that is shaken may come to repeat itself all the same.
+        return loaded if model.vibrates and loaded > model.duration else None
+    elif (up := taken_up_after(model)) is None:
         return None
     else:
         ring = end if isinstance(end, Ring) else _likely_ring(window)
