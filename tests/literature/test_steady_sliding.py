@@ -106,6 +106,10 @@ def test_nor_do_those_whose_power_is_too_slow_to_be_followed(ratio, exponent):
     state = shaken(ratio, *settings)
     assert state.settled
     assert state.ratio == pytest.approx(1.0, abs=2e-4)
+    # In what time, by the test below: longer than one marches from an exponent of 3 on.
+    after = 68.75e-9 / 0.5e-3 * 1e3 ** (exponent - 1) / (exponent - 1)
+    told = [note for note in state.notes if "come to their limit by a power of the time" in note]
+    assert [note.endswith(f"after about {after:.2g} s") for note in told] == [True] * (after > 10.0)
     # Of a contact that nothing damps it says nothing.
     assert not shaken(6.0, *settings, "normal.damping_ratio=0").settled
 

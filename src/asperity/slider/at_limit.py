@@ -6,6 +6,7 @@ the nearer they are to their limit, too slowly to be followed where it is large;
 to is told by the limit itself, which is that of the least to the greatest load in a cycle.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from asperity.slider.model import Model
 from asperity.slider.timetable import FAR, bends_ever_more
 from asperity.slider.unknowns import most_unknowns, read_unknowns
 
+_NEAR = 1e-3  # of the limit
 _HAS_NONE = 1e-2  # of the most in a mode
 
 
@@ -37,6 +39,26 @@ def comes_to_its_limit(model: Model, sums: np.void) -> bool:
         least, most = float(sums["load_min"]), float(sums["load_max"])
     lowest, highest = float(sums["friction_x_min"]), float(sums["friction_x_max"])
     return max(most, highest) - min(least, lowest) <= FAR
+
+
+def slowly_at_limit(model: Model, sums: np.void) -> float | None:
+    r"""Return the time in s in which asperities come to 1e-3 of a limit that friction is at.
+
+    None where it is not, or that is less than a march usually lasts. By Dahl's law what is left of
+    the limit is :math:`[1 + (i - 1)\, v t/s_{max}]^{-1/(i - 1)}` at a slip velocity :math:`v`.
+
+    Parameters
+    ----------
+    model, sums
+        As `comes_to_its_limit` takes them.
+    """
+    if not comes_to_its_limit(model, sums):
+        return None
+    slider, slower = model.slider, model.friction.exponent - 1.0
+    bent = model.friction.deflection_limit(slider.normal_force)
+    slid = bent * math.expm1(slower * math.log(1.0 / _NEAR)) / slower
+    after = slid / slider.drive_velocity
+    return after if after > model.usual_duration else None
 
 
 def bends_only(

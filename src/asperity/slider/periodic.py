@@ -8,6 +8,7 @@ import numpy as np
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
+from asperity.slider.at_limit import slowly_at_limit
 from asperity.slider.cycle_map import UNSTABLE, Cycle, times
 from asperity.slider.from_rest import (
     from_rest,
@@ -210,6 +211,11 @@ def answer_of(
     if _LASTS in standing.settled_by:
         why = _SLOWLY if bends_ever_more(model) else _MARCH
         notes += (f"of this periodic state {_LASTS}: {why}",)
+    if standing.settled and (after := slowly_at_limit(model, cycle.body.sums)) is not None:
+        notes += (
+            f"asperities with a friction.exponent of {model.friction.exponent:g} come to their "
+            f"limit by a power of the time: within 1e-3 of it after about {after:.2g} s",
+        )
     error = error_of_state(cycle, model) if judged and standing.settled else OfState(None)
     return summarise(
         model, cycle.body.p, step, cycle.body.sums, end, end,
