@@ -332,3 +332,42 @@ def test_a_ring_that_nothing_damps_in_the_contact_is_not_laid_to_falling_frictio
     for damping, said in (("0", False), ("0.05", True)):
         body = model_of(*FALLS, *pressed, f"normal.damping_ratio={damping}")
         assert ("friction falls with the speed" in advice(None, body)) == said
+
+
+SLOW_LIMIT = (
+    "slider.drive_velocity=3.716807e-06 m/s", "slider.normal_force=3.1942617601879753 N",
+    "slider.mass=2.1008100022833793 kg", "slider.lateral=guided",
+    "slider.drive_stiffness=137550.86535519324 N/m",
+    "slider.drive_damping=11.822544858243683 N s/m", "friction.model=dahl",
+    "friction.mu=0.3178406057941556", "friction.max_deflection=5.867972150231123 nm",
+    "friction.law=unsplit", "friction.exponent=1.5", "friction.transfer=0.784",
+    "vibration.waveform=triangle", "vibration.frequency=48.41834090255141 Hz",
+    "vibration.velocity_ratio=0.8301043364879978", "vibration.direction=126.26790270684887 deg",
+    "vibration.start=0 s",
+)  # fmt: skip
+
+
+@pytest.mark.slow
+def test_asperities_near_their_limit_have_settled_where_no_more_than_2e_3_is_left():
+    """What the halves of a window tell of a power is a fifth less than is left."""
+    comes_to = solve(model_of(*SLOW_LIMIT, "solve.method=periodic"), history=False).ratio
+    assert comes_to == pytest.approx(0.85411, abs=1e-4)
+    for duration in (5.6, 6.0, 6.5, 7.0, 8.0, 10.0):
+        body = model_of(*SLOW_LIMIT, "solve.method=march", f"solve.duration={duration} s")
+        found = solve(body, history=False)
+        assert abs(found.ratio - comes_to) < 2e-3 or not found.settled
+    assert found.settled
+
+
+def test_a_march_that_ends_in_the_ramp_is_told_no_duration_of_less_vibration():
+    """It is settled after 3 s; by the state next to its end it was told 120 s."""
+    ramped = (
+        "slider.drive_velocity=0.373 mm/s", "slider.normal_force=21.328 N",
+        "slider.mass=0.3527 kg", "slider.lateral=guided", "slider.drive_stiffness=18482.7 N/m",
+        "slider.drive_damping=0 N s/m", "friction.model=dahl", "friction.mu=0.559",
+        "friction.max_deflection=28.29 um", "friction.law=unsplit", "friction.exponent=0.5",
+        "vibration.frequency=117.14 Hz", "vibration.velocity_ratio=1.1327", "vibration.start=0 s",
+        "vibration.direction=83.66 deg", "vibration.ramp=0.2556 s", "solve.duration=0.1164 s",
+        "solve.method=march",
+    )  # fmt: skip
+    assert 1.0 < told(solve(model_of(*ramped), history=False)) < 10.0

@@ -16,6 +16,7 @@ from asperity.slider.steady import growth_rate
 from asperity.slider.taken_up import taken_up_after
 from asperity.slider.timetable import (
     FAR,
+    NEAR_LIMIT,
     UNSTEADY,
     WAYS,
     WindowMeans,
@@ -164,7 +165,7 @@ def _by_the_means(
         if fading is None and max(*least, *found) <= model.duration:
             return None
     far = still_to_bend(window)
-    if far > FAR and max(*least, *found) <= model.duration:
+    if far > NEAR_LIMIT and max(*least, *found) <= model.duration:
         times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)
         found.append(model.start + (model.duration - model.start) * times)
     return found

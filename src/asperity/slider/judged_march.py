@@ -139,7 +139,10 @@ def foretold(
     slips : bool
         Whether it is seen to stick and slip beside steady sliding.
     """
-    near = next_to(body, window.table, next_cycles)
+    model, table = window.model, window.table
+    # One that ends in the ramp is next to a state of less vibration than it comes to.
+    in_ramp = model.vibrates and model.duration < model.start + model.ramp
+    near = None if in_ramp else next_to(body, table, next_cycles)
     if is_far and near is not None:
         return comes_there(near, window.model, most_off(near.ratio))
     return needed(window, near or ring_at_end(window, body), slips=slips)

@@ -29,7 +29,7 @@ from asperity.slider.march_end import (
 )
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.ring_on_drive import SURELY, force_of
-from asperity.slider.timetable import FAR, UNSTEADY, Timetable, bends_ever_more
+from asperity.slider.timetable import NEAR_LIMIT, UNSTEADY, Timetable, bends_ever_more
 
 # Marches by lot that have not settled, of 4 to 400 cycles (`tests/property/test_slider_told.py`),
 # said how well these serve: 260 next to a state, 810 with four lots more.
@@ -231,6 +231,6 @@ def _has_come(
     if bends_ever_more(model):
         # It is not known that they do not come to their limit by a power, see `still_to_bend`.
         times = (durations - model.start) / (0.5 * windows)
-        steady = np.minimum(steady, FAR / ((model.friction.exponent - 1.0) * times))
+        steady = np.minimum(steady, NEAR_LIMIT / ((model.friction.exponent - 1.0) * times))
     come: npt.NDArray[np.bool_] = to_come & (early <= SURELY * steady) & (late <= SURELY * most)
     return come

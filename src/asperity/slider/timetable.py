@@ -20,6 +20,7 @@ _MOST_STEPS = 1e10
 _FEW = 3  # cycles of a window, of which a quarter has none whole
 UNSTEADY = 1e-3
 FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
+NEAR_LIMIT = 0.75 * FAR  # as it is foreseen of asperities, of which up to a fifth more is left
 LAGS = 0.02  # of its velocity, that a body may be slower than its drive
 SHORT = 0.999  # of the usual window, one that has had no room for it
 WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
@@ -163,7 +164,7 @@ def march_standing(window: WindowMeans) -> Standing:
         missing.append(f"the halves of the window differ by {residual:.2g} of mu F_N")
     elif (far := still_to_come(means)) > FAR:
         missing.append(f"the mean still goes {far:.2g} of mu F_N on, as it fades")
-    if residual <= UNSTEADY and (far := still_to_bend(window)) > FAR:
+    if residual <= UNSTEADY and (far := still_to_bend(window)) > NEAR_LIMIT:
         slowly = " ever more slowly" if model.friction.exponent > 1.0 else ""
         missing.append(f"the asperities come to their limit{slowly}, {far:.2g} from it")
     missing += drifts_sideways(across)
