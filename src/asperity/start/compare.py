@@ -187,9 +187,9 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         for sentence in _verdict(result)
     ]
     said += [
-        (name, "the load drives: efficiency, input power and losses are those of the load")
+        (name, sentence)
         for name, result in zip(names, answers, strict=True)
-        if _load_drives(result)
+        for sentence in _who_drives(result)
     ]
     said += [
         (f"{MARK} {name}", sentence)
@@ -259,6 +259,17 @@ def _numbers(answer: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str,
 
 def _load_drives(result: Result) -> bool:
     return isinstance(result, Rated) and load_drives(result.rating_inputs)
+
+
+def _who_drives(result: Result) -> Iterator[str]:
+    """Say whose efficiency and losses a rating's are, where they are not the worm's."""
+    if not isinstance(result, Rated) or not load_drives(result.rating_inputs):
+        return
+    iso = result.iso14521
+    if iso is not None and power_of(result.rating_inputs, iso).gearbox is None:
+        yield "the load is to drive and cannot: it has no efficiency and no losses"
+    else:
+        yield "the load drives: efficiency, input power and losses are those of the load"
 
 
 def _by_who_drives(result: Result) -> Iterator[tuple[str, float]]:
