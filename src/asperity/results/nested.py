@@ -44,6 +44,11 @@ def with_parts(
         As JSON has them: mappings, lists, numbers, texts, truths and None.
     over : collection of str
         Keys whose mappings are by names that are data: of load cases, say.
+
+    Raises
+    ------
+    TypeError
+        A key is a list in one row and none in another.
     """
     names: dict[str, dict[str, int]] = {}
     columns: dict[str, list[_Leaf]] = {}
@@ -60,6 +65,8 @@ def with_parts(
         made[dim] = (dim,), np.array(list(known), dtype=object), "1", f"name of {_words(dim)}"
     for path, column in columns.items():
         dims, alone = column[0].dims, column[0].value
+        if any(leaf.dims != dims for leaf in column):
+            raise TypeError(f"{path} is a list in one place and not in another")
         if not dims and isinstance(alone, str | bool):
             # netCDF has no truths.
             attributes[path] = alone if isinstance(alone, str) else int(alone)
