@@ -88,6 +88,18 @@ def test_where_the_load_drives_throughout_the_table_has_its_efficiency_and_losse
         expect(table.locator(f'[data-key="iso14521.{key}"]')).to_have_count(0)
 
 
+def test_a_load_that_is_to_drive_and_cannot_has_no_efficiency_and_no_losses_there(seen, server):
+    text = shipped_cases()["gearset-2"].read_text("utf-8")
+    duty = 'duty_cycle = "9 h, 15 N m, load drives"'
+    text = re.sub(r"(?m)^wheel_revolutions.*$", duty, text)
+    (server.folder / "held.toml").write_text(text, "utf-8")
+    page = seen.open("gear", case="held")
+    table = page.get_by_role("region", name="three standards")
+    expect(table.get_by_text("power lost between the teeth, wheel driving")).to_be_visible()
+    for key, count in (("eta_ges2_1", 0), ("loss_meshing_back_W", 0), ("output_power_W", 1)):
+        expect(table.locator(f'[data-key="iso14521.{key}"]')).to_have_count(count)
+
+
 def test_a_bar_that_is_tried_gives_the_efficiency_it_promised(gear, server):
     words = ["asperity", "sensitivity", "gearset-3", "--json"]
     sway = answered(words, server.folder)

@@ -110,8 +110,23 @@ def test_nor_do_those_whose_power_is_too_slow_to_be_followed(ratio, exponent):
     after = 68.75e-9 / 0.5e-3 * 1e3 ** (exponent - 1) / (exponent - 1)
     told = [note for note in state.notes if "come to their limit by a power of the time" in note]
     assert [note.endswith(f"after about {after:.2g} s") for note in told] == [True] * (after > 10.0)
-    # Of a contact that nothing damps it says nothing.
-    assert not shaken(6.0, *settings, "normal.damping_ratio=0").settled
+
+
+@pytest.mark.parametrize("exponent", [2, 5])
+@pytest.mark.parametrize("ratio", [5e-4, 2e-3])
+def test_a_contact_that_nothing_damps_rings_on_next_to_the_limit_too(ratio, exponent):
+    """The law tells where asperities come to, not how far the contact rings."""
+    settings = (
+        "solve.method=periodic", "vibration.elevation=90 deg", f"friction.exponent={exponent}",
+        f"vibration.velocity_ratio={ratio}", "slider.drive_damping=40 N s/m",
+    )  # fmt: skip
+    damped, ringing = (
+        solve(Model.from_case(read_case("pin-on-disc", TABLES, (*settings, *own))), history=False)
+        for own in ((), ("normal.damping_ratio=0",))
+    )
+    assert damped.settled
+    assert not ringing.settled
+    assert "one of many" in ringing.settled_by
 
 
 @pytest.mark.parametrize("exponent", [3, 5, 10])

@@ -101,6 +101,8 @@ def test_a_load_that_is_to_drive_and_cannot_has_no_efficiency_side_by_side():
     assert numbers["by_who_drives.efficiency"][0] > 0.0
     assert numbers["by_who_drives.efficiency"][1] is None
     assert numbers["by_who_drives.loss_total_W"][1] is None
+    said = [sentence for _, sentence in found.said if "the load" in sentence]
+    assert said == ["the load is to drive and cannot: it has no efficiency and no losses"]
 
 
 @pytest.mark.parametrize("duty", ["1 h, 300 N m; 9 h, 150 N m, 700 rpm, load drives", None])

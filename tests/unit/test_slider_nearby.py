@@ -13,7 +13,7 @@ from asperity.slider.longer import lasting
 from asperity.slider.march import March
 from asperity.slider.march_end import at_the_end, ratios_of
 from asperity.slider.model import WINDOW_SHARE
-from asperity.slider.nearby import Nearby, comes_there, next_to
+from asperity.slider.nearby import Nearby, _until_grown, comes_there, next_to
 from asperity.slider.ring_on_drive import ring_of
 from asperity.slider.ringing import upward
 from asperity.slider.steady import growth_rate, off_steady, steady_ratio, steadying
@@ -332,6 +332,13 @@ def test_a_ring_that_nothing_damps_in_the_contact_is_not_laid_to_falling_frictio
     for damping, said in (("0", False), ("0.05", True)):
         body = model_of(*FALLS, *pressed, f"normal.damping_ratio={damping}")
         assert ("friction falls with the speed" in advice(None, body)) == said
+
+
+def test_what_is_as_large_as_the_state_has_grown_in_no_cycles():
+    for swing in (0.5, 1.0, 3.0):
+        cycles = _until_grown(np.array([1.5 + 0j, 0.5 + 0j]), np.array([swing, 1.0]))
+        assert math.copysign(1.0, cycles) == 1.0
+        assert cycles == pytest.approx(max(0.0, math.log(1.0 / swing) / math.log(1.5)))
 
 
 SLOW_LIMIT = (

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from asperity.results.dataset import Described, described
-from asperity.results.quantity import unit_suffix
+from asperity.results.quantity import unit_at_end, unit_suffix
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -15,7 +15,6 @@ _UNITS = (
     "N m", "MPa", "kWh", "arcmin", "degC", "deg", "rpm", "mm", "mm/rad", "um", "kg", "N", "W", "h",
     "s",
 )  # fmt: skip
-_ENDINGS = {unit_suffix(unit): unit for unit in _UNITS}
 
 
 class _Leaf(NamedTuple):
@@ -44,6 +43,11 @@ def with_parts(
         As JSON has them: mappings, lists, numbers, texts, truths and None.
     over : collection of str
         Keys whose mappings are by names that are data: of load cases, say.
+
+    Raises
+    ------
+    TypeError
+        A key is a list in one row and none in another.
     """
     names: dict[str, dict[str, int]] = {}
     columns: dict[str, list[_Leaf]] = {}
@@ -60,12 +64,14 @@ def with_parts(
         made[dim] = (dim,), np.array(list(known), dtype=object), "1", f"name of {_words(dim)}"
     for path, column in columns.items():
         dims, alone = column[0].dims, column[0].value
+        if any(leaf.dims != dims for leaf in column):
+            raise TypeError(f"{path} is a list in one place and not in another")
         if not dims and isinstance(alone, str | bool):
             # netCDF has no truths.
             attributes[path] = alone if isinstance(alone, str) else int(alone)
             continue
         values = _values(column, tuple(sizes[dim] for dim in dims))
-        unit = "1" if values.dtype.kind == "O" else _unit(path)
+        unit = "1" if values.dtype.kind == "O" else unit_at_end(path, _UNITS) or "1"
         made[path] = dims, values, unit, _words(path)
     return dataset.assign(described(**made)).assign_attrs(attributes)
 
@@ -110,15 +116,8 @@ def _values(column: Sequence[_Leaf], shape: tuple[int, ...]) -> np.ndarray:
     return values
 
 
-def _unit(path: str) -> str:
-    """Return the unit that a key ends with; of those that end alike the longest."""
-    found = (ending for ending in _ENDINGS if path.endswith(ending))
-    return _ENDINGS.get(max(found, key=len, default=""), "1")
-
-
 def _words(path: str) -> str:
     """Return a path in words, without the unit."""
     own = path.removesuffix(".row")
-    if (unit := _unit(own)) != "1":
-        own = own.removesuffix(unit_suffix(unit))
+    own = own.removesuffix(unit_suffix(unit_at_end(own, _UNITS)))
     return own.replace(".", ": ").replace("_", " ")

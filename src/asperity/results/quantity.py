@@ -11,7 +11,7 @@
 import dataclasses
 import types
 import typing
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, ClassVar, Literal, Protocol, TypeVar, dataclass_transform
 
 import numpy as np
@@ -368,6 +368,12 @@ def unit_suffix(unit: str) -> str:
         return ""
     words = unit.replace(" ", "").replace("*", "").replace("/", "_per_").replace("^", "")
     return f"_{words.replace('%', 'percent').replace('°', 'deg')}"
+
+
+def unit_at_end(key: str, units: Iterable[str]) -> str:
+    """Return the unit that a key of JSON ends with, of several the longest; empty of none."""
+    ends = {end: unit for unit in units if (end := unit_suffix(unit)) and key.endswith(end)}
+    return ends[max(ends, key=len)] if ends else ""
 
 
 def plain(value: Any) -> Any:

@@ -166,7 +166,7 @@ def _by_the_means(
             return None
     far = still_to_bend(window)
     if far > NEAR_LIMIT and max(*least, *found) <= model.duration:
-        times = (far / (_LEFT * FAR)) ** (model.friction.exponent - 1.0)
+        times = (far / (_LEFT * NEAR_LIMIT)) ** (model.friction.exponent - 1.0)
         found.append(model.start + (model.duration - model.start) * times)
     return found
 

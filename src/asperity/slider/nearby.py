@@ -133,7 +133,8 @@ def _until_grown(growths: npt.NDArray[np.complex128], swings: FloatArray) -> flo
     """Return the cycles in which the modes that grow come to the size of the state."""
     grow = np.abs(growths) > UNSTABLE
     swings = np.clip(swings[grow], _ROUNDING, 1.0)
-    return float((-np.log(swings) / np.log(np.abs(growths[grow]))).max(initial=0.0))
+    # What is as large as the state already takes -0 cycles.
+    return float((-np.log(swings) / np.log(np.abs(growths[grow]))).max(initial=0.0)) + 0.0
 
 
 def _of_rings(model: Model, growths: npt.NDArray[np.complex128], swings: FloatArray) -> FloatArray:

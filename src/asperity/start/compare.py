@@ -21,7 +21,7 @@ from asperity.results import Result
 from asperity.results.dataset import Described, described
 from asperity.results.language import Spoken
 from asperity.results.language import said as in_language
-from asperity.results.quantity import unit_suffix
+from asperity.results.quantity import unit_at_end
 from asperity.results.settled import MARK, told, unsettled
 from asperity.results.table import Table
 from asperity.results.words import text_of
@@ -187,9 +187,9 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
         for sentence in _verdict(result)
     ]
     said += [
-        (name, "the load drives: efficiency, input power and losses are those of the load")
+        (name, sentence)
         for name, result in zip(names, answers, strict=True)
-        if _load_drives(result)
+        for sentence in _who_drives(result)
     ]
     said += [
         (f"{MARK} {name}", sentence)
@@ -211,14 +211,10 @@ def compare(cases: Sequence[Case], answer: Callable[[Command, Case], Result]) ->
 def _units(answers: Sequence[Result], flat: Sequence[Mapping[str, Any]]) -> dict[str, str]:
     """Return the units of numbers, by key: what an answer puts together has its in that alone."""
     own = {key: entry.label.unit for result in answers for key, entry in result.keyed()}
-    endings = {
-        unit_suffix(unit): unit for unit in (*own.values(), "mm", "mm/rad", "um", "deg") if unit
-    }
-    longest = sorted(endings, key=len, reverse=True)
+    units = dict.fromkeys((*own.values(), "mm", "mm/rad", "um", "deg"))
     for key in dict.fromkeys(key for numbers in flat for key in numbers):
         if key not in own:
-            ending = next((each for each in longest if each and key.endswith(each)), "")
-            own[key] = endings.get(ending, "")
+            own[key] = unit_at_end(key, units)
     return {key: unit for key, unit in own.items() if unit}
 
 
@@ -259,6 +255,17 @@ def _numbers(answer: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str,
 
 def _load_drives(result: Result) -> bool:
     return isinstance(result, Rated) and load_drives(result.rating_inputs)
+
+
+def _who_drives(result: Result) -> Iterator[str]:
+    """Say whose efficiency and losses a rating's are, where they are not the worm's."""
+    if not isinstance(result, Rated) or not load_drives(result.rating_inputs):
+        return
+    iso = result.iso14521
+    if iso is not None and power_of(result.rating_inputs, iso).gearbox is None:
+        yield "the load is to drive and cannot: it has no efficiency and no losses"
+    else:
+        yield "the load drives: efficiency, input power and losses are those of the load"
 
 
 def _by_who_drives(result: Result) -> Iterator[tuple[str, float]]:

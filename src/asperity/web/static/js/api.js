@@ -209,11 +209,11 @@ export function forgetCase(name) {
   opened.value = rest;
 }
 
-/** Answers that ship, of what screens ask as they open: until what computes has started, they are what it answers. */
+/** Answers that ship, of what screens ask as they open: what is answered until what computes has started. */
 const shipped = signal([]);
 get("shown/live/index.json").then((found) => (shipped.value = found), () => {});
 
-/** Answers that ship, of jobs: what was asked, and the folder they stand in. Asked for before any screen is there. */
+/** Answers that ship, of jobs: what was asked, and their folder. Asked for before any screen is there. */
 export const shippedJobs = signal([]);
 get("shown/index.json").then((found) => (shippedJobs.value = found), () => {});
 

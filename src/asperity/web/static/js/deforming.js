@@ -3,7 +3,7 @@ import { painted, span } from "./colours.js";
 import { digits } from "./units.js";
 
 export const NAME = "deforming.js";
-/** How far the skin deforms in the picture, of the block's height, and how long a look at all frames takes, s. */
+/** How far the skin deforms in the picture, of the block's height; how long all frames are looked at, s. */
 export const [FAR, SECONDS] = [0.14, 6];
 /** Seen obliquely: how far a place behind the picture lies aside and up. */
 const [ASIDE, UP] = [0.42, 0.3];

@@ -1,4 +1,4 @@
-/** What moves while it is seen, unless the reader wants nothing to move; and what of it a shared file takes along. */
+/** What moves while it is seen, if the reader wants that; and what of it a shared file takes along. */
 import { html, signal, useLayoutEffect, useRef } from "../vendor/preact.js";
 
 export const still = () => matchMedia("(prefers-reduced-motion: reduce)").matches;

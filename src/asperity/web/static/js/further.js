@@ -5,7 +5,7 @@ import { Unfolded } from "./form.js";
 import { Told } from "./told.js";
 import { useJob, WorkPanel } from "./work.js";
 
-/** By screen: in short; and by command what stands above it, on its button, is said of it, and the table it needs. */
+/** By screen: in short; by command what stands above it, on its button, is said of it, and its table. */
 const STUDIES = {
   slide: ["a pull at rest", [
     ["static", "How hard it may be pulled and stay", "pull it at rest",

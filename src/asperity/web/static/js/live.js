@@ -7,7 +7,7 @@ import { Table } from "./table.js";
 
 /** How often runs are looked at while one goes on, and while none does, ms. */
 const [SOON, LATER] = [500, 2500];
-/** A run that shows nothing new for so long may hang, s; and one that has ended so long ago is shown no more. */
+/** A run that shows nothing new for so long may hang, s; one that ended so long ago is shown no more. */
 const [HANGS, PAST] = [2, 60];
 const KINDS = ["torque", "speed", "current"];
 

@@ -20,7 +20,7 @@ function apart(one, other) {
   return row[other.length];
 }
 
-/** The names of a list that are nearest to a word, all of a short list; those that have the word in them first. */
+/** The names of a list nearest to a word, all of a short list; those that have the word in them first. */
 function nearest(names, typed) {
   const word = typed.toLowerCase();
   const far = (name) => (word && name.toLowerCase().includes(word) ? 0

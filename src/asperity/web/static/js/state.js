@@ -105,7 +105,7 @@ let trail = [location.hash];
 let at = 0;
 /** Whether there is a step to go back, or on again. */
 export const undoable = signal({ undo: false, redo: false });
-/** Screens that were opened with something taken from another: such a step is one to go back from as well. */
+/** Screens opened with something taken from another: such a step is one to go back from too. */
 const carried = new Set();
 
 const screenOf = (hash) => hash?.replace(/^#\/?/, "").split("?")[0];

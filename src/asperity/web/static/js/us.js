@@ -114,7 +114,7 @@ export const inText = (text) => (asKept() || typeof text !== "string" ? text
   : text.replace(RUN, (_, numbers, unit) =>
     `${numbers.replace(new RegExp(NUMBER, "g"), (each) => again(each, unit))} ${US[unit][0]}`));
 
-/** What is written, such as "300 N m", as it is shown in its box: units as they are printed, all of which are read. */
+/** What is written, "300 N m", as its box shows it: units as printed, all of which are read. */
 export function written(text, count = 5) {
   const [number, unit] = split(text);
   if (Number.isNaN(number)) return text;

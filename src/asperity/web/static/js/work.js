@@ -51,7 +51,7 @@ function exampleOf(asked, slot, any) {
   return found ? { ...found, id: `shown/${found.at}`, name: same, other: own ? "" : aliasOf(found.asked.case) } : null;
 }
 
-/** The answer that ships for a command, whatever is set: its id and what it is; null until it is there, or unwanted. */
+/** The answer that ships for a command, whatever is set: its id and itself; null until it is there, or unwanted. */
 export function useShipped(command, wanted) {
   const example = wanted && shippedJobs.value.find(({ asked }) => asked.command === command);
   const id = example ? `shown/${example.at}` : "";
@@ -131,7 +131,7 @@ export function useJob(command, body, slot = "", any = false) {
   return { ...found, job, from: example.id, files: example.files, data: ships, stale: example.name !== name };
 }
 
-/** Whether something has been there and was drawn: what stands below it waits for that. @param {boolean} there */
+/** Whether something was there and drawn: what stands below it waits for that. @param {boolean} there */
 export function useAfter(there) {
   const [drawn, setDrawn] = useState(false);
   useEffect(() => {
@@ -169,7 +169,7 @@ export function useTicking(on) {
   }, [on]);
 }
 
-/** How far a job is, how long it has run and how long it still takes at its pace so far, in words. */
+/** How far a job is, how long it has run and still takes at its pace so far, in words. */
 export function left({ state, done, total, seconds: told, heard, answered }) {
   // Since it was told, time goes on.
   const seconds = told + (state === "running" && heard ? (performance.now() - heard) / 1000 : 0);

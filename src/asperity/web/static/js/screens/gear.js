@@ -21,20 +21,20 @@ const SIDE_BY_SIDE = [
   ["friction of the teeth", "mu_zm", "mu", "mu"],
   ["efficiency of the teeth, worm driving", "eta_z1_2", "eta", "eta"],
   ["efficiency of the teeth, wheel driving", "eta_z2_1", "eta_back", "eta_back"],
-  ["efficiency of the gearbox", "eta_ges", "", ""],
+  ["efficiency of the gearbox", "eta_ges"],
   ["torque of the worm", "input_torque_Nm", "", "input_torque_Nm"],
   ["power lost between the teeth", "loss_meshing_W", "", "loss_meshing_W"],
   ["power put in", "input_power_W", "", "input_power_W"],
   ["torque of the wheel permitted", "", "M_permissible_Nm", "allowable_torque_Nm"],
 ];
-/** What stands there instead where the load drives in all parts of a duty cycle. */
+/** What stands there instead where the load drives throughout. */
 const LOAD_DRIVES = {
-  "efficiency of the gearbox": ["efficiency of the gearbox, wheel driving", "eta_ges2_1", "", ""],
-  "torque of the worm": ["torque of the worm, if it drives", "input_torque_Nm", "", "input_torque_Nm"],
-  "power lost between the teeth": ["power lost between the teeth, wheel driving", "loss_meshing_back_W", "", ""],
-  "power put in": ["power put in at the wheel", "output_power_W", "", "output_power_W"],
+  eta_ges: ["efficiency of the gearbox, wheel driving", "eta_ges2_1"],
+  input_torque_Nm: ["torque of the worm, if it drives", "input_torque_Nm", "", "input_torque_Nm"],
+  loss_meshing_W: ["power lost between the teeth, wheel driving", "loss_meshing_back_W"],
+  input_power_W: ["power put in at the wheel", "output_power_W", "", "output_power_W"],
 };
-/** Where a study's input is set, and in which unit its value comes. */
+/** Where a study's input is set, and its unit. */
 const INPUTS = {
   pressure_angle: ["gearset.pressure_angle", "deg"], worm_speed: ["operation.worm_speed", "rpm"],
   worm_roughness: ["gearset.worm_roughness", "um"], diameter_factor: ["gearset.diameter_factor", ""],
@@ -137,14 +137,14 @@ function more(keys, { tables }, settings, times) {
       [path, text(Number((times * number).toPrecision(6)), unit)]));
 }
 
-/** Which answers are missing and why, and what lies outside a standard's range, as the screen of rate says it. */
+/** Which answers are missing and why, and what lies outside a standard's range. */
 const standings = (standing) => Object.entries(standing).flatMap(([name, { word, unrated, outside, reasons }]) => [
   ...(unrated.length ? [`${STANDARDS[name]} has no answer for ${unrated.join(", ")}: ${reasons[0] ?? ""}`] : []),
   ...(word === "no answer" ? [`${STANDARDS[name]}: ${reasons[0] ?? ""}`] : []),
   ...(outside.length ? [`outside its range: ${STANDARDS[name]} (${outside.join(", ")})`] : []),
 ]);
 
-/** What a reader should know, as the command's last lines say it: film, assumed, from memory, remarks. */
+/** What the command's last lines say: film, assumed, from memory, remarks. */
 function notesOf({ assumed, verdict: { film, standing }, ...answer }, entries) {
   const found = Object.keys(STANDARDS).map((name) => [name, answer[name]]).filter(([, one]) => one);
   const [memory, count] = [found.filter(([, one]) => one.from_memory?.length),
@@ -165,7 +165,7 @@ function notesOf({ assumed, verdict: { film, standing }, ...answer }, entries) {
   ];
 }
 
-/** The verdict in a sentence; where it fails, how much larger it must be, about, and a button that makes it so. */
+/** The verdict in a sentence; where it fails, about how much larger it must be, with a button for it. */
 function Headline({ verdict }) {
   const { first, safeties, holds, moved_by: levers } = verdict;
   const { name: opened, settings, setAll } = useCase();
@@ -213,11 +213,12 @@ function Columns({ entries, answer }) {
   const names = Object.keys(STANDARDS);
   const { holds, standing } = answer.verdict;
   const back = answer.duty_cycle?.every((part) => part.load_drives);
-  const rows = back ? SIDE_BY_SIDE.map((row) => LOAD_DRIVES[row[0]] ?? row) : SIDE_BY_SIDE;
+  const rows = back ? SIDE_BY_SIDE.map((row) => LOAD_DRIVES[row[1]] ?? row) : SIDE_BY_SIDE;
+  const held = entries["iso14521.eta_ges2_1"]?.value <= 0;
   const cell = (name, at) => ([what, ...keys]) => {
     const entry = entries[`${name}.${keys[at]}`];
     return what === "verdict" ? html`<${Verdict} ok=${holds[name]} other=${standing[name].word} />`
-      : entry && !(keys[at] === "eta_ges2_1" && entry.value <= 0) ? html`<${Num} entry=${entry} count=${4} />` : "–";
+      : entry && !(held && /s2_1|_back_/.test(keys[at])) ? html`<${Num} entry=${entry} count=${4} />` : "–";
   };
   const columns = names.map((name, at) => [STANDARDS[name], cell(name, at), "right"])
     .filter((_, at) => answer[names[at]]);
