@@ -12,6 +12,9 @@ from apparatus.grid import slow
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="streams are closed by a shell")
 
 
+GONE = "the current folder is no longer there; change to another, or name files in full\n"
+
+
 @pytest.fixture
 def shell(environment, tmp_path):
     """Run a command of the shell in which ``asperity`` is the command line."""
@@ -43,6 +46,25 @@ def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command,
         "",
         f"standard output cannot be written: {why}\n",
     )
+
+
+@pytest.mark.parametrize(
+    ("command", "code", "error"),
+    [
+        ("new slide --defaults", 2, GONE),
+        ("new slide ../there.toml --defaults", 2, GONE),
+        ('new slide "$there/my.toml" --defaults', 0, ""),
+        ('check "$there/my.toml"', 0, ""),
+        ("check my.toml", 2, "my.toml is neither a file nor a case that ships"),
+    ],
+)
+def test_where_the_current_folder_is_gone_what_needs_it_says_so(shell, command, code, error):
+    made = "asperity new slide my.toml --defaults > made; " * command.startswith("check")
+    gone = "there=$PWD; mkdir gone; cd gone; rmdir ../gone"
+    ended, _, told = shell(f"{made}{gone}; asperity {command}")
+    assert ended == code
+    assert told.startswith(error)
+    assert told.count("\n") == bool(error)
 
 
 @pytest.mark.slow

@@ -153,6 +153,11 @@ def test_where_a_rating_and_locking_differ_each_says_the_others_limit(mu):
     assert found.holding_share_rated == pytest.approx(
         math.cos(math.radians(20.0)) * slope / mu, rel=1e-12
     )
+    limits = {verdict.standard: verdict.limit for verdict in rated.self_locking}
+    assert found.holding_share_rated == pytest.approx(limits["agma6034"] / mu, rel=1e-12)
+    assert found.holding_share_without_pressure_angle == pytest.approx(
+        limits["given"] / mu, rel=1e-12
+    )
     verdicts = {verdict.standard: verdict.locks for verdict in rated.self_locking}
     assert verdicts == {"given": mu > slope, "agma6034": found.holding_share_rated < 1.0}
     own = [note for note in found.notes if note.startswith("near its limit")]
@@ -161,10 +166,13 @@ def test_where_a_rating_and_locking_differ_each_says_the_others_limit(mu):
     assert differ == (0.08 < mu < 0.0926)
     assert len(own) == differ
     assert len(other) == (0.08 < mu < 0.1)
+    if other:
+        assert "with the pressure angle, which ISO/TR 14521 and BS 721 leave out, 0.087" in other[0]
     if differ:
         here = mu * found.holding_share
         assert f"a friction of {mu:.4g} counts, and {here:.4g} holds the load" in own[0]
-        assert "at 9.153 mm, as 0.09259 by ISO/TR 14521 and BS 721 and 0.08701 by AGMA" in own[0]
+        assert "at 9.153 mm, as 0.09259 by ISO/TR 14521 and BS 721, which leave out" in own[0]
+        assert "and 0.08701 with it, by AGMA 6034" in own[0]
         ends = still.require(Gearset).geometry
         for radius in (0.5 * ends.worm_tip_diameter, ends.wheel_throat_radius):
             point = MeshPoint.of(ends, 1e-3 * radius)

@@ -140,6 +140,22 @@ def test_without_a_writable_folder_kernels_work_uncached(run, tmp_path):
     assert run(tmp_path / "file") == [30.0, 0, None]
 
 
+@pytest.mark.skipif(os.name != "posix", reason="a folder in use cannot be removed")
+def test_a_kernel_is_compiled_where_the_current_folder_is_gone(monkeypatch, tmp_path):
+    monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / "cache"))
+
+    @kernel
+    def taken(values, place):
+        return values[place]
+
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    # What Numba finds to be no constant it looks up in the source.
+    assert taken(np.array([1.0, 2.0]), 1) == 2.0
+
+
 def test_a_failed_save_is_ignored(monkeypatch, tmp_path):
     monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path))
 

@@ -9,9 +9,12 @@ import numpy as np
 import pytest
 from apparatus.formulas import formulas_of
 
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.errors import InputError
 from asperity.formulas import Masked
 from asperity.rating import iso14521 as iso
+from asperity.rating import rate_case
 from asperity.rating.demands import DEMANDS
 
 ALPHA = math.radians(20.0)
@@ -333,3 +336,12 @@ def test_every_least_safety_has_a_source():
 def test_examples_in_the_docstrings_hold():
     for module in pkgutil.iter_modules(iso.__path__, f"{iso.__name__}."):
         assert doctest.testmod(importlib.import_module(module.name)).failed == 0, module.name
+
+
+def test_what_is_lost_between_teeth_by_the_standards_0_1_puts_the_gearbox_above_its_teeth():
+    case = read_case("gearset-3", case_tables(), ["rating.friction=0.9"])
+    rated = rate_case(case).iso14521
+    teeth, losses = rated["eta_z1_2"], rated["loss_total_W"]
+    assert (rated["eta_ges"], teeth) == pytest.approx((0.203, 0.197), abs=5e-4)
+    exact = losses + (math.pi / 3.0 - 1.0) * rated["loss_meshing_W"]
+    assert rated["output_power_W"] / (rated["output_power_W"] + exact) < teeth

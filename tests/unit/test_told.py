@@ -158,6 +158,7 @@ def test_notes_stand_under_gearsets_and_what_none_holds_above_them(holding):
         ["one", "none holds"] if holding else ["one"]
     )
     assert any(remark.startswith("the first one: --set") for remark in table.remarks) is best.holds
+    assert any("asperity rate FOLDER/proposal-1.toml" in r for r in table.remarks) is best.holds
     hold = "2 hold by" if holding else "0 hold by"
     assert table.remarks[0].startswith(f"7 gearsets rated, {hold} every standard")
 

@@ -112,6 +112,9 @@ def _stand_in(number: int, mode: int) -> io.TextIOWrapper:
 
 def unwritten(error: OSError) -> str:
     """Return what is to be said of a standard output that cannot be written to."""
+    if isinstance(error, FileNotFoundError) and error.filename is None:
+        # Of what has no name only the current folder can be gone.
+        return "the current folder is no longer there; change to another, or name files in full"
     if error.filename is not None:
         # Not of a standard output, which has no name.
         return f"{shown(str(error.filename))} cannot be read or written: {reason(error)}"

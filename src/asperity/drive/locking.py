@@ -73,7 +73,10 @@ class Locking(Result):
     locked: bool = quantity("", "", "holds its load without vibration")
     holding_share: float = quantity("phi", "", "share of full friction that holds it")
     holding_share_rated: float = quantity(
-        "", "", "the same on the reference circle, where a rating has it"
+        "", "", "the same on the reference circle, with the pressure angle, as AGMA 6034 has it"
+    )
+    holding_share_without_pressure_angle: float = quantity(
+        "", "", "as ISO/TR 14521 and BS 721 rate it, there and without the pressure angle"
     )
     elastic_slip: float = quantity(
         "s_eff", "m", "way along the flank from none to full friction, asperities and teeth"
@@ -188,6 +191,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
         locked=locked,
         holding_share=share,
         holding_share_rated=problem.point(None).holding_share(at_rest),
+        holding_share_without_pressure_angle=_without_pressure_angle(problem) / at_rest,
         elastic_slip=slip,
         threshold=threshold,
         threshold_closed_form=closed,
@@ -214,6 +218,7 @@ def _at_rest(
         locked=share < 1.0,
         holding_share=share,
         holding_share_rated=problem.point(None).holding_share(model.holding),
+        holding_share_without_pressure_angle=_without_pressure_angle(problem) / model.holding,
         elastic_slip=slip,
         threshold=None,
         threshold_closed_form=None,
@@ -228,9 +233,14 @@ def _at_rest(
     )
 
 
+def _without_pressure_angle(problem: DriveProblem) -> float:
+    """Friction from which on a worm locks itself by standards that leave out the pressure angle."""
+    return math.tan(problem.geometry.lead_angle)
+
+
 def _near_limit(problem: DriveProblem, point: MeshPoint, friction: float) -> tuple[str, ...]:
     """Return that a rating has another limit, where the friction is between that and its own."""
-    rated = math.tan(problem.geometry.lead_angle)
+    rated = _without_pressure_angle(problem)
     across = friction * problem.point(None).holding_share(friction)
     here = friction * point.holding_share(friction)
     if not min(here, across) <= friction <= max(here, rated):
@@ -239,7 +249,8 @@ def _near_limit(problem: DriveProblem, point: MeshPoint, friction: float) -> tup
         f"near its limit: a friction of {friction:.4g} counts, and {here:.4g} holds the load where "
         f"its teeth touch, {1e3 * point.radius:.4g} mm from the worm's axis; asperity rate has the "
         f"limit on the reference circle, at {1e3 * problem.reference_radius:.4g} mm, as "
-        f"{rated:.4g} by ISO/TR 14521 and BS 721 and {across:.4g} by AGMA 6034",
+        f"{rated:.4g} by ISO/TR 14521 and BS 721, which leave out the pressure angle, and "
+        f"{across:.4g} with it, by AGMA 6034",
     )
 
 

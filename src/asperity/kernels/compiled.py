@@ -87,8 +87,26 @@ class _Lazy:
     def _dispatcher(self) -> Any:
         with _LOCK:
             if self._compiled is None:
+                _compile_anywhere()
                 self._compiled = made(self._function, self._options, self._key)
         return self._compiled
+
+
+@functools.cache
+def _compile_anywhere() -> None:
+    """Let Numba, which names sources as seen from the current folder, do without one."""
+    from numba.core import ir
+
+    location: Any = ir.Loc
+    relative = location._get_path
+
+    def path(self: Any) -> Any:
+        try:
+            return relative(self)
+        except FileNotFoundError:
+            return self.filename
+
+    location._get_path = path
 
 
 def _not_here(arguments: tuple[Any, ...]) -> Any:

@@ -216,10 +216,13 @@ def near_limit(locking: SelfLocking, geometry: Geometry) -> tuple[str, ...]:
     ]
     at = float(locking_friction(locking.lead_angle))
     tip, bottom = at * of_reference(outer), at * of_reference(inner)
+    share = math.cos(angle)
     return (
         f"self-locking hangs on where loaded teeth touch, with the friction {listed(frictions)}: "
         f"it takes {at:.3g} on the reference circle, as here, {tip:.3g} at the worm's tip and "
-        f"{bottom:.3g} at the wheel's; asperity locking goes by where they do",
+        f"{bottom:.3g} at the wheel's, and with the pressure angle, which ISO/TR 14521 and BS 721 "
+        f"leave out, {share * at:.3g}, {share * tip:.3g} and {share * bottom:.3g}; asperity "
+        "locking has it and goes by where they do",
     )
 
 

@@ -39,6 +39,7 @@ _TEXTS = {
     "hob": "hob of the shelf",
     "settings": "what makes a case it",
 }
+_LEADS_ON = "with --out FOLDER each is a case: asperity rate FOLDER/proposal-1.toml"
 MOST = 20
 """Proposals that are shown."""
 
@@ -194,7 +195,7 @@ class Proposals(Result):
             f"hold{'s' * (self.holding == 1)} by every standard; shown are those "
             f"that no other beats in size, efficiency and margin, by {self.ranked_by}",
             # One that breaks is nobody's first one.
-            *([f"the first one: {first}"] if best.holds else []),
+            *([f"the first one: {first}", _LEADS_ON] if best.holds else []),
             *(self.notes[:-1] if said_above else self.notes),
         ]
         if len(self.found) > MOST:
