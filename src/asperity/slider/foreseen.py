@@ -158,7 +158,8 @@ def _by_the_means(
         if fading is not None:
             # Asperities with an exponent above 1 slow down as they come nearer to their limit.
             slower = model.friction.exponent if model.friction.model == "dahl" else 1.0
-            found.append(fading * max(slower, 1.0))
+            nearer = (FAR / NEAR_LIMIT) ** (slower - 1.0) if bends_ever_more(model) else 1.0
+            found.append(fading * max(slower, 1.0) * nearer)
         if fading is None or not steadily(means):
             # What began with the drive or the vibration, a ring say, fades before the window.
             found.append(loaded)
