@@ -70,12 +70,14 @@ class Onward:
 
 
 def _steps_of_a_cycle(body: Body) -> int:
-    """Return the steps of a cycle of a body on its drive, as many as alone; 0 where not whole."""
+    """Return the steps of a cycle of a body on its drive, as many as alone; 0 where not whole.
+
+    It is asked of none whose vibration still grows, see `asperity.slider.judged_march.foretold`.
+    """
     model, table = body.model, body.table
     if not model.vibrates or model.slider.rigid:
         return 0
-    grown = model.start + model.ramp <= table.steps * table.step
     cycle = 1.0 / (model.frequency * table.step)
     count = round(cycle)
     even = model.meets_corners or count % 2 == 0
-    return count if grown and even and np.isclose(count, cycle, rtol=_WHOLE, atol=0.0) else 0
+    return count if even and np.isclose(count, cycle, rtol=_WHOLE, atol=0.0) else 0
