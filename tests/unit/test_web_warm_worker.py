@@ -1,6 +1,7 @@
 """Who a warm worker is asked by, one after the other."""
 
 import asyncio
+import sys
 
 from asperity.processes import sessions
 from asperity.web import warm_worker
@@ -41,3 +42,45 @@ def test_who_has_gone_by_the_time_it_is_his_turn_is_passed_over(tmp_path, monkey
     answers = asyncio.run(main())
     assert began == [b"0", b"11"]
     assert [status for status, _ in answers] == [200, *[499] * 10, 200]
+
+
+def test_one_that_is_stopped_while_somebody_waits_is_not_begun_anew(tmp_path, monkeypatch):
+    """As when a page is ended while it solves: it would wait for ever for the new one to end."""
+    script = tmp_path / "silent.py"
+    script.write_text(
+        'import sys\nprint("{\\"up\\": 1}\\n{\\"ready\\": 1}", flush=True)\nsys.stdin.read()\n'
+    )
+    begun, begin = [], asyncio.create_subprocess_exec
+
+    async def silent(*_):
+        pipe = asyncio.subprocess.PIPE
+        begun.append(
+            await begin(
+                sys.executable, str(script), stdin=pipe, stdout=pipe, start_new_session=True
+            )
+        )
+        return begun[-1]
+
+    async def main():
+        owner = warm_worker.WarmWorker("solver", tmp_path)
+        await owner.start()
+        await owner.ready.wait()
+
+        async def gone():
+            return False
+
+        asked = asyncio.create_task(owner.ask("slide", b"", gone))
+        await asyncio.sleep(0.1)
+        assert not asked.done()
+        await asyncio.wait_for(owner.stop(), 10.0)
+        return await asyncio.wait_for(asked, 10.0)
+
+    monkeypatch.setattr(sessions, "begun", silent)
+    try:
+        status, _ = asyncio.run(main())
+    finally:
+        for process in begun:
+            if process.returncode is None:
+                process.kill()
+    assert status == 500
+    assert len(begun) == 1

@@ -44,9 +44,12 @@ class WarmWorker:
         self._process: asyncio.subprocess.Process | None = None
         self._frames: asyncio.Queue[Answer | None] = asyncio.Queue()
         self._reader: asyncio.Task[None] | None = None
+        self._over = asyncio.Event()
 
     async def start(self) -> None:
         """Begin the process, which warms by itself; where it cannot, whoever asks next does."""
+        if self._over.is_set():
+            return
         self.up.clear()
         self.ready.clear()
         self._frames = asyncio.Queue()
@@ -54,6 +57,8 @@ class WarmWorker:
             self._process = await sessions.begun(*self._begin)
         except OSError:
             return
+        if self._over.is_set():
+            self.kill()
         self._reader = asyncio.create_task(self._read(self._process, self._frames))
 
     def kill(self) -> None:
@@ -61,12 +66,17 @@ class WarmWorker:
         sessions.end(self._process)
 
     async def stop(self) -> None:
-        """End the process and wait until it has."""
+        """End the process for good, whoever still waits for an answer, and wait until it has."""
+        self._over.set()
+        await self._end()
+
+    async def _end(self) -> None:
         self.kill()
         process, self._process = self._process, None
-        if process is not None and self._reader is not None:
+        reader, self._reader = self._reader, None
+        if process is not None and reader is not None:
             await process.wait()
-            await self._reader
+            await reader
 
     async def ask(self, verb: str, body: bytes, gone: Gone) -> Answer:
         """Return status and body of an answer.
@@ -119,7 +129,7 @@ class WarmWorker:
         return failed
 
     async def _again(self) -> None:
-        await self.stop()
+        await self._end()
         await self.start()
 
     async def _read(
