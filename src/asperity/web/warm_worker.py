@@ -38,13 +38,12 @@ class WarmWorker:
     """
 
     def __init__(self, kind: str, folder: Path) -> None:
-        self.up, self.ready = asyncio.Event(), asyncio.Event()
+        self.up, self.ready, self._over = (asyncio.Event() for _ in range(3))
         self._begin = ("asperity.web.worker", kind, str(folder))
         self._turn = asyncio.Lock()
         self._process: asyncio.subprocess.Process | None = None
         self._frames: asyncio.Queue[Answer | None] = asyncio.Queue()
         self._reader: asyncio.Task[None] | None = None
-        self._over = asyncio.Event()
 
     async def start(self) -> None:
         """Begin the process, which warms by itself; where it cannot, whoever asks next does."""
@@ -53,30 +52,23 @@ class WarmWorker:
         self.up.clear()
         self.ready.clear()
         self._frames = asyncio.Queue()
-        try:
+        with contextlib.suppress(OSError):
             self._process = await sessions.begun(*self._begin)
-        except OSError:
-            return
-        if self._over.is_set():
-            self.kill()
-        self._reader = asyncio.create_task(self._read(self._process, self._frames))
+            self._reader = asyncio.create_task(self._read(self._process, self._frames))
 
     def kill(self) -> None:
         """End the process at once."""
         sessions.end(self._process)
 
-    async def stop(self) -> None:
-        """End the process for good, whoever still waits for an answer, and wait until it has."""
-        self._over.set()
-        await self._end()
-
-    async def _end(self) -> None:
+    async def stop(self, *, for_good: bool = True) -> None:
+        """End the process, whoever still waits for an answer, and wait until it has."""
+        if for_good:
+            self._over.set()
         self.kill()
         process, self._process = self._process, None
         reader, self._reader = self._reader, None
         if process is not None and reader is not None:
-            await process.wait()
-            await reader
+            await asyncio.gather(process.wait(), reader)
 
     async def ask(self, verb: str, body: bytes, gone: Gone) -> Answer:
         """Return status and body of an answer.
@@ -89,9 +81,8 @@ class WarmWorker:
             # What it takes to begin, on a busy machine or for the first time, is not its answer's.
             await self._warm(asked.kernels)
             async with self._turn:
-                await self._warm(
-                    asked.kernels
-                )  # begun anew, it may be, while others had their turn
+                # Begun anew, it may be, while others had their turn.
+                await self._warm(asked.kernels)
                 if await gone():
                     return _GONE
                 if sessions.lives(self._process):
@@ -129,7 +120,7 @@ class WarmWorker:
         return failed
 
     async def _again(self) -> None:
-        await self._end()
+        await self.stop(for_good=False)
         await self.start()
 
     async def _read(
