@@ -332,7 +332,7 @@ def test_a_compiler_that_hangs_is_waited_for_once(tmp_path, script, monkeypatch,
     (runs,) = tmp_path.rglob("*.runs")
     assert len(runs.read_text().splitlines()) == 1
     (line,) = caplog.messages
-    assert "has not linked in 0.5 s: Numba compiles instead" in line
+    assert "has not ended in 0.5 s: Numba compiles instead" in line
 
 
 @pytest.mark.parametrize(

@@ -37,9 +37,7 @@ _MOST_UNKNOWNS = 9  # each takes a cycle; without springs there are 7
 _FADES = 1.0 - 1e-6  # a multiplier, as exact as differences are: 1e-5 and 1e-7 alter 3 of 260
 _LITTLE = 1e-2  # of a state's scales, a ring whose square tells nothing: 1e-3 and 0.1 alter none
 _LOOKED_AT = 36  # cycles: by 24 one more of 810 is told what does not do, by 18 three
-_LINEAR = (
-    0.2  # of their way, that they may be off it: by 0.4 one of 260 fails, by 0.1 ten last longer
-)
+_LINEAR = 0.2  # of their way, that they may be off it: by 0.4 one fails, by 0.1 ten last longer
 _ROUNDING = 1e-12  # that any disturbance has: 100 times that or a hundredth alter one, by 5 %
 _NEXT, _TIMES = 1.01, 1e3  # times a duration: the next that is tried; the usual one, at most
 _COARSE = 8  # in which one is tried at first: 3 of 237 are told up to 5 % longer

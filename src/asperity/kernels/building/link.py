@@ -161,8 +161,10 @@ def linked(place: Path, objects: Iterable[bytes]) -> bytes:
                 _LOADS.add((*words,))
         except subprocess.TimeoutExpired:
             _HANG.add((*words,))
-            line = f"the C compiler {shlex.join(words)} has not linked in {_TIMEOUT:g} s"
-            kernel_folder.tell(f"{line}: Numba compiles instead, in each run; set CC to another")
+            kernel_folder.tell(
+                f"linking with the C compiler {shlex.join(words)} has not ended in {_TIMEOUT:g} s: "
+                "Numba compiles instead, and every run waits as long; set CC to another"
+            )
             raise
         return library.read_bytes()
 
