@@ -76,7 +76,7 @@ class Locking(Result):
         "", "", "the same on the reference circle, with the pressure angle, as AGMA 6034 has it"
     )
     holding_share_without_pressure_angle: float = quantity(
-        "", "", "as ISO/TR 14521 and BS 721 rate it, there and without the pressure angle"
+        "", "", "as ISO/TR 14521 rates it, there and without the pressure angle"
     )
     elastic_slip: float = quantity(
         "s_eff", "m", "way along the flank from none to full friction, asperities and teeth"
@@ -249,8 +249,8 @@ def _near_limit(problem: DriveProblem, point: MeshPoint, friction: float) -> tup
         f"near its limit: a friction of {friction:.4g} counts, and {here:.4g} holds the load where "
         f"its teeth touch, {1e3 * point.radius:.4g} mm from the worm's axis; asperity rate has the "
         f"limit on the reference circle, at {1e3 * problem.reference_radius:.4g} mm, as "
-        f"{rated:.4g} by ISO/TR 14521 and BS 721, which leave out the pressure angle, and "
-        f"{across:.4g} with it, by AGMA 6034",
+        f"{rated:.4g} by ISO/TR 14521 and, unless asked otherwise, BS 721, which leave out the "
+        f"pressure angle, and {across:.4g} with it, by AGMA 6034",
     )
 
 

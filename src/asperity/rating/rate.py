@@ -114,7 +114,7 @@ def rated_of(
             *torque_notes(as_run, inputs.operation),
             *told,
             *notes,
-            *near_limit(locking, gearset.geometry),
+            *near_limit(locking, gearset.geometry, inputs),
         ),
         rows=rows,
         assumed=assumptions(inputs),

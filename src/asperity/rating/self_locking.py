@@ -1,9 +1,9 @@
 """Whether the wheel can drive the worm, by the friction of each standard and by the user's own.
 
 By ISO/TR 14521 and BS 721 a worm locks itself where its lead angle is not above the friction
-angle, atan(mu); AGMA 6034 projects the friction with the pressure angle, so that it does where the
-lead angle is not above atan(mu/cos(alpha_n)). In each case it is where the standard's own
-efficiency with the wheel driving is not above zero.
+angle, atan(mu); AGMA 6034, and BS 721 where that is asked for, projects the friction with the
+pressure angle, so that it does where the lead angle is not above atan(mu/cos(alpha_n)). In each
+case it is where the standard's own efficiency with the wheel driving is not above zero.
 
 Statically the friction at rest counts, dynamically that at the sliding velocity. The factor on the
 friction multiplies both: a vibration that lowers the friction by it sets a worm free that locked
@@ -22,6 +22,7 @@ from asperity.formulas import formula
 from asperity.gearset import Geometry
 from asperity.rating.agma6034 import mesh
 from asperity.rating.bs721 import torque
+from asperity.rating.bs721.rating import by_normal_section
 from asperity.rating.bs721.tables import Tables, read_tables
 from asperity.rating.inputs import Inputs
 from asperity.rating.iso14521 import efficiency
@@ -188,7 +189,7 @@ def self_locking(inputs: Inputs, ratings: Mapping[str, Rating], tables: Tables) 
     return SelfLocking(inputs.lead_angle, inputs.friction_factor, tuple(verdicts))
 
 
-def near_limit(locking: SelfLocking, geometry: Geometry) -> tuple[str, ...]:
+def near_limit(locking: SelfLocking, geometry: Geometry, inputs: Inputs) -> tuple[str, ...]:
     """Return that a verdict hangs on where the teeth touch, where it does; none elsewhere.
 
     Standards judge on the reference circle. Loaded teeth touch anywhere between the wheel's tip and
@@ -217,18 +218,19 @@ def near_limit(locking: SelfLocking, geometry: Geometry) -> tuple[str, ...]:
     at = float(locking_friction(locking.lead_angle))
     tip, bottom = at * of_reference(outer), at * of_reference(inner)
     share = math.cos(angle)
+    leave = "ISO/TR 14521 leaves" if by_normal_section(inputs) else "ISO/TR 14521 and BS 721 leave"
     return (
         f"self-locking hangs on where loaded teeth touch, with the friction {listed(frictions)}: "
         f"it takes {at:.3g} on the reference circle, as here, {tip:.3g} at the worm's tip and "
-        f"{bottom:.3g} at the wheel's, and with the pressure angle, which ISO/TR 14521 and BS 721 "
-        f"leave out, {share * at:.3g}, {share * tip:.3g} and {share * bottom:.3g}; asperity "
+        f"{bottom:.3g} at the wheel's, and with the pressure angle, which {leave} "
+        f"out, {share * at:.3g}, {share * tip:.3g} and {share * bottom:.3g}; asperity "
         "locking has it and goes by where they do",
     )
 
 
 def friction_share(inputs: Inputs, name: str) -> Real:
     """What BS 721 divides its friction by, where that is asked for; else 1."""
-    asked = name == "bs721" and inputs.options.bs721_friction_angle == "mu_over_cos"
+    asked = name == "bs721" and by_normal_section(inputs)
     return np.cos(inputs.pressure_angle) if asked else 1.0
 
 
