@@ -28,7 +28,7 @@ from apparatus.called import copied  # noqa: E402
 from observe import new_cache  # noqa: E402
 
 # Others may load the machine for seconds: on until so many turns in a row bring no shorter time.
-TURNS, MOST, SHORTER = 25, 400, 0.998
+TURNS, MOST, SHORTER = 25, 150, 0.998
 LEAST = 0.97
 KERNELS = {
     "march": ("asperity.slider.kernels.march_stretches", "slide table-4.3"),
