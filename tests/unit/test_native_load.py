@@ -214,17 +214,18 @@ def test_of_alike_entries_the_first_is_called_that_the_processor_can_do(made, ro
     assert answer() is None
 
 
-LANES = "asperity.slider.batch_kernels"
+LANES, ALONE = "asperity.slider.batch_kernels", "asperity.slider.two_phase"
 
 
-def test_lanes_are_made_for_wide_processors_where_this_is_one(monkeypatch):
-    for lacks, expected in [(set(), target.WIDE), ({"avx512dq"}, target.PLAIN)]:
+@pytest.mark.parametrize(("module", "fastest"), [(LANES, target.WIDE), (ALONE, target.HALF_WIDE)])
+def test_bodies_are_made_for_wide_processors_where_this_is_one(module, fastest, monkeypatch):
+    for lacks, expected in [(set(), fastest), ({"avx512dq"}, target.PLAIN)]:
         has = frozenset(target.WIDE.features) - lacks
         monkeypatch.setattr(target, "features", lambda has=has: has)
-        assert target.here(LANES) is expected
-        assert target.here("asperity.slider.kernels") is target.PLAIN
-    wide, plain = (entry for entry in for_all_processors() if entry.module == LANES)
-    assert (wide.target, plain.target) == (target.WIDE, target.PLAIN)
+        assert target.here(module) is expected
+        assert target.here("asperity.slider.unknowns") is target.PLAIN
+    wide, plain = (entry for entry in for_all_processors() if entry.module == module)
+    assert (wide.target, plain.target) == (fastest, target.PLAIN)
     assert keys.key(wide) != keys.key(plain)
     assert link.symbol(wide) != link.symbol(plain)
 

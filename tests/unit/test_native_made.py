@@ -11,21 +11,13 @@ from collections import namedtuple
 import numba
 import numpy as np
 import pytest
-from apparatus import called
 from numba.core import ir
 from numba.core.compiler import run_frontend
 
-from asperity.casefile import read_case
-from asperity.friction.dahl import SPLIT, UNSPLIT, VECTOR
 from asperity.kernels.building import quicker
 from asperity.kernels.building.specs import UnknownTypeError, numba_type, spec
-from asperity.kernels.native import load, target
 from asperity.kernels.native.entries import likely, listed
 from asperity.kernels.native.types import UnlistedTypeError, types_of
-from asperity.slider import batch_kernels
-from asperity.slider.batch import solve_many
-from asperity.slider.model import Model
-from asperity.slider.tables import TABLES
 
 Pair = namedtuple("Pair", "x y")
 
@@ -188,56 +180,6 @@ def test_settings_of_numba_where_one_works_are_not_those_of_what_is_kept(tmp_pat
         text=True,
     )
     assert done.stdout == "3\n"
-
-
-LANES = """
-import sys
-from pathlib import Path
-from asperity.kernels.building import lean, link, making
-from asperity.kernels.native.entries import for_all_processors
-making.began()
-for entry in for_all_processors():
-    if entry.name.endswith(".march_batch"):
-        made = lean.make(
-            making.kernel(entry), entry.arguments, link.symbol(entry), entry.target
-        )
-        folder = Path(sys.argv[1]) / entry.target.processor
-        folder.mkdir()
-        link.write(folder, [(entry, made)], link.support())
-"""
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(
-    not set(target.WIDE.features) <= target.features(), reason="this processor has no AVX-512"
-)
-def test_lanes_in_wide_registers_are_the_same_to_the_bit(tmp_path):
-    environment = os.environ | {"ASPERITY_NATIVE": "0"}
-    subprocess.run([sys.executable, "-c", LANES, tmp_path], env=environment, check=True)
-    settings = "solve.method=march", "vibration.start=20 ms", "solve.duration=50 ms"
-    models = [
-        Model.from_case(
-            read_case(
-                "table-4.4",
-                TABLES,
-                [f"friction.law={law}", f"vibration.velocity_ratio={k}", *settings],
-            )
-        )
-        for law in ("vector", "split", "unsplit")
-        for k in (0.5, 1.5, 4.0)
-    ]
-    with called.recorded() as calls:
-        solve_many(models)
-    lanes = [given for kernel, given in calls if kernel.__name__ == "march_batch"]
-    assert {given[8] for given in lanes} == {VECTOR, SPLIT, UNSPLIT}
-    wide, plain = (
-        load.from_folder(tmp_path / one.processor).entry(f"{batch_kernels.__name__}.march_batch")
-        for one in (target.WIDE, target.PLAIN)
-    )
-    for given in lanes:
-        first, second = called.copied(given), called.copied(given)
-        assert (wide(first), plain(second)) == (None, None)
-        assert called.words(first) == called.words(second) != called.words(given)
 
 
 def told_by(program):

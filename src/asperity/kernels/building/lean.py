@@ -27,6 +27,10 @@ from asperity.kernels.native.target import PLAIN, Target
 # Their loops over steps are faster for it and sooner made; a block's take LLVM a third longer.
 _OF_STEPS = ("asperity.slider.pressed", "asperity.slider.batch")
 
+# Loops over lanes that a factory makes, one for each law and stage, by "<locals>" in their names.
+_LANES = "asperity.slider.batch"
+_FROM_A_FACTORY = "_3clocals_3e"
+
 
 class UnfitError(Exception):
     """A kernel that cannot do without Numba, or without Python."""
@@ -142,8 +146,10 @@ def make(kernel: Any, arguments: list[Spec], symbol: str, target: Target = PLAIN
         raise UnfitError("it returns a record")
     native = result.fndesc.llvm_func_name
     module, words = _linked(result, native, symbol)
-    _internal(module, native, symbol)
-    _optimise(module, target, values_first=kernel.__module__.startswith(_OF_STEPS))
+    lanes = kernel.__module__.startswith(_LANES)
+    _internal(module, native, symbol, apart=lanes)
+    values_first = kernel.__module__.startswith(_OF_STEPS)
+    _optimise(module, target, values_first=values_first, twice=lanes)
     if foreign := _foreign(module):
         raise UnfitError(f"it needs {', '.join(foreign)}")
     return Made(_machine(target).emit_object(module), returns, words)
@@ -194,7 +200,8 @@ def _linked(result: Any, native: str, symbol: str) -> tuple[Any, tuple[int, int]
     return module, words
 
 
-def _internal(module: Any, native: str, symbol: str) -> None:
+def _internal(module: Any, native: str, symbol: str, *, apart: bool) -> None:
+    """Leave one symbol outside; with ``apart`` what a factory makes stays a function of its own."""
     for function in module.functions:
         if not function.is_declaration and function.name != symbol:
             function.linkage = "internal"
@@ -203,12 +210,19 @@ def _internal(module: Any, native: str, symbol: str) -> None:
             variable.linkage = "internal"
     # As a function of its own it keeps what is known of its arguments.
     module.get_function(native).add_function_attribute("noinline")
+    for function in module.functions if apart else ():
+        # As one function of all of them, their loops would find the registers taken.
+        if not function.is_declaration and _FROM_A_FACTORY in function.name:
+            function.add_function_attribute("noinline")
 
 
-def _optimise(module: Any, target: Target, *, values_first: bool = False) -> None:
+def _optimise(
+    module: Any, target: Target, *, values_first: bool = False, twice: bool = False
+) -> None:
     """Do what Numba does for a function that is called from Python, in its order.
 
-    With ``values_first`` variables are made values before, as Numba does for each function alone.
+    With ``values_first`` variables are made values before, as Numba does for each function alone;
+    with ``twice`` the end is done once more, as it is for what such a function calls.
     """
     made_by = cpu_target.target_context.codegen()
     made_by._tm = _machine(target)
@@ -222,8 +236,10 @@ def _optimise(module: Any, target: Target, *, values_first: bool = False) -> Non
         first.add_simplify_cfg_pass()
         first.run(module, options)
     cheap.run(module, options)
-    full, options = made_by._module_pass_manager()
-    full.run(module, options)
+    # By the second time vector loops ask whether arrays overlap: that goes before all steps then.
+    for _ in range(2 if twice else 1):
+        full, options = made_by._module_pass_manager()
+        full.run(module, options)
     module.verify()
 
 

@@ -33,19 +33,30 @@ FEATURES = (
 
 PLAIN = Target("x86-64-v3", "", FEATURES)
 
-# LLVM would use half of a register; all of it is faster, and the bits are the same.
-WIDE = Target(
-    "x86-64-v4",
-    "-prefer-256-bit",
-    (*FEATURES, "avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl"),
-)
+_AVX512 = (*FEATURES, "avx512f", "avx512bw", "avx512cd", "avx512dq", "avx512vl")
 
-_LANES = ("asperity.slider.batch_kernels", "asperity.slider.batch_pressed_kernels")
+# LLVM would use half of a register; all of it is faster, and the bits are the same.
+WIDE = Target("x86-64-v4", "-prefer-256-bit", _AVX512)
+
+# A step alone has nothing to fill a register with. But there are twice as many of them, so that its
+# numbers stay in registers, and what is chosen needs no branch.
+HALF_WIDE = Target("x86-64-v4", "", _AVX512)
+
+# Those that step by step take most of a command's time; all of them would make a library twice as
+# large.
+_FASTEST = {
+    "asperity.slider.batch_kernels": WIDE,
+    "asperity.slider.batch_pressed_kernels": WIDE,
+    "asperity.slider.kernels": HALF_WIDE,
+    "asperity.slider.pressed": HALF_WIDE,
+    "asperity.slider.shooting": HALF_WIDE,
+    "asperity.slider.two_phase": HALF_WIDE,
+}
 
 
 def targets(module: str) -> tuple[Target, ...]:
-    """Return what a module's kernels are made for, the fastest first: lanes for wide ones too."""
-    return (WIDE, PLAIN) if module in _LANES else (PLAIN,)
+    """Return what a module's kernels are made for, the fastest first: bodies for AVX-512 too."""
+    return (_FASTEST[module], PLAIN) if module in _FASTEST else (PLAIN,)
 
 
 def here(module: str) -> Target:
