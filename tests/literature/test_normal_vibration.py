@@ -398,7 +398,7 @@ def test_the_whole_body_is_solved_to_second_order():
         asked = Solve(method="periodic", step=1.0 / (4e3 * count), units="SI")
         return solve(dataclasses.replace(model, solve=asked), history=False).ratio
 
-    exact = ratio(40960)
+    exact = ratio(20480)
     errors = [abs(ratio(count) - exact) for count in steps]
     slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
     assert -slope == pytest.approx(2.0, abs=0.1)
