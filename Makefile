@@ -11,8 +11,8 @@ INSTALL := $(BIN)/python -m pip install $(QUIETLY)
 # On all cores, what pip does on one: half of the time it takes. Some packages hold files that are
 # no Python to this version; pip is silent about them too. The tests of the packages, a third of
 # all of it, nobody imports; of the tools' packages little is, and Python compiles that as it goes.
-SELDOM := tests?|testsuite|cuda|dask|distributed|distutils|ezdxf|feaLib|fsspec|hatchling|lexers|pip
-SELDOM := $(SELDOM)|pymeasure|pyqtgraph|pyvista|tomlkit|trimesh|varLib|vtkmodules
+SELDOM := tests?|testsuite|cuda|dask|distributed|distutils|ezdxf|fontTools|fsspec|hatchling|lexers
+SELDOM := $(SELDOM)|pip|pymeasure|pyqtgraph|pyvista|tomlkit|trimesh|vtkmodules
 BYTES := $(BIN)/python -W ignore -m compileall -qq -j 0 -x '/($(SELDOM))/' .venv/lib || true
 PYTEST_OPTIONS ?= -n auto --dist loadfile --no-loadscope-reorder --durations 25 --durations-min 5
 # Of the campaigns among the slow tests, each one statement on thousands of inputs, this share.

@@ -35,7 +35,7 @@ def ratios(case, law, speeds, directions, method):
 
 @pytest.mark.parametrize(("case", "law"), [*grid([*CASES], ["split", "vector"]), *UNSPLIT])
 def test_march_and_periodic_state_agree(case, law):
-    grid = (0.25, 1.0, 1.5, 4.0, 9.0, 20.0), (0, 15, 45, 60, 90, 200, 300)
+    grid = (0.25, 1.0, 1.5, 4.0, 9.0, 20.0), (0, 45, 90, 200)
     marched = ratios(case, law, *grid, "march")
     assert marched == pytest.approx(ratios(case, law, *grid, "periodic"), rel=1e-3)
 

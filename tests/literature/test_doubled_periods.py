@@ -12,7 +12,7 @@ from asperity.slider.periodic import cycle_steps
 
 @pytest.mark.parametrize(
     ("ratio", "period"),
-    [(22, 4), slow(22.8, 8), (22.95, 8), slow(23, 8), slow(23.2, 8), slow(23.3, 8)],
+    [(22, 4), slow(22.8, 8), slow(22.95, 8), slow(23, 8), slow(23.2, 8), slow(23.3, 8)],
 )
 def test_a_doubled_period_is_found_where_a_march_is(ratio, period):
     case = "pin-on-disc", TABLES, (f"vibration.velocity_ratio={ratio}",)

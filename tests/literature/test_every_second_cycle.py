@@ -9,6 +9,7 @@ which of the two comes follows from where it comes from.
 import math
 
 import pytest
+from apparatus.grid import slow
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, from_rest, solve
@@ -126,7 +127,7 @@ def body(tmp_path):
     return of
 
 
-@pytest.mark.parametrize("case", [HALVED, PUMPED])
+@pytest.mark.parametrize("case", [slow(HALVED), PUMPED])
 def test_the_state_is_shown_to_which_a_body_from_rest_comes(body, case):
     alone = solve_periodic(body(case, "solve.method=periodic"), history=False)
     state = solve(body(case, "solve.method=periodic"), history=False)

@@ -398,7 +398,7 @@ def test_the_law_knows_the_motion_of_the_base_whatever_its_waveform(build, tmp_p
     assert np.abs(found.state).max() > 0.01 * limit
 
 
-@pytest.mark.parametrize("wave", ["triangle", "square"])
+@pytest.mark.parametrize("wave", ["triangle", slow("square")])
 def test_disp_moves_the_base_as_the_case_says(build, wave):
     model, fric = build(*WAVES[wave], "vibration.direction=30 deg", before=0.02)
     assert fric.written.moves_base

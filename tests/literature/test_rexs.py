@@ -12,6 +12,7 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import pytest
+from apparatus.grid import grid
 
 from asperity.casefile import Case, read_case
 from asperity.commands import case_tables
@@ -37,6 +38,10 @@ MORE = (
     ('operation.lubricant={ base_oil="polyglycol", viscosity_40="220 mm^2/s", '
      'viscosity_100="37 mm^2/s" }', "operation.bearing_span='150 mm'"),
 )  # fmt: skip
+# With five settings every second combination is one of each case and of each setting.
+DESCRIPTIONS = pytest.mark.parametrize(
+    ("name", "settings"), grid(DESCRIBED, [(), *MORE], ordinary=2)
+)
 
 
 def written(name, tmp_path, settings=()):
@@ -68,8 +73,7 @@ def same(one, other):
     assert other.worm_roughness == pytest.approx(one.worm_roughness, rel=1e-12)
 
 
-@pytest.mark.parametrize("settings", [(), *MORE])
-@pytest.mark.parametrize("name", DESCRIBED)
+@DESCRIPTIONS
 def test_what_is_read_back_is_the_same_gearset(name, settings, tmp_path):
     case, path = written(name, tmp_path, settings)
     found = read_back(path)
@@ -120,16 +124,14 @@ def schema():
     return xmlschema.XMLSchema(FILES / "rexs-file.xsd")
 
 
-@pytest.mark.parametrize("settings", [(), *MORE])
-@pytest.mark.parametrize("name", DESCRIBED)
+@DESCRIPTIONS
 def test_what_is_written_validates_against_the_schema_of_the_format(name, settings, tmp_path):
     pytest.importorskip("xmlschema")
     _, path = written(name, tmp_path, settings)
     schema().validate(path)
 
 
-@pytest.mark.parametrize("settings", [(), *MORE])
-@pytest.mark.parametrize("name", DESCRIBED)
+@DESCRIPTIONS
 def test_components_attributes_units_and_relations_are_those_of_version_1_5(
     name, settings, tmp_path
 ):

@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 from scipy.spatial.transform import Rotation
 
 from asperity.contact.increment import ContactState, IncrementProblem, IncrementSolver
@@ -116,8 +117,7 @@ def laid_on(problem, pose, lift=0.0):
     return u.ravel()
 
 
-@pytest.mark.parametrize("kind", ["plane", "sphere", "bore"])
-@pytest.mark.parametrize("friction", LAWS)
+@pytest.mark.parametrize(("friction", "kind"), grid([*LAWS], ["plane", "sphere", "bore"]))
 def test_the_tangent_is_the_derivative_of_the_nodal_forces(friction, kind):
     counter, pose = curved(kind)
     problem = problem_of(counter=counter, friction=friction)

@@ -7,6 +7,7 @@ import sys
 import zipfile
 
 import pytest
+from apparatus.grid import slow
 
 from asperity.processes.interrupts import reraise_pending
 from asperity.runs.interrupt import Signals
@@ -86,7 +87,7 @@ NAMES = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "ended with
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", slow("SIGHUP"), slow("SIGQUIT")])
 def test_what_ends_a_run_before_it_listens_is_told_and_nothing_ends_it_after(name):
     def ended(text):
         done = subprocess.run(

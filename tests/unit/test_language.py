@@ -35,6 +35,12 @@ FOUND = {
 }
 
 
+@pytest.fixture(autouse=True)
+def undrawn(monkeypatch):
+    """Pictures are given their words; drawing them takes longest and says nothing of these."""
+    monkeypatch.setattr(Figure, "savefig", lambda *_, **options: None)
+
+
 @pytest.fixture
 def words():
     return Catalogue(FOUND, code="xx")
@@ -259,9 +265,7 @@ def test_an_equation_that_has_words_is_shown_in_the_language(words):
 
 
 @pytest.mark.parametrize("given", FEW_CASES, ids=" ".join)
-def test_a_german_report_has_the_numbers_of_the_english_one(given, monkeypatch):
-    # Pictures, whose drawing takes longest, have none of them.
-    monkeypatch.setattr(Figure, "savefig", lambda *_, **options: None)
+def test_a_german_report_has_the_numbers_of_the_english_one(given):
     _, result = answer_of(*given)
     english = result.to_html()
     with spoken(catalogue_of("de")):

@@ -65,7 +65,7 @@ def test_no_method_sends_to_another_over_a_contact_that_rings_for_ever(method):
     ("exponent", "begins", "ends"),
     [
         (5, "no state repeats itself", "that would do"),
-        (8, "the state repeats", "power of the time"),
+        slow(8, "the state repeats", "power of the time"),
     ],
 )
 def test_nor_of_asperities_that_come_to_their_limit_by_a_power(exponent, begins, ends):

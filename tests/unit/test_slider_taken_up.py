@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from apparatus.grid import grid
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
@@ -23,8 +24,12 @@ def foreseen(answer):
     return float(said.split()[3])
 
 
-@pytest.mark.parametrize("bends", [20, 400])
-@pytest.mark.parametrize("exponent", [1.02, 1.05, 1.1, 1.3])
+@pytest.mark.parametrize(
+    ("exponent", "bends"),
+    grid(
+        [1.02, 1.05, 1.1, 1.3], [20, 400], ordinary=[(1.02, 400), (1.05, 20), (1.1, 400), (1.3, 20)]
+    ),
+)
 def test_the_first_duration_that_is_foreseen_does_whatever_the_exponent(exponent, bends):
     body = still(f"friction.exponent={exponent}", f"friction.max_deflection={bends} um", *SLOW)
     first = solve(body, history=False)
