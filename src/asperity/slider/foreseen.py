@@ -13,7 +13,7 @@ from asperity.slider.on_its_way import most_off
 from asperity.slider.ring_on_drive import Ring, ring_of, rung_out
 from asperity.slider.ringing import faded_after, ringing_time, still_rings
 from asperity.slider.steady import growth_rate
-from asperity.slider.taken_up import taken_up_after
+from asperity.slider.taken_up import bent_after, taken_up_after
 from asperity.slider.timetable import (
     FAR,
     NEAR_LIMIT,
@@ -101,13 +101,21 @@ def _with_room(window: WindowMeans) -> list[float]:
 def _to_the_state(window: WindowMeans, end: Nearby, loaded: float) -> list[float] | None:
     """Durations in s in which it comes to a state that is known; None where that tells none."""
     model = window.model
-    if not end.linear and bends_ever_more(model):
-        return None
     # A drive is stretched no faster than it goes, whatever friction does.
     to_stretch = end.ratio - window.quarters[-1] if _loads(window) else 0.0
-    there = comes_there(end, model, most_off(end.ratio), _stretching(model, to_stretch))
+    later, by_law = _stretching(model, to_stretch), not end.linear and bends_ever_more(model)
+    if by_law:
+        lacks = 1.0 - end.ratio
+        if not lacks > NEAR_LIMIT:
+            return None
+        # It comes near that state as it would to its limit, and goes there as it is linear.
+        now = bent_after(model, max(1.0 - window.quarters[-1], lacks))
+        later = max(later, bent_after(model, lacks) - now)
+    there = comes_there(end, model, most_off(end.ratio), later)
     if there is None:
         return None
+    if by_law:
+        return [there, loaded]
     if end.linear:
         return [there]
     # It is far from that state still.
