@@ -11,6 +11,7 @@ from asperity.results.settled import Standing
 from asperity.slider import TABLES, Model, judged_march, solve, solve_many
 from asperity.slider.chance import judged, scatter
 from asperity.slider.march import March
+from asperity.slider.march_end import two_phases_on
 
 BOUNCES = (
     "friction.model=coulomb", "friction.mu=0.221", "slider.normal_force=25 N",
@@ -30,9 +31,9 @@ RINGS = (
 )  # fmt: skip
 
 
-def at_the_end(duration, *settings):
+def at_the_end(duration, *settings, name="normal-pin"):
     settings = (*settings, f"solve.duration={duration}")
-    march = March(Model.from_case(read_case("normal-pin", TABLES, settings)))
+    march = March(Model.from_case(read_case(name, TABLES, settings)))
     march.to(march.table.steps, 4096)
     return march
 
@@ -158,11 +159,14 @@ WANDERS = {
         "vibration.direction=1.9838968764201002 rad",
     ),
 }  # fmt: skip
-ALL = "slider.lateral=free", "slider.drive_damping=0 N s/m", "vibration.start=0 s"
+ALL = (
+    "slider.lateral=free", "slider.drive_damping=0 N s/m", "vibration.start=0 s",
+    "friction.transfer=1",
+)  # fmt: skip
 
 
-def wanderer(body, duration):
-    settings = (*WANDERS[body], *ALL, "friction.transfer=1", f"solve.duration={duration}")
+def wanderer(body, duration, *settings):
+    settings = (*WANDERS[body], *ALL, *settings, f"solve.duration={duration}")
     case = read_case("table-4.3", TABLES, settings)
     return solve(Model.from_case(case.replace_values({"solve.step": None})), history=False)
 
@@ -179,6 +183,23 @@ def test_what_goes_on_wandering_is_told_no_duration_and_has_not_settled(body, du
     told = float(answer.settled_by.split(" in all")[0].split()[-1])
     assert told == pytest.approx(mean, abs=0.03)
     assert answer.notes[-1].startswith("no solve.duration is foreseen that would do")
+
+
+def test_so_it_is_by_the_two_phase_scheme():
+    answer = wanderer("soft", "1.3 s", "solve.scheme=two-phase", "solve.method=march")
+    assert answer.settled_by.startswith("the body goes on wandering")
+    assert answer.notes[-1].startswith("no solve.duration is foreseen that would do")
+
+
+def test_the_cycles_after_a_march_of_two_phases_are_those_that_it_goes_on_with():
+    given = "solve.scheme=two-phase", "solve.method=march", "friction.exponent=2"
+    march = at_the_end("160.05 ms", *given, "friction.law=split", name="table-4.3")
+    onward = two_phases_on(march._body, march.table)
+    found = [next(onward) for _ in range(5)]
+    for ratio in found:
+        march._body.clear()
+        march.to(march.done + round(1.0 / (march.model.frequency * march.table.step)), 4096)
+        assert march.sums["drive_force"] / march.sums["steps"] == pytest.approx(ratio, rel=1e-9)
 
 
 def test_one_that_wanders_is_told_the_usual_duration_before_it_has_had_that():

@@ -9,6 +9,7 @@ for ever: what they would differ by then is not held against them. Where cycles 
 themselves, and the means of many go to and fro, no duration does, and none is foreseen.
 """
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -16,10 +17,9 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.results.settled import Standing
-from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import alike_after
 from asperity.slider.integrators import Integrator
-from asperity.slider.march_end import at_the_end, ratios_of
+from asperity.slider.march_end import at_the_end, ratios_of, two_phases_on
 from asperity.slider.model import Model
 from asperity.slider.nearby import next_to
 from asperity.slider.ringing import still_rings
@@ -76,10 +76,12 @@ def may_wander(body: Integrator, table: Timetable, sums: np.void) -> bool:
     Two motions of any other only come nearer.
     """
     model = body.model
-    if not model.vibrates or model.solve.scheme == "two-phase":
+    if not model.vibrates:
         return False
     if _bends_apart(model):
         return True
+    if model.solve.scheme == "two-phase":
+        return False
     falls = _falls(model)
     lands = model.normal is not None and float(sums["landings"]) > 0.0
     if lands or model.slider.drive_stiffness is None:
@@ -116,19 +118,19 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
         What the march has come to.
     """
     model, table = window.model, window.table
-    if not model.vibrates or model.solve.scheme == "two-phase":
+    if not model.vibrates:
         return None
     if not (_softens(model) or _falls(model)) or model.duration < model.usual_duration:
         return None
     if bending(model) > 0.0 or still_rings(model, model.duration):
         return None
-    there = at_the_end(body, table)
-    means = ratios_of(there, _LOOKED_AT)
+    onward = _onward(body, table)
+    means = onward(_LOOKED_AT)
     changes = np.diff(means)
     rough = float(np.abs(np.diff(changes)).sum()) > _ROUGH * float(np.abs(changes).sum())
     if not rough or np.ptp(means) <= UNSTEADY or _period(means):
         return None
-    cycles, blocks = _blocks(there, means, table)
+    cycles, blocks = _blocks(onward, means, table)
     first, second = sum(window.quarters[:2]) / 2.0, sum(window.quarters[2:]) / 2.0
     half = _BLOCKS // 2
     ways = np.diff([first, second, float(np.mean(blocks[:half])), float(np.mean(blocks[half:]))])
@@ -159,15 +161,15 @@ def scatter(
         Ratios of its next cycles where they repeat themselves and are known.
     """
     if not (period := _period(means)):
-        there = at_the_end(body, table)
-        means = ratios_of(there, _LOOKED_AT)
+        onward = _onward(body, table)
+        means = onward(_LOOKED_AT)
         period = _period(means)
     if period:
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
     if _bends_apart(body.model) and np.ptp(means) <= UNSTEADY:
         return 0.0, ""
-    cycles, blocks = _blocks(there, means, table)
+    cycles, blocks = _blocks(onward, means, table)
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
     if bends_ever_more(body.model):
@@ -175,20 +177,31 @@ def scatter(
     return max(uncertain, on), "its cycles do not repeat themselves"
 
 
-def _blocks(there: Cycle, means: Sequence[float], table: Timetable) -> tuple[int, list[float]]:
+def _onward(body: Integrator, table: Timetable) -> Callable[[int], list[float]]:
+    """Return what gives the ratios of so many more cycles after a march, which it is left at."""
+    if body.model.solve.scheme == "two-phase":
+        cycles = two_phases_on(body, table)
+        return lambda count: list(itertools.islice(cycles, count))
+    there = at_the_end(body, table)
+    return lambda count: ratios_of(there, count)
+
+
+def _blocks(
+    onward: Callable[[int], list[float]], means: Sequence[float], table: Timetable
+) -> tuple[int, list[float]]:
     """Return the cycles of a block of a further window, and the ratio of each block.
 
     Parameters
     ----------
-    there : Cycle
-        The body after some cycles; marched on.
+    onward : callable
+        Gives the ratios of more cycles after some.
     means : sequence of float
         Ratios of these.
     table : Timetable
         Steps of the march.
     """
     cycles = max(table.cycles // _BLOCKS, _LEAST)
-    means = [*means, *ratios_of(there, _BLOCKS * cycles - len(means))]
+    means = [*means, *onward(_BLOCKS * cycles - len(means))]
     return cycles, [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
 
 
