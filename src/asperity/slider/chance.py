@@ -38,6 +38,7 @@ from asperity.slider.timetable import (
 _LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
 _BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
 _NOTHING = 1e-4  # of mu F_N, that a mean may be uncertain untold
+_STEADY = 1e-5  # of mu F_N, that cycles are apart which repeat themselves
 _STUDENT = 2.36  # of 7 degrees of freedom, 95 %
 # Of what cycles change by, that this changes by from cycle to cycle; of what goes slowly to and fro
 # it is less.
@@ -161,14 +162,18 @@ def scatter(
         Ratios of its next cycles where they repeat themselves and are known.
     """
     if not (period := _period(means)):
-        onward = _onward(body, table)
-        means = onward(_LOOKED_AT)
+        apart, onward = _bends_apart(body.model), _onward(body, table)
+        means = onward(_LEAST)
+        if apart and np.ptp(means) <= _STEADY:
+            return 0.0, ""
+        means = [*means, *onward(_LOOKED_AT - _LEAST)]
         period = _period(means)
+        # What goes slowly to where it repeats itself each cycle has not settled by chance.
+        if apart and (period == 1 or np.ptp(means) <= UNSTEADY):
+            return 0.0, ""
     if period:
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
-    if _bends_apart(body.model) and np.ptp(means) <= UNSTEADY:
-        return 0.0, ""
     cycles, blocks = _blocks(onward, means, table)
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
