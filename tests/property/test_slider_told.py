@@ -82,6 +82,12 @@ def test_asperities_far_from_their_state_that_bend_ever_more_are_told_nothing_by
     assert not then.settled
 
 
+def test_asperities_far_from_a_state_below_their_limit_are_told_no_longer_than_they_take(tmp_path):
+    """Its asperities bend ever more until they are there; by their limit it would be 4.8 s."""
+    assert told(solve(body(282, tmp_path), history=False)) < 1.0
+    assert unsettled([282], tmp_path) == (1, [])
+
+
 @pytest.mark.slow
 @pytest.mark.campaign(tried_by="test_durations_told_by_the_law_of_asperities_do")
 @pytest.mark.parametrize("part", range(3))

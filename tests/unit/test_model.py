@@ -80,6 +80,7 @@ def test_quarter_turns_are_exact(theta, expected):
     [
         ({"drive_velocity": -0.5e-3}, "slider.drive_velocity is -0.0005 m/s; it must be positive"),
         ({"drive_velocity": 0.0}, "slider.drive_velocity is 0 m/s; it must be positive"),
+        ({"normal_force": 1e-25}, "slider.normal_force is 1e-25; it must be at least 1e-12 N"),
         ({"drive_stiffness": 0.0, "mass": 1.0}, "slider.drive_stiffness"),
         ({"drive_stiffness": 1e5}, "slider.mass is missing"),
         ({"drive_damping": 1.0}, "slider.drive_damping is given without"),

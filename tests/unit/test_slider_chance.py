@@ -11,6 +11,7 @@ from asperity.results.settled import Standing
 from asperity.slider import TABLES, Model, judged_march, solve, solve_many
 from asperity.slider.chance import judged, scatter
 from asperity.slider.march import March
+from asperity.slider.march_end import two_phases_on
 
 BOUNCES = (
     "friction.model=coulomb", "friction.mu=0.221", "slider.normal_force=25 N",
@@ -30,9 +31,9 @@ RINGS = (
 )  # fmt: skip
 
 
-def at_the_end(duration, *settings):
+def at_the_end(duration, *settings, name="normal-pin"):
     settings = (*settings, f"solve.duration={duration}")
-    march = March(Model.from_case(read_case("normal-pin", TABLES, settings)))
+    march = March(Model.from_case(read_case(name, TABLES, settings)))
     march.to(march.table.steps, 4096)
     return march
 
@@ -121,3 +122,96 @@ def test_asperities_that_bend_ever_more_are_further_off_than_the_next_cycles_sho
     assert abs(solve(late, history=False).ratio - answer.ratio) > 2e-3
     assert not answer.settled
     assert any("would do, by the means" in note for note in answer.notes)
+
+
+# By lot, of asperities with an exponent of 2 and 3 that a body free sideways bends to and fro.
+WANDERS = {
+    "vector": (
+        "slider.drive_velocity=0.244080366056054 mm/s", "slider.normal_force=50.45091197699503 N",
+        "slider.mass=0.00021122318374044316 kg", "slider.drive_stiffness=9373418.155762719 N/m",
+        "friction.mu=0.2618246646979721", "friction.max_deflection=1.1158787657235795 um",
+        "friction.law=vector", "friction.exponent=3", "vibration.frequency=6928.053803460919 Hz",
+        "vibration.velocity_ratio=7.6153835896512785", "vibration.direction=1.3383200453285196 rad",
+    ),
+    "split": (
+        "slider.drive_velocity=5.299975160396629e-06 m/s", "friction.law=split",
+        "slider.normal_force=0.2962186004700058 N", "slider.mass=0.0005125888224596535 kg",
+        "slider.drive_stiffness=1265079.9034766592 N/m", "friction.mu=0.34922885471313175",
+        "friction.max_deflection=6.329542107585506e-08 m", "friction.exponent=3",
+        "vibration.waveform=triangle", "vibration.frequency=2592.5631086349276 Hz",
+        "vibration.velocity_ratio=2", "vibration.direction=3.69075549101348 rad",
+    ),
+    "soft": (
+        "slider.drive_velocity=4.912343537285194e-06 m/s", "friction.law=split",
+        "slider.normal_force=124.11922187062746 N", "slider.mass=2.0367326342577514 kg",
+        "slider.drive_stiffness=40334308.01317038 N/m", "friction.mu=0.22113932626203964",
+        "friction.max_deflection=9.79412380057002e-08 m", "friction.exponent=2",
+        "vibration.frequency=288.7475489392841 Hz",
+        "vibration.velocity_ratio=7.0764531723197095", "vibration.direction=5.453903971549482 rad",
+    ),
+    "goes somewhere": (
+        "slider.drive_velocity=1.4730416287333953e-05 m/s", "friction.law=split",
+        "slider.normal_force=0.0997481053611369 N", "slider.mass=2.9485028242155267e-05 kg",
+        "slider.drive_stiffness=7955.957644294338 N/m", "friction.mu=0.05126444630786493",
+        "friction.max_deflection=5.800298102154972e-07 m", "friction.exponent=1.5",
+        "vibration.frequency=916.7407733718486 Hz",
+        "vibration.velocity_ratio=3.2658480108107675",
+        "vibration.direction=1.9838968764201002 rad",
+    ),
+}  # fmt: skip
+ALL = (
+    "slider.lateral=free", "slider.drive_damping=0 N s/m", "vibration.start=0 s",
+    "friction.transfer=1",
+)  # fmt: skip
+
+
+def wanderer(body, duration, *settings):
+    settings = (*WANDERS[body], *ALL, *settings, f"solve.duration={duration}")
+    case = read_case("table-4.3", TABLES, settings)
+    return solve(Model.from_case(case.replace_values({"solve.step": None})), history=False)
+
+
+@pytest.mark.parametrize(
+    ("body", "duration", "mean"),
+    [("vector", "0.84 s", 0.46), ("split", "0.82 s", 0.28), ("soft", "3.463233 s", 0.605)],
+)
+def test_what_goes_on_wandering_is_told_no_duration_and_has_not_settled(body, duration, mean):
+    """The first was settled, as its halves agreed; the others were told a longer duration each."""
+    answer = wanderer(body, duration)
+    assert not answer.settled
+    assert answer.settled_by.startswith("the body goes on wandering: its cycles do not repeat")
+    told = float(answer.settled_by.split(" in all")[0].split()[-1])
+    assert told == pytest.approx(mean, abs=0.03)
+    assert answer.notes[-1].startswith("no solve.duration is foreseen that would do")
+
+
+def test_so_it_is_by_the_two_phase_scheme():
+    answer = wanderer("soft", "1.3 s", "solve.scheme=two-phase", "solve.method=march")
+    assert answer.settled_by.startswith("the body goes on wandering")
+    assert answer.notes[-1].startswith("no solve.duration is foreseen that would do")
+
+
+def test_the_cycles_after_a_march_of_two_phases_are_those_that_it_goes_on_with():
+    given = "solve.scheme=two-phase", "solve.method=march", "friction.exponent=2"
+    march = at_the_end("160.05 ms", *given, "friction.law=split", name="table-4.3")
+    onward = two_phases_on(march._body, march.table)
+    found = [next(onward) for _ in range(5)]
+    for ratio in found:
+        march._body.clear()
+        march.to(march.done + round(1.0 / (march.model.frequency * march.table.step)), 4096)
+        assert march.sums["drive_force"] / march.sums["steps"] == pytest.approx(ratio, rel=1e-9)
+
+
+def test_one_that_wanders_is_told_the_usual_duration_before_it_has_had_that():
+    answer = wanderer("split", "0.115716 s")
+    assert not answer.settled
+    assert "wandering" not in answer.settled_by
+    assert "a solve.duration of 0.82 s would do" in answer.notes[-1]
+
+
+def test_rough_cycles_whose_means_still_go_somewhere_are_told_a_duration():
+    """It goes from 0.855 to 0.882, where it repeats itself."""
+    answer = wanderer("goes somewhere", "1.4 s")
+    assert not answer.settled
+    assert "wandering" not in answer.settled_by
+    assert "would do, by the means" in answer.notes[-1]

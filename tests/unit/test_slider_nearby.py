@@ -366,15 +366,20 @@ def test_asperities_near_their_limit_have_settled_where_no_more_than_2e_3_is_lef
     assert found.settled
 
 
-def test_a_march_that_ends_in_the_ramp_is_told_no_duration_of_less_vibration():
-    """It is settled after 3 s; by the state next to its end it was told 120 s."""
+@pytest.mark.parametrize("duration", [0.1164, 0.257, 0.3])
+def test_a_march_far_from_its_state_is_told_no_duration_by_modes_that_are_not_its_way(duration):
+    """It is settled after 3 s; by the state next to its end it was told 120, 700 and 1200 s.
+
+    The first ends in the ramp, next to a state of less vibration; the others go to another state
+    much faster than the modes of that which is next to their end.
+    """
     ramped = (
         "slider.drive_velocity=0.373 mm/s", "slider.normal_force=21.328 N",
         "slider.mass=0.3527 kg", "slider.lateral=guided", "slider.drive_stiffness=18482.7 N/m",
         "slider.drive_damping=0 N s/m", "friction.model=dahl", "friction.mu=0.559",
         "friction.max_deflection=28.29 um", "friction.law=unsplit", "friction.exponent=0.5",
         "vibration.frequency=117.14 Hz", "vibration.velocity_ratio=1.1327", "vibration.start=0 s",
-        "vibration.direction=83.66 deg", "vibration.ramp=0.2556 s", "solve.duration=0.1164 s",
+        "vibration.direction=83.66 deg", "vibration.ramp=0.2556 s", f"solve.duration={duration} s",
         "solve.method=march",
     )  # fmt: skip
     assert 1.0 < told(solve(model_of(*ramped), history=False)) < 10.0

@@ -5,25 +5,31 @@ five cycles, of which a window has no whole number, or never; the halves of the 
 now and then. So do those of a window of few rings of the body on its drive, each of which has as
 much of a ring. How its cycles go on at the end says how far its mean may be from that of all.
 And where it repeats itself after some cycles of which a half has no whole number, the halves differ
-for ever: what they would differ by then is not held against them.
+for ever: what they would differ by then is not held against them. Where cycles never repeat
+themselves, and the means of many go to and fro, no duration does, and none is foreseen.
 """
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from asperity.results.settled import Standing
 from asperity.slider.from_rest import alike_after
 from asperity.slider.integrators import Integrator
-from asperity.slider.march_end import at_the_end, ratios_of
+from asperity.slider.march_end import at_the_end, ratios_of, two_phases_on
 from asperity.slider.model import Model
+from asperity.slider.nearby import next_to
+from asperity.slider.ringing import still_rings
 from asperity.slider.timetable import (
     FAR,
     SHORT,
     UNSTEADY,
     Timetable,
     WindowMeans,
+    bending,
     bends_ever_more,
     march_standing,
     still_loads,
@@ -32,7 +38,37 @@ from asperity.slider.timetable import (
 _LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
 _BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
 _NOTHING = 1e-4  # of mu F_N, that a mean may be uncertain untold
+_STEADY = 1e-5  # of mu F_N, that cycles are apart which repeat themselves
 _STUDENT = 2.36  # of 7 degrees of freedom, 95 %
+# Of what cycles change by, that this changes by from cycle to cycle; of what goes slowly to and fro
+# it is less.
+_ROUGH = 0.1
+_STRAIGHT = 0.5  # of the way that the means of blocks go in all, what is somewhere still goes there
+
+
+class Wandering(NamedTuple):
+    """What never repeats itself, and whose means of many cycles go to and fro.
+
+    Attributes
+    ----------
+    mean : float
+        Ratio, over eight blocks of cycles.
+    spread : float
+        Standard deviation of those of the blocks.
+    cycles : int
+        In a block.
+    """
+
+    mean: float
+    spread: float
+    cycles: int
+
+    def __str__(self) -> str:
+        return (
+            "the body goes on wandering: its cycles do not repeat themselves, and the means of "
+            f"{_BLOCKS} times {self.cycles} of them, {self.mean:.4g} in all, have a standard "
+            f"deviation of {self.spread:.2g}"
+        )
 
 
 def may_wander(body: Integrator, table: Timetable, sums: np.void) -> bool:
@@ -41,13 +77,72 @@ def may_wander(body: Integrator, table: Timetable, sums: np.void) -> bool:
     Two motions of any other only come nearer.
     """
     model = body.model
-    if not model.vibrates or model.solve.scheme == "two-phase":
+    if not model.vibrates:
         return False
-    falls = (model.friction.static_mu or 0.0) > model.friction.mu
+    if _bends_apart(model):
+        return True
+    if model.solve.scheme == "two-phase":
+        return False
+    falls = _falls(model)
     lands = model.normal is not None and float(sums["landings"]) > 0.0
     if lands or model.slider.drive_stiffness is None:
         return lands
     return falls or table.window * table.step < SHORT * model.window - 1.0 / model.frequency
+
+
+def _falls(model: Model) -> bool:
+    return (model.friction.static_mu or 0.0) > model.friction.mu
+
+
+def _softens(model: Model) -> bool:
+    """Whether asperities soften so much that two motions may come apart: their exponent is above 1.
+
+    They do so where they are bent to and fro.
+    """
+    return model.friction.model == "dahl" and model.friction.exponent > 1.0
+
+
+def _bends_apart(model: Model) -> bool:
+    return _softens(model) and not bends_ever_more(model)
+
+
+def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
+    """Return how a body wanders at the end of a march that has not settled; None if it does not.
+
+    Nor is it said before the usual duration, in which many have come to repeat themselves.
+
+    Parameters
+    ----------
+    body : Integrator
+        At the end; left as it is.
+    window : WindowMeans
+        What the march has come to.
+    """
+    model, table = window.model, window.table
+    if not model.vibrates:
+        return None
+    if not (_softens(model) or _falls(model)) or model.duration < model.usual_duration:
+        return None
+    if bending(model) > 0.0 or still_rings(model, model.duration):
+        return None
+    onward = _onward(body, table)
+    means = onward(_LOOKED_AT)
+    changes = np.diff(means)
+    rough = float(np.abs(np.diff(changes)).sum()) > _ROUGH * float(np.abs(changes).sum())
+    if not rough or np.ptp(means) <= UNSTEADY or _period(means):
+        return None
+    cycles, blocks = _blocks(onward, means, table)
+    first, second = sum(window.quarters[:2]) / 2.0, sum(window.quarters[2:]) / 2.0
+    half = _BLOCKS // 2
+    ways = np.diff([first, second, float(np.mean(blocks[:half])), float(np.mean(blocks[half:]))])
+    way, gone = blocks[-1] - blocks[0], float(np.abs(np.diff(blocks)).sum())
+    goes_on = bool((way * ways > 0.0).all()) and abs(way) > _STRAIGHT * gone
+    if goes_on or (np.abs(ways).max() <= UNSTEADY and not bends_ever_more(model)):
+        return None
+    near = next_to(body, table)
+    if near is not None and near.linear:
+        return None
+    return Wandering(float(np.mean(blocks)), float(np.std(blocks, ddof=1)), cycles)
 
 
 def scatter(
@@ -67,20 +162,52 @@ def scatter(
         Ratios of its next cycles where they repeat themselves and are known.
     """
     if not (period := _period(means)):
-        there = at_the_end(body, table)
-        means = ratios_of(there, _LOOKED_AT)
+        apart, onward = _bends_apart(body.model), _onward(body, table)
+        means = onward(_LEAST)
+        if apart and np.ptp(means) <= _STEADY:
+            return 0.0, ""
+        means = [*means, *onward(_LOOKED_AT - _LEAST)]
         period = _period(means)
+        # What goes slowly to where it repeats itself each cycle has not settled by chance.
+        if apart and (period == 1 or np.ptp(means) <= UNSTEADY):
+            return 0.0, ""
     if period:
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
-    cycles = max(table.cycles // _BLOCKS, _LEAST)
-    means = [*means, *ratios_of(there, _BLOCKS * cycles - len(means))]
-    blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
+    cycles, blocks = _blocks(onward, means, table)
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
     if bends_ever_more(body.model):
         on *= _by_the_power(body.model, table, _BLOCKS * cycles)
     return max(uncertain, on), "its cycles do not repeat themselves"
+
+
+def _onward(body: Integrator, table: Timetable) -> Callable[[int], list[float]]:
+    """Return what gives the ratios of so many more cycles after a march, which it is left at."""
+    if body.model.solve.scheme == "two-phase":
+        cycles = two_phases_on(body, table)
+        return lambda count: list(itertools.islice(cycles, count))
+    there = at_the_end(body, table)
+    return lambda count: ratios_of(there, count)
+
+
+def _blocks(
+    onward: Callable[[int], list[float]], means: Sequence[float], table: Timetable
+) -> tuple[int, list[float]]:
+    """Return the cycles of a block of a further window, and the ratio of each block.
+
+    Parameters
+    ----------
+    onward : callable
+        Gives the ratios of more cycles after some.
+    means : sequence of float
+        Ratios of these.
+    table : Timetable
+        Steps of the march.
+    """
+    cycles = max(table.cycles // _BLOCKS, _LEAST)
+    means = [*means, *onward(_BLOCKS * cycles - len(means))]
+    return cycles, [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
 
 
 def _period(means: Sequence[float]) -> int:

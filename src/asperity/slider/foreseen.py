@@ -6,6 +6,8 @@ ring fades; and where nothing is known, how the means change in its window.
 
 import math
 
+import numpy as np
+
 from asperity.slider.fading import apart, mean_left, quarters_in_time, steadily, still_to_come
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.nearby import Nearby, comes_there
@@ -13,7 +15,7 @@ from asperity.slider.on_its_way import most_off
 from asperity.slider.ring_on_drive import Ring, ring_of, rung_out
 from asperity.slider.ringing import faded_after, ringing_time, still_rings
 from asperity.slider.steady import growth_rate
-from asperity.slider.taken_up import taken_up_after
+from asperity.slider.taken_up import bent_after, taken_up_after
 from asperity.slider.timetable import (
     FAR,
     NEAR_LIMIT,
@@ -33,6 +35,7 @@ from asperity.slider.timetable import (
 _LEFT = 0.5  # of what is steady enough, that a change shall have come down to
 _SPARE = 1.2
 _NEXT, _MOST_TRIED = 1.02, 400
+_MOST, _SLOWER = 0.5, 0.1  # of the way to a state; of what a mean goes in a cycle
 
 
 def needed(
@@ -101,18 +104,44 @@ def _with_room(window: WindowMeans) -> list[float]:
 def _to_the_state(window: WindowMeans, end: Nearby, loaded: float) -> list[float] | None:
     """Durations in s in which it comes to a state that is known; None where that tells none."""
     model = window.model
-    if not end.linear and bends_ever_more(model):
-        return None
     # A drive is stretched no faster than it goes, whatever friction does.
     to_stretch = end.ratio - window.quarters[-1] if _loads(window) else 0.0
-    there = comes_there(end, model, most_off(end.ratio), _stretching(model, to_stretch))
+    later, by_law = _stretching(model, to_stretch), not end.linear and bends_ever_more(model)
+    if by_law:
+        lacks = 1.0 - end.ratio
+        if not lacks > NEAR_LIMIT:
+            return None
+        # It comes near that state as it would to its limit, and goes there as it is linear.
+        now = bent_after(model, max(1.0 - window.quarters[-1], lacks))
+        later = max(later, bent_after(model, lacks) - now)
+    there = comes_there(end, model, most_off(end.ratio), later)
     if there is None:
         return None
+    if by_law:
+        return [there, loaded]
     if end.linear:
         return [there]
     # It is far from that state still.
+    if (arrives := _outruns(window, end)) is not None:
+        there = in_whose_window(model, arrives)
     up = taken_up_after(model)
     return [there, loaded] if up is None else [there, loaded, up]
+
+
+def _outruns(window: WindowMeans, end: Nearby) -> float | None:
+    """Return when a mean is at a state in s that it goes to much faster than modes would have it.
+
+    None where it does not: a mode that is to take it most of the way, by so little a cycle, is not
+    what takes it there.
+    """
+    model, left = window.model, end.ratio - window.quarters[-1]
+    shown = 2.0 * window.change / max(window.table.cycles, 1)  # a cycle
+    if not shown * left > 0.0:
+        return None
+    slow = end.sizes * np.abs(1.0 - end.growths) < _SLOWER * abs(shown)
+    if not (slow & (end.growths.imag == 0.0) & (end.sizes > _MOST * abs(left))).any():
+        return None
+    return model.duration + left / shown / model.frequency
 
 
 def _out_of(model: Model, end: Nearby | Ring | None) -> list[float]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from asperity.results.settled import Standing
 from asperity.slider.astray import come_to_its_size, motion_across
-from asperity.slider.chance import judged, standing_by_cycles
+from asperity.slider.chance import judged, standing_by_cycles, wandering
 from asperity.slider.foreseen import needed
 from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import MarchEnd, end_of_march, rings_unheard
@@ -87,6 +87,9 @@ def judged_answer(
         standing, wanders = judged(standing, at_end, table, sums, means)
         if standing.settled:
             end = end_of_march(at_end, table, sums, window)
+    ever = None if standing.settled else wandering(body(), window)
+    if ever is not None:
+        standing = Standing(False, str(ever))
     follows = True
     if standing.settled and rings(model):
         # Its mean goes nowhere.
@@ -107,7 +110,7 @@ def judged_answer(
         notes=(*march_notes(steady), *ringing_notes(model, follows=follows), *wanders, *notes),
         **told,
     )  # fmt: skip
-    if not foretell:
+    if not foretell or ever is not None:
         return answer, None
     if across is not None:
         return answer, come_to_its_size(across, window.model)

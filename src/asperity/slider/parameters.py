@@ -31,7 +31,7 @@ class Slider(Table):
     drive_velocity : float or str
         Velocity at which the drive is pulled v_d > 0, m/s.
     normal_force : float or str
-        Force between body and base F_N, N.
+        Force between body and base F_N, N; at least 1e-12, below which its numbers tell nothing.
     drive_stiffness : float or str, optional
         Stiffness between drive and body k_d, N/m; left out: a rigid drive, the body moves at v_d.
     drive_damping : float or str
@@ -45,7 +45,7 @@ class Slider(Table):
     table: ClassVar[str] = "slider"
 
     drive_velocity: Annotated[float, Quantity("m/s", what="a velocity", example="0.5 mm/s")]
-    normal_force: Annotated[float, Quantity("N", what="a force", example="55 N", gt=0)]
+    normal_force: Annotated[float, Quantity("N", what="a force", example="55 N", ge=1e-12)]
     drive_stiffness: (
         Annotated[float, Quantity("N/m", what="a stiffness", example="96068 N/m", gt=0)] | None
     ) = None

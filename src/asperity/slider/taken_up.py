@@ -44,6 +44,12 @@ def taken_up_after(model: Model) -> float | None:
     return first if first is None or first == model.duration else first * _SPARE
 
 
+def bent_after(model: Model, lacks: float) -> float:
+    """Return the time from rest in s, after which friction lacks so much of its limit, over it."""
+    way, _ = _ways(model)
+    return float(np.interp(-lacks, -_LACKS, way)) / model.slider.drive_velocity
+
+
 def _is_near(model: Model, durations: FloatArray) -> npt.NDArray[np.bool_]:
     """Whether friction is at its limit in the window of durations in s."""
     windows = np.minimum(model.window, WINDOW_SHARE * (durations - model.start))
@@ -63,17 +69,28 @@ def _means(model: Model, ends: FloatArray) -> FloatArray:
 
     Over mu F_N.
     """
+    slider, most = model.slider, _most(model)
+    way, summed = _ways(model)
+    at = np.interp(ends * slider.drive_velocity, way, summed)
+    means: FloatArray = most * np.diff(at, axis=0) / np.diff(ends * slider.drive_velocity, axis=0)
+    return means
+
+
+def _most(model: Model) -> float:
+    return (model.friction.static_mu or model.friction.mu) / model.friction.mu
+
+
+def _ways(model: Model) -> tuple[FloatArray, FloatArray]:
+    """Return the way of the drive in m until friction lacks `_LACKS`, and what it lacks, summed."""
     slider, friction, w = model.slider, model.friction, _LACKS
-    most = (friction.static_mu or friction.mu) / friction.mu
+    most = _most(model)
     power = friction.exponent if friction.model == "dahl" else 1.0
     bends = most * friction.deflection_limit(slider.normal_force)
     stiffness = slider.drive_stiffness
     stretch = 0.0 if stiffness is None else most * model.full_friction / stiffness
     way = bends * _powers(1.0 - power) + stretch * (1.0 - w)
     summed = bends * _powers(2.0 - power) + 0.5 * stretch * (1.0 - w * w)
-    at = np.interp(ends * slider.drive_velocity, way, summed)
-    means: FloatArray = most * np.diff(at, axis=0) / np.diff(ends * slider.drive_velocity, axis=0)
-    return means
+    return way, summed
 
 
 def _powers(power: float) -> FloatArray:
