@@ -27,9 +27,10 @@ from asperity.kernels.native.target import PLAIN, Target
 # Their loops over steps are faster for it and sooner made; a block's take LLVM a third longer.
 _OF_STEPS = ("asperity.slider.pressed", "asperity.slider.batch")
 
-# Loops over lanes that a factory makes, one for each law and stage, by "<locals>" in their names.
+# Loops over lanes that a factory makes, one for each law and stage, by their names: "<locals>" is in
+# them. So it is in Numba's own for max and min, which are to go into the loops.
 _LANES = "asperity.slider.batch"
-_FROM_A_FACTORY = "_3clocals_3e"
+_OURS, _FROM_A_FACTORY = "_ZN8asperity", "_3clocals_3e"
 
 
 class UnfitError(Exception):
@@ -212,7 +213,9 @@ def _internal(module: Any, native: str, symbol: str, *, apart: bool) -> None:
     module.get_function(native).add_function_attribute("noinline")
     for function in module.functions if apart else ():
         # As one function of all of them, their loops would find the registers taken.
-        if not function.is_declaration and _FROM_A_FACTORY in function.name:
+        if function.is_declaration or not function.name.startswith(_OURS):
+            continue
+        if _FROM_A_FACTORY in function.name:
             function.add_function_attribute("noinline")
 
 
