@@ -49,6 +49,11 @@ KERNELS = {
         "asperity.slider.batch_kernels.march_batch",
         "sweep table-4.3 --over vibration.velocity_ratio=1:8:1 --set solve.duration='0.2 s'",
     ),
+    "lanes, pressed": (
+        "asperity.slider.batch_pressed_kernels.march_pressed_batch",
+        "sweep normal-pin --over vibration.velocity_ratio=1:8:1 --set solve.duration='0.05 s' "
+        "--set solve.method=march",
+    ),
     "flank": (
         "asperity.flanks.meshing.kernels.transmission.least_each",
         "flank gearset-3b --density coarse",
