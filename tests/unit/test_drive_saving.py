@@ -100,6 +100,9 @@ def test_ways_that_are_no_further_apart_than_their_errors_stand_at_one_place():
     assert "screw" not in "".join(one.rankings["per_micrometre"] + one.rankings["per_watt"])
     assert one.rankings["by_force"][0] == "screw"
     table, *_ = one.tables()
+    assert "best per micrometre: axial or torsional; of wheel-axial, screw it is not known" in (
+        table.remarks
+    )
     assert "± (W)" in [column.heading for column in table.columns]
     assert one.to_json()["directions"][-1]["saved_W"] is None
 

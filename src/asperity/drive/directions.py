@@ -25,7 +25,9 @@ from asperity.runs.key import code_key, key
 _MODES = ("mode",)
 _MICROMETRES = 1e6
 # In JSON and the file; in notes, where it matters.
-_TOLD_ELSEWHERE = ("settled_by", "step_error", "saved_per_actuator_error_W_W")
+_TOLD_ELSEWHERE = (
+    "settled_by", "step_error", "saved_per_actuator_error_W_W", "energy_ratio_error",
+)  # fmt: skip
 OR = " or "
 """Between ways of shaking that stand at the same place."""
 
@@ -65,6 +67,9 @@ class Directions(Result):
         key="saved_per_actuator_error_W_W",
     )  # fmt: skip
     energy_ratio: FloatArray = quantity("", "", "power put in over that without", dims=_MODES)
+    energy_ratio_error: FloatArray = quantity(
+        "", "", "error of the power put in over that without", dims=_MODES
+    )
     force_ratio: FloatArray = quantity(
         "N_max/N_s", "", "greatest normal force over that without", dims=_MODES
     )
@@ -94,6 +99,7 @@ class Directions(Result):
                 "saved_per_actuator_W_W": _told(self.saved_per_actuator[n]),
                 "saved_per_actuator_error_W_W": _told(self.saved_per_actuator_error[n]),
                 "energy_ratio": float(self.energy_ratio[n]),
+                "energy_ratio_error": float(self.energy_ratio_error[n]),
                 "force_ratio": float(self.force_ratio[n]),
                 "open_share": float(self.open_share[n]),
             }
@@ -133,6 +139,16 @@ class Directions(Result):
             "by_force": ranked("force_ratio", 1.0, lambda row: equal * row["force_ratio"]),
         }  # fmt: skip
 
+    def _untold(self, order: list[str]) -> str:
+        """Name the ways that settled and have no place, of which any may be better."""
+        placed = {mode for place in order for mode in place.split(OR)}
+        missing = [
+            mode
+            for mode, settled in zip(PLACES, self.settled, strict=True)
+            if settled and mode not in placed
+        ]
+        return f"; of {', '.join(missing)} it is not known" if placed and missing else ""
+
     def to_json(self) -> dict[str, Any]:
         """Return each mode with its numbers, and the rankings."""
         listed = [
@@ -156,7 +172,7 @@ class Directions(Result):
         for row, settled in zip(rows, self.settled, strict=True):
             row[0] = row[0] if settled else f"{row[0]} (not settled)"
         best = (
-            f"best {name.replace('_', ' ')}: {', '.join(order) or 'none told'}"
+            f"best {name.replace('_', ' ')}: {', '.join(order) or 'none told'}{self._untold(order)}"
             for name, order in self.rankings.items()
         )
         return (Table.of(headings, rows, remarks=(*best, *self.notes)),)
@@ -222,6 +238,7 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
         saved_per_actuator=column(lambda each: each.saved_per_actuator),
         saved_per_actuator_error=column(lambda each: each.saved_per_actuator_error),
         energy_ratio=column(lambda each: each.energy_ratio),
+        energy_ratio_error=column(lambda each: each.energy_ratio_error),
         force_ratio=column(lambda each: each.force_max / each.force_static),
         open_share=column(lambda each: each.open_share),
         notes=tuple(notes),
