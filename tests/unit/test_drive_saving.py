@@ -65,7 +65,7 @@ class TestWeak:
             for one in answers:
                 assert one.force_max == pytest.approx(answers[2].force_max, rel=3e-3)
                 assert one.force_run_in > 1.02 * one.force_max
-                assert ", while it settles " in str(one.headline()[-1])
+                assert " N since it was switched on, " in str(one.headline()[-1])
 
 
 def test_nothing_is_saved_by_nothing_and_said_so():

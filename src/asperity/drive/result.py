@@ -289,12 +289,12 @@ def _contact(answer: DriveResult) -> str:
         said.append(Sentence("contact is lost for ", share, " % of the time"))
     most, before = _newtons(answer, "force_max"), _newtons(answer, "force_static")
     first = answer.force_run_in
-    on_the_way: tuple[str, ...] = ()
+    in_all: tuple[str, ...] = ()
     if answer.settled and first is not None and first > _MORE * answer.force_max:
-        on_the_way = (", while it settles ", _newtons(answer, "force_run_in"), " N")
+        in_all = (", ", _newtons(answer, "force_run_in"), " N since it was switched on")
     said.append(
         Sentence(
-            "the flanks take at most ", most, " N", *on_the_way,
+            "the flanks take at most ", most, " N", *in_all,
             ", without vibration ", before, " N",
         )
     )  # fmt: skip
