@@ -62,15 +62,15 @@ class TestWays:
     @pytest.fixture
     def found(self, monkeypatch):
         # Each saves more than the one before; the last has not settled, and one is not solved.
-        drive = settled().ledger.drive
         each = [
             dataclasses.replace(
-                settled(), saved_per_actuator=1.0 + n, force_max=1e3 - n,
-                ledger=dataclasses.replace(settled().ledger, drive=(1.0 - 0.1 * n) * drive),
+                settled(), saved_per_actuator=1.0 + n, saved_per_actuator_error=0.1,
+                saved_power=1.0 + n, saved_power_error=0.1, force_max=1e3 - 100.0 * n,
             )
             for n in range(3)
         ]  # fmt: skip
-        each = [*each[:2], loose(each[2], saved_per_actuator=None), AsperityError("no worm turns")]
+        untold = loose(each[2], saved_per_actuator=None, saved_power=None)
+        each = [*each[:2], untold, AsperityError("no worm turns")]
         monkeypatch.setattr(directions, "solve_many", lambda *_, **__: each)
         return directions.answer(problem(*SHAKEN), Run())
 

@@ -13,7 +13,7 @@ from asperity.drive.problem import PLACES, DriveProblem
 from asperity.drive.protocols.many import solve_many
 from asperity.drive.protocols.solve import asked
 from asperity.drive.reduced.reduction import reduction
-from asperity.drive.result import DriveResult
+from asperity.drive.result import EQUAL, DriveResult
 from asperity.drive.solve import prepare_shaken
 from asperity.errors import AsperityError
 from asperity.results import Result, quantity
@@ -24,14 +24,19 @@ from asperity.runs.key import code_key, key
 
 _MODES = ("mode",)
 _MICROMETRES = 1e6
-_TOLD_ELSEWHERE = ("settled_by", "step_error")  # in JSON and the file; in notes, where it matters
+# In JSON and the file; in notes, where it matters.
+_TOLD_ELSEWHERE = (
+    "settled_by", "step_error", "saved_per_actuator_error_W_W", "energy_ratio_error",
+)  # fmt: skip
+OR = " or "
+"""Between ways of shaking that stand at the same place."""
 
 
 class Directions(Result):
     """What each way of shaking does at the same frequency and amplitude.
 
     Everything is over the modes, in the order of `PLACES`; what did not settle is shown as such and
-    saves nothing, and what is not defined is NaN.
+    saves nothing, and what is not defined, or less than its error, is NaN.
     """
 
     title: ClassVar[str] = "Ways of shaking a worm gearset"
@@ -48,13 +53,23 @@ class Directions(Result):
     settled: npt.NDArray[np.int8] = quantity("", "", "1 periodic and balanced", dims=_MODES)
     settled_by: npt.NDArray[np.str_] = quantity("", "", "settled by", dims=_MODES)
     step_error: FloatArray = quantity("", "", "error of the ratio from the step", dims=_MODES)
-    saved: FloatArray = quantity("P_0 - P_d", "W", "drive power saved", dims=_MODES)
+    saved: FloatArray = quantity(
+        "P_0 - P_d", "W", "drive power saved, worm and wheel in balance", dims=_MODES
+    )
+    saved_error: FloatArray = quantity("", "W", "error of the drive power saved", dims=_MODES)
     actuator: FloatArray = quantity("P_a", "W", "mechanical power of the actuator", dims=_MODES)
     saved_per_actuator: FloatArray = quantity(
         "(P_0 - P_d)/P_a", "", "drive power saved per actuator power",
         dims=_MODES, key="saved_per_actuator_W_W",
     )  # fmt: skip
+    saved_per_actuator_error: FloatArray = quantity(
+        "", "", "error of what is saved per actuator power", dims=_MODES,
+        key="saved_per_actuator_error_W_W",
+    )  # fmt: skip
     energy_ratio: FloatArray = quantity("", "", "power put in over that without", dims=_MODES)
+    energy_ratio_error: FloatArray = quantity(
+        "", "", "error of the power put in over that without", dims=_MODES
+    )
     force_ratio: FloatArray = quantity(
         "N_max/N_s", "", "greatest normal force over that without", dims=_MODES
     )
@@ -78,10 +93,13 @@ class Directions(Result):
                 "settled_by": str(self.settled_by[n]),
                 "step_error": float(self.step_error[n]),
                 "saved_W": _told(self.saved[n]),
+                "saved_error_W": _told(self.saved_error[n]),
                 "saved_per_micrometre_W": _told(self.saved[n] / micrometres),
                 "actuator_W": float(self.actuator[n]),
                 "saved_per_actuator_W_W": _told(self.saved_per_actuator[n]),
+                "saved_per_actuator_error_W_W": _told(self.saved_per_actuator_error[n]),
                 "energy_ratio": float(self.energy_ratio[n]),
+                "energy_ratio_error": float(self.energy_ratio_error[n]),
                 "force_ratio": float(self.force_ratio[n]),
                 "open_share": float(self.open_share[n]),
             }
@@ -90,18 +108,46 @@ class Directions(Result):
 
     @property
     def rankings(self) -> dict[str, list[str]]:
-        """The modes, best first, by each measure; only those that settled are ranked."""
-        solid = [row for row in self.rows if row["settled"]]
-        per_watt = [row for row in solid if row["saved_per_actuator_W_W"] is not None]
+        """The modes, best first, by each measure; only those that settled are ranked.
 
-        def ranked(rows: list[dict[str, Any]], by: str, sign: float) -> list[str]:
-            return [row["mode"] for row in sorted(rows, key=lambda row: sign * row[by])]
+        By what is saved only those are for which that is told. Ways that are no further apart than
+        their errors stand at one place, as "axial or screw".
+        """
+        solid = [row for row in self.rows if row["settled"]]
+        equal = 0.5 * EQUAL
+
+        def ranked(by: str, sign: float, error: Callable[[dict[str, Any]], float]) -> list[str]:
+            told = [row for row in solid if row[by] is not None]
+            places: list[list[str]] = []
+            before = -np.inf
+            for row in sorted(told, key=lambda row: sign * row[by]):
+                # Best first, so that each is followed by what is worse.
+                if sign * row[by] - error(row) > before:
+                    places.append([])
+                places[-1].append(row["mode"])
+                before = max(before, sign * row[by] + error(row))
+            return [OR.join(place) for place in places]
 
         return {
-            "per_micrometre": ranked(solid, "saved_per_micrometre_W", -1.0),
-            "per_watt": ranked(per_watt, "saved_per_actuator_W_W", -1.0),
-            "by_force": ranked(solid, "force_ratio", 1.0),
-        }
+            "per_micrometre": ranked(
+                "saved_per_micrometre_W", -1.0,
+                lambda row: row["saved_error_W"] / (self.amplitude * _MICROMETRES),
+            ),
+            "per_watt": ranked(
+                "saved_per_actuator_W_W", -1.0, lambda row: row["saved_per_actuator_error_W_W"]
+            ),
+            "by_force": ranked("force_ratio", 1.0, lambda row: equal * row["force_ratio"]),
+        }  # fmt: skip
+
+    def _untold(self, order: list[str]) -> str:
+        """Name the ways that settled and have no place, of which any may be better."""
+        placed = {mode for place in order for mode in place.split(OR)}
+        missing = [
+            mode
+            for mode, settled in zip(PLACES, self.settled, strict=True)
+            if settled and mode not in placed
+        ]
+        return f"; of {', '.join(missing)} it is not known" if placed and missing else ""
 
     def to_json(self) -> dict[str, Any]:
         """Return each mode with its numbers, and the rankings."""
@@ -117,8 +163,8 @@ class Directions(Result):
     def tables(self) -> tuple[Table, ...]:
         """Return a row a mode."""
         headings = (
-            "mode", "ratio", "balance", "settled", "saved (W)", "per µm (W)", "actuator (W)",
-            "per W", "energy", "force", "open",
+            "mode", "ratio", "balance", "settled", "saved (W)", "± (W)", "per µm (W)",
+            "actuator (W)", "per W", "energy", "force", "open",
         )  # fmt: skip
         rows = [
             [value for key, value in row.items() if key not in _TOLD_ELSEWHERE] for row in self.rows
@@ -126,7 +172,7 @@ class Directions(Result):
         for row, settled in zip(rows, self.settled, strict=True):
             row[0] = row[0] if settled else f"{row[0]} (not settled)"
         best = (
-            f"best {name.replace('_', ' ')}: {', '.join(order) or 'none settled'}"
+            f"best {name.replace('_', ' ')}: {', '.join(order) or 'none told'}{self._untold(order)}"
             for name, order in self.rankings.items()
         )
         return (Table.of(headings, rows, remarks=(*best, *self.notes)),)
@@ -166,7 +212,6 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
         told = [value(each) if isinstance(each, DriveResult) else None for each in found]
         return np.array([np.nan if each is None else each for each in told], float)
 
-    static = solved[0].torque_static * problem.worm_speed
     of_all = set.intersection(*(set(each.notes) for each in solved))
     notes: dict[str, None] = {}
     for mode, each in zip(PLACES, found, strict=True):
@@ -187,10 +232,13 @@ def answer(problem: DriveProblem, run: Run) -> Directions:
             [each.settled_by if isinstance(each, DriveResult) else str(each) for each in found]
         ),
         step_error=column(lambda each: each.step_error),
-        saved=column(lambda each: static - each.ledger.drive if each.settled else None),
+        saved=column(lambda each: each.saved_power),
+        saved_error=column(lambda each: each.saved_power_error),
         actuator=column(lambda each: each.ledger.actuator),
         saved_per_actuator=column(lambda each: each.saved_per_actuator),
+        saved_per_actuator_error=column(lambda each: each.saved_per_actuator_error),
         energy_ratio=column(lambda each: each.energy_ratio),
+        energy_ratio_error=column(lambda each: each.energy_ratio_error),
         force_ratio=column(lambda each: each.force_max / each.force_static),
         open_share=column(lambda each: each.open_share),
         notes=tuple(notes),

@@ -156,14 +156,14 @@ def plot_directions(dataset: "xr.Dataset") -> "Figure":
     modes = [str(mode) for mode in dataset["mode"].values]
     settled = dataset["settled"].values.astype(bool)
     balance = dataset["torque_balance"].values
-    actuator = dataset["actuator"].values
-    saved = dataset["saved"].values
-    per_watt = np.where(actuator > 0.0, saved / np.where(actuator, actuator, 1.0), np.nan)
+    saved, error = dataset["saved"].values, dataset["saved_error"].values
+    over = 1e-6 / float(dataset["amplitude"])
+    per_watt, of_it = (dataset[f"saved_per_actuator{end}"].values for end in ("", "_error"))
     columns = (
-        (dataset["torque_ratio"].values, "torque over static"),
-        (saved / (1e6 * float(dataset["amplitude"])), "drive power saved (W/µm)"),
-        (per_watt, "drive power saved over actuator power"),
-        (dataset["force_ratio"].values, "greatest normal force over static"),
+        (dataset["torque_ratio"].values, None, "torque over static"),
+        (over * saved, over * error, "drive power saved (W/µm)"),
+        (per_watt, of_it, "drive power saved over actuator power"),
+        (dataset["force_ratio"].values, None, "greatest normal force over static"),
     )
     labels = [
         f"{mode}\n{'settled' if sure else 'not settled'}, {_percent(off)}"
@@ -172,9 +172,14 @@ def plot_directions(dataset: "xr.Dataset") -> "Figure":
         for mode, sure, off in zip(modes, settled, balance, strict=True)
     ]
     colours = [BLUE if sure else _LOST for sure in settled]
-    for place, (panel, (values, label)) in enumerate(zip(panel_rows, columns, strict=True)):
+    for place, (panel, (values, errors, label)) in enumerate(zip(panel_rows, columns, strict=True)):
         bars = panel.barh(range(len(modes)), np.nan_to_num(values), color=colours, height=0.6)
         words = [f"{value:.3g}" if np.isfinite(value) else "none" for value in values]
+        if errors is not None:
+            words = [
+                word if word == "none" or not np.isfinite(off) else f"{word} ± {off:.1g}"
+                for word, off in zip(words, errors, strict=True)
+            ]
         panel.bar_label(bars, words, padding=3)
         panel.set_yticks(range(len(modes)), [""] * len(modes) if place % 2 else labels)
         panel.invert_yaxis()

@@ -11,6 +11,7 @@ from asperity.results.ledger import Ledger
 from asperity.results.words import Number, Sentence
 
 EQUAL = 5e-3  # of a power, as of what makes a state settled
+_MORE = 1.005  # times a force, what is told beside it
 _OVER_TIME, _CYCLES = ("time",), ("cycle",)
 
 
@@ -126,7 +127,12 @@ class DriveResult(OfDrive):
     )
     open_share: float = quantity("", "", "share of time without contact")
     second_flank_share: float = quantity("", "", "share of time on the other flank")
-    force_max: float = quantity("N_max", "N", "greatest normal force")
+    force_max: float = quantity(
+        "N_max", "N", "greatest normal force, once settled of the last block of cycles"
+    )
+    force_run_in: float | None = quantity(
+        "N_on", "N", "greatest normal force since it was switched on", default=None
+    )
     force_static: float = quantity("N_s", "N", "normal force without vibration")
     advantage_min: float | None = quantity(
         "", "", "least torque of the worm over the wheel's, over the same without vibration, while "
@@ -137,9 +143,22 @@ class DriveResult(OfDrive):
     energy_ratio: float | None = quantity(
         "(P_d + P_a)/P_0", "", "mechanical power put in over that without vibration"
     )
+    energy_ratio_error: float | None = quantity(
+        "", "", "error of the power put in over that without, about", default=None
+    )
+    saved_power: float | None = quantity(
+        "P_0 - P_d", "W", "drive power saved, worm and wheel in balance", default=None
+    )
+    saved_power_error: float | None = quantity(
+        "", "W", "error of the drive power saved, about", default=None
+    )
     saved_per_actuator: float | None = quantity(
         "(P_0 - P_d)/P_a", "", "drive power saved per actuator power",
-        key="saved_per_actuator_W_W",
+        key="saved_per_actuator_W_W", default=None,
+    )  # fmt: skip
+    saved_per_actuator_error: float | None = quantity(
+        "", "", "error of what is saved per actuator power, about",
+        key="saved_per_actuator_error_W_W", default=None,
     )  # fmt: skip
     actuator_electrical: float | None = quantity(
         "P_e", "W", "real power that the amplifier takes from the mains, its losses in it"
@@ -193,6 +212,11 @@ class DriveResult(OfDrive):
         """Residual of the power ledger."""
         return self.ledger.residual
 
+    @property
+    def equal(self) -> float:
+        """What powers may differ by that are the same as far as is known, over them."""
+        return max(EQUAL, self.energy_ratio_error or 0.0)
+
     def headline(self) -> tuple[str, ...]:
         """Return what vibration does to torque, energy and contact."""
         lines = (_torque(self), _energy(self), _contact(self))
@@ -232,21 +256,30 @@ def _energy(answer: DriveResult) -> str:
         "motor and actuator put in ", Number.of(ratio, ".3g", "energy_ratio"),
         " of the power without vibration",
     )  # fmt: skip
-    efficiency = answer.system_efficiency
+    efficiency, equal = answer.system_efficiency, answer.equal
     if efficiency is not None:
         before = answer.efficiency_static
-        word = "saves energy" if efficiency > before * (1.0 + EQUAL) else "saves no energy"
+        word = "saves energy" if efficiency > before / (1.0 - equal) else "saves no energy"
         return Sentence(
             said, ", efficiency with the actuator's electrical side ",
             Number.of(efficiency, ".3g", "system_efficiency"), ", without vibration ",
             Number.of(before, ".3g", "efficiency_static"),
-            f": it {word}" if answer.settled else "",
+            f": it {word}" if answer.settled else "", _untold(answer),
         )  # fmt: skip
-    word = ": it saves power" if ratio < 1.0 - EQUAL else ": it saves no power"
+    word = ": it saves power" if ratio < 1.0 - equal else ": it saves no power"
     return Sentence(
         said, word if answer.settled else "",
-        ", the actuator's electrical side ([actuator]) not counted",
+        ", the actuator's electrical side ([actuator]) not counted", _untold(answer),
     )  # fmt: skip
+
+
+def _untold(answer: DriveResult) -> str:
+    """Return that less drive power is saved than can be told; nothing where it is told."""
+    error = answer.saved_power_error
+    if answer.saved_power is not None or error is None:
+        return ""
+    known = Number.of(error, ".2g", "saved_power_error_W")
+    return Sentence("; of the motor's power no saving can be told, which is known to ", known, " W")
 
 
 def _contact(answer: DriveResult) -> str:
@@ -255,7 +288,16 @@ def _contact(answer: DriveResult) -> str:
         share = Number.of(answer.open_share, ".2g", "open_share", 100.0)
         said.append(Sentence("contact is lost for ", share, " % of the time"))
     most, before = _newtons(answer, "force_max"), _newtons(answer, "force_static")
-    said.append(Sentence("the flanks take at most ", most, " N, without vibration ", before, " N"))
+    first = answer.force_run_in
+    in_all: tuple[str, ...] = ()
+    if answer.settled and first is not None and first > _MORE * answer.force_max:
+        in_all = (", ", _newtons(answer, "force_run_in"), " N since it was switched on")
+    said.append(
+        Sentence(
+            "the flanks take at most ", most, " N", *in_all,
+            ", without vibration ", before, " N",
+        )
+    )  # fmt: skip
     if answer.held_after is not None:
         said.append(Sentence("holds after it" if answer.held_after else "does not hold after it"))
     return Sentence.joined(said, "; ")

@@ -39,12 +39,18 @@ class StepError:
         Of what is told, over it.
     powers : float
         Of the powers, over the largest of them.
+    advantage : float
+        Of the worm's torque by the mesh over the wheel's, over that.
+    actuator : float
+        Of the actuator's power, W.
     elsewhere : float or None
         What is told of another state, to which it came in longer steps, over what is told of this.
     """
 
     ratio: float
     powers: float
+    advantage: float = math.inf
+    actuator: float = math.inf
     elsewhere: float | None = None
 
     @property
@@ -109,7 +115,7 @@ def beside(off: StepError, march: March, measure: str, spread: float) -> StepErr
     other = march.told / measure_of(march, measure)
     if abs(other - 1.0) <= _EXPECTED * WANTED * march.off + 2.0 * spread:
         return off
-    return StepError(max(off.ratio, abs(other - 1.0)), off.powers, other)
+    return dataclasses.replace(off, ratio=max(off.ratio, abs(other - 1.0)), elsewhere=other)
 
 
 def measure_of(march: March, measure: str) -> float:
@@ -138,7 +144,19 @@ def _apart(
         ratio = _reading(other, measure) / _reading(one, measure) - 1.0
     most = max(*(abs(float(one[name].sum())) for name in _POWERS), power * one["time"].sum())
     powers = max(abs(float(other[name].sum() - one[name].sum())) for name in _POWERS)
-    return StepError(abs(ratio), float(powers / most))
+    found = StepError(abs(ratio), float(powers / most))
+    if measure != "torque":
+        return found
+    return dataclasses.replace(
+        found,
+        advantage=abs(advantage(other) / advantage(one) - 1.0),
+        actuator=abs(mean(other, "actuator") - mean(one, "actuator")),
+    )
+
+
+def advantage(rows: Records) -> float:
+    """Return what the mesh takes of the worm over what it gives the wheel."""
+    return -mean(rows, "worm_torque") / mean(rows, "wheel_torque")
 
 
 def _reading(rows: Records, measure: str) -> float:

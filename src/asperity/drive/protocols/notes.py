@@ -6,6 +6,7 @@ from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import WANTED, StepError
 from asperity.drive.protocols.judgement import Judgement
 from asperity.drive.protocols.rest import Rest
+from asperity.drive.protocols.saving import Saving
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.warmed import warmth
 from asperity.results.settled import smaller_step
@@ -92,6 +93,18 @@ def notes_of(
     if hidden:
         notes.append(f"rigid: {'; '.join(hidden)}")
     return (*notes, *warmth(problem))
+
+
+def of_saving(saved: Saving | None, judged: Judgement, longest: float) -> tuple[str, ...]:
+    """Return the line about a saving that is less than its error, with what would tell it."""
+    if saved is None or saved.told:
+        return ()
+    found = "drive power saved: none that can be told"
+    if not math.isfinite(saved.error):
+        return (f"{found}, since the error of the step is not known",)
+    advice = saved.would_tell(judged.cycles // 3, longest)
+    known = f"{found}, it is known to {saved.error:.2g} W"
+    return (f"{known}: {advice} would tell about {abs(saved.power):.1g} W" if advice else known,)
 
 
 def _of_step(problem: DriveProblem, off: StepError, longest: float) -> str:

@@ -17,8 +17,9 @@ from asperity.drive.protocols.accuracy import StepError, beside, measure_of, sen
 from asperity.drive.protocols.equations_of_motion import switched_off, system
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March, Records, bands_of, mean, refined
-from asperity.drive.protocols.notes import WORM_ALONE, notes_of, settled_by
+from asperity.drive.protocols.notes import WORM_ALONE, notes_of, of_saving, settled_by
 from asperity.drive.protocols.rest import Rest, at_rest, over_the_same
+from asperity.drive.protocols.saving import LEAST, Saving, saving
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.drive.reduced.model import ReducedModel
 from asperity.drive.result import Bands, CycleMeans, DriveLedger, DriveResult, HeldWheel
@@ -35,7 +36,7 @@ _CREEP = 0.1
 # Of the step, what a march that does not settle is tried with once more.
 _TRIED = 0.5
 _AT_REST = 1e-3  # of the wheel's speed with the motor on, in the second half of that time
-_LEAST_ACTUATOR = 1e-6  # of the power without vibration: less of it is told by no balance
+_BLOCKS = 3  # that a state is judged by
 _POWERS = ("drive", "actuator", "load", "friction", "damping", "stored")
 
 
@@ -226,7 +227,9 @@ def _summarise(
         # The motor pushes as it does without vibration, and the wheel's torque is what changes.
         measured, ratio = torque, rest.wheel_torque / mean(last, "wheel_torque")
     settled = judged.settled and rest.settled
-    saved = power - ledger.drive
+    saved = None
+    if settled and driven:
+        saved = saving(rows, judged, rest, off, problem.load, power)
     efficiency = None
     if driven and taken is not None and ledger.drive + taken.electrical_power > 0.0:
         efficiency = system_efficiency(ledger.load, ledger.drive, taken.electrical_power)
@@ -247,15 +250,14 @@ def _summarise(
         floor_reversed=model.reversed_torque / torque,
         open_share=mean(last, "open"),
         second_flank_share=mean(last, "second"),
-        force_max=float(max(last["driving_max"].max(), last["back_max"].max())),
+        force_max=_greatest(last[-(judged.cycles // _BLOCKS) :] if settled else last),
+        force_run_in=_greatest(rows),
         force_static=rest.normal,
         advantage_min=float(rows["advantage_min"].min()) / unit if touched else None,
         advantage_max=float(rows["advantage_max"].max()) / unit if touched else None,
         ledger=ledger,
         energy_ratio=put_in / power if driven else None,
-        saved_per_actuator=saved / ledger.actuator
-        if settled and driven and ledger.actuator > _LEAST_ACTUATOR * power
-        else None,
+        **_told(saved, ledger, power),
         actuator_electrical=None if taken is None else taken.electrical_power,
         actuator_apparent=None if taken is None else taken.apparent_power,
         system_efficiency=efficiency,
@@ -267,11 +269,39 @@ def _summarise(
             cycle_torque=rows["torque"] / rows["time"],
             cycle_wheel=rows["wheel_torque"] / rows["time"],
         ),
-        notes=(*notes_of(problem, model, judged, rest, off, moving.longest), *guarded),
+        notes=(
+            *notes_of(problem, model, judged, rest, off, moving.longest),
+            *of_saving(saved, judged, moving.longest),
+            *guarded,
+        ),
         residual=residual,
         steps=march.steps,
         seconds=march.seconds,
     )
+
+
+def _greatest(rows: Records) -> float:
+    """Return the greatest normal force of rows, whichever the flank."""
+    return float(max(rows["driving_max"].max(), rows["back_max"].max()))
+
+
+def _told(saved: Saving | None, ledger: DriveLedger, power: float) -> dict[str, Any]:
+    """Return what is told of a saving, and how far off its powers are."""
+    if saved is None:
+        return {}
+    ratio, error = saved.per_actuator(ledger.actuator, LEAST * power) or (None, None)
+    ringing = abs(power - ledger.drive - saved.power)
+    return {
+        "saved_power": saved.power if saved.told else None,
+        "saved_power_error": _finite(saved.error),
+        "saved_per_actuator": ratio,
+        "saved_per_actuator_error": error,
+        "energy_ratio_error": _finite((ringing + saved.error + saved.actuator_error) / power),
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def _demand(problem: DriveProblem, moving: System, ledger: DriveLedger) -> Demand | None:

@@ -18,7 +18,7 @@ from asperity.drive.life import Life, life
 from asperity.drive.motor import Exchange, Service, exchange, of_another_speed
 from asperity.drive.problem import DriveProblem
 from asperity.drive.reduced.mesh_model import MeshModel
-from asperity.drive.result import EQUAL, DriveResult
+from asperity.drive.result import DriveResult
 from asperity.errors import InputError
 from asperity.rating.demands import DEMANDS
 from asperity.rating.verdict import Safety
@@ -66,7 +66,7 @@ class OnDemand(DriveResult):
         torque, energy, *_ = super().headline()
         known = self.actuator_electrical is not None
         least, most = ("", "") if known else ("at least ", "at most ")
-        less = self.energy_shaken < (1.0 - EQUAL) * self.energy_plain
+        less = self.energy_shaken < (1.0 - self.equal) * self.energy_plain
         word = ", less" if less else ", no less"
         if not known and less:
             word = ""

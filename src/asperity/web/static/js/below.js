@@ -72,7 +72,7 @@ export function Directions({ answer }) {
       number("per W", "saved_per_actuator_W_W"), number("force", "force_ratio"),
     ]} />
     <ul class="plain">${Object.entries(answer.rankings).map(([key, order]) =>
-      html`<li>${RANKINGS[key]}: ${order.join(", ") || "none settled"}</li>`)}</ul>`;
+      html`<li>${RANKINGS[key]}: ${order.join(", ") || "none told"}</li>`)}</ul>`;
 }
 
 export function Locking({ answer, found, data }) {

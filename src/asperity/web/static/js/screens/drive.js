@@ -57,7 +57,7 @@ function Ledger({ answer, found }) {
 function Worth({ answer, found }) {
   const electrical = answer.system_efficiency !== null;
   const [after, before] = electrical ? [answer.system_efficiency, answer.efficiency_static]
-    : [0.995 / answer.energy_ratio, 1];
+    : [1 / answer.energy_ratio, 1];
   const says = electrical
     ? `with the actuator's electrical power the efficiency is ${digits(100 * after, 3)} %, `
       + `without vibration ${digits(100 * before, 3)} %`
@@ -65,7 +65,7 @@ function Worth({ answer, found }) {
       + "give an [actuator] for its electrical power";
   return html`<h3>Worth it?</h3>
     <p>${answer.settled
-      ? html`<${Verdict} ok=${after > before} yes="it saves power" no="it saves no power" />`
+      ? html`<${Verdict} ok=${after > before / 0.995} yes="it saves power" no="it saves no power" />`
       : "no verdict, since the state has not settled:"} ${says}</p>
     ${answer.settled && answer.motor_shaken ? html`<p>
       <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
