@@ -167,7 +167,7 @@ class Directions(Result):
             "actuator (W)", "per W", "energy", "force", "open",
         )  # fmt: skip
         rows = [
-            [value for key, value in row.items() if key not in _TOLD_ELSEWHERE] for row in self.rows
+            [_shown(row, key) for key in row if key not in _TOLD_ELSEWHERE] for row in self.rows
         ]
         for row, settled in zip(rows, self.settled, strict=True):
             row[0] = row[0] if settled else f"{row[0]} (not settled)"
@@ -176,6 +176,14 @@ class Directions(Result):
             for name, order in self.rankings.items()
         )
         return (Table.of(headings, rows, remarks=(*best, *self.notes)),)
+
+
+def _shown(row: Mapping[str, Any], key: str) -> Any:
+    """A value of the table, in which no energy ratio tells less than its error."""
+    value = row[key]
+    if key == "energy_ratio" and abs(value - 1.0) <= row["energy_ratio_error"]:
+        return None
+    return value
 
 
 def _told(value: float) -> float | None:
