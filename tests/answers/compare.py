@@ -76,6 +76,16 @@ TOLERANCES = (
         "a mean over lines that end where rounding has it: it moved by 5e-12 between one processor "
         "with and one without AVX-512",
     ),
+    *(
+        (
+            line,
+            "*",
+            1e-4,
+            "where patches bear, gaps of 1e-5 of the approach are left; between processors whose "
+            "linear algebra adds up in another order the greatest line load moved by 6e-5",
+        )
+        for line in ("drive *--static *", "wear *", "roots *")
+    ),
     ("flank *", "*.glb:*", 1e-6, "vertices are written in single precision"),
     ("flank *", "*.stl:*", 1e-6, "vertices are written in single precision"),
 )
