@@ -45,7 +45,9 @@ def same(one, other, path=""):
     if path.rpartition(".")[2] in PASSING:
         return []
     if isinstance(one, float) and isinstance(other, float | int):
-        return [] if math.isclose(one, other, rel_tol=1e-4, abs_tol=1e-9) else [path]
+        # Across the vibration a block has 1e-9 of its friction, which is rounding.
+        least = 1e-7 if path.endswith("_N") else 1e-9
+        return [] if math.isclose(one, other, rel_tol=1e-4, abs_tol=least) else [path]
     return [] if one == other else [path]
 
 
