@@ -191,6 +191,17 @@ def test_so_it_is_by_the_two_phase_scheme():
     assert answer.notes[-1].startswith("no solve.duration is foreseen that would do")
 
 
+def test_so_it_is_where_a_window_has_fewer_cycles_than_are_looked_at():
+    """The body is twenty times as slow in all, and its window has eight cycles."""
+    slow_one = (
+        "vibration.frequency=14.437377 Hz", "slider.mass=814.6930537 kg",
+        "slider.drive_velocity=0.2456171768642597 um/s", "solve.scheme=two-phase",
+        "solve.method=march",
+    )  # fmt: skip
+    answer = wanderer("soft", "5 s", *slow_one)
+    assert "the means of 8 times 4 of them" in answer.settled_by
+
+
 def test_the_cycles_after_a_march_of_two_phases_are_those_that_it_goes_on_with():
     given = "solve.scheme=two-phase", "solve.method=march", "friction.exponent=2"
     march = at_the_end("160.05 ms", *given, "friction.law=split", name="table-4.3")

@@ -206,7 +206,8 @@ def _blocks(
         Steps of the march.
     """
     cycles = max(table.cycles // _BLOCKS, _LEAST)
-    means = [*means, *onward(_BLOCKS * cycles - len(means))]
+    # Of a short window they may be fewer than are known.
+    means = [*means, *onward(max(_BLOCKS * cycles - len(means), 0))]
     return cycles, [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
 
 
