@@ -36,7 +36,8 @@ from asperity.slider.timetable import (
 )
 
 _LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
-_BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
+_BLOCKS, _LEAST = 8, 4  # of what is marched on, and cycles in one at least
+_WINDOWS = 4  # that are marched on, before it is said that a body goes on wandering
 _NOTHING = 1e-4  # of mu F_N, that a mean may be uncertain untold
 _STEADY = 1e-5  # of mu F_N, that cycles are apart which repeat themselves
 _STUDENT = 2.36  # of 7 degrees of freedom, 95 %
@@ -127,22 +128,36 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
         return None
     onward = _onward(body, table)
     means = onward(_LOOKED_AT)
-    changes = np.diff(means)
-    rough = float(np.abs(np.diff(changes)).sum()) > _ROUGH * float(np.abs(changes).sum())
-    if not rough or np.ptp(means) <= UNSTEADY or _period(means):
+    if not _is_rough(means):
         return None
-    cycles, blocks = _blocks(onward, means, table)
-    first, second = sum(window.quarters[:2]) / 2.0, sum(window.quarters[2:]) / 2.0
-    half = _BLOCKS // 2
-    ways = np.diff([first, second, float(np.mean(blocks[:half])), float(np.mean(blocks[half:]))])
-    way, gone = blocks[-1] - blocks[0], float(np.abs(np.diff(blocks)).sum())
-    goes_on = bool((way * ways > 0.0).all()) and abs(way) > _STRAIGHT * gone
-    if goes_on or (np.abs(ways).max() <= UNSTEADY and not bends_ever_more(model)):
+    cycles, blocks, last = _blocks(onward, means, table, _WINDOWS)
+    if _repeat(last) or _has_come(blocks):
+        return None
+    ways = np.diff(np.mean(np.reshape(blocks, (_WINDOWS, -1)), axis=1))
+    one_way = bool((ways > 0.0).all() or (ways < 0.0).all())
+    if one_way and abs(blocks[-1] - blocks[0]) > _STRAIGHT * np.abs(np.diff(blocks)).sum():
         return None
     near = next_to(body, table)
     if near is not None and near.linear:
         return None
     return Wandering(float(np.mean(blocks)), float(np.std(blocks, ddof=1)), cycles)
+
+
+def _is_rough(means: Sequence[float]) -> bool:
+    """Whether cycles neither repeat themselves nor go smoothly somewhere, by their means."""
+    changes = np.diff(means)
+    rough = float(np.abs(np.diff(changes)).sum()) > _ROUGH * float(np.abs(changes).sum())
+    return rough and not _repeat(means)
+
+
+def _repeat(means: Sequence[float]) -> bool:
+    """Whether cycles repeat themselves, or differ by nothing that matters."""
+    return float(np.ptp(means)) <= UNSTEADY or _period(means) > 0
+
+
+def _has_come(blocks: Sequence[float]) -> bool:
+    """Whether the last two windows are such as have settled, by the means of their halves."""
+    return float(np.ptp(blocks[_BLOCKS // 2 :])) <= UNSTEADY
 
 
 def scatter(
@@ -174,7 +189,7 @@ def scatter(
     if period:
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
-    cycles, blocks = _blocks(onward, means, table)
+    cycles, blocks, _ = _blocks(onward, means, table)
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
     if bends_ever_more(body.model):
@@ -192,9 +207,12 @@ def _onward(body: Integrator, table: Timetable) -> Callable[[int], list[float]]:
 
 
 def _blocks(
-    onward: Callable[[int], list[float]], means: Sequence[float], table: Timetable
-) -> tuple[int, list[float]]:
-    """Return the cycles of a block of a further window, and the ratio of each block.
+    onward: Callable[[int], list[float]],
+    means: Sequence[float],
+    table: Timetable,
+    windows: int = 1,
+) -> tuple[int, list[float], list[float]]:
+    """Return the cycles of a block of further windows, the ratio of each, and the last cycles'.
 
     Parameters
     ----------
@@ -204,11 +222,14 @@ def _blocks(
         Ratios of these.
     table : Timetable
         Steps of the march.
+    windows : int
+        So many.
     """
-    cycles = max(table.cycles // _BLOCKS, _LEAST)
+    cycles = max(windows * table.cycles // _BLOCKS, _LEAST)
     # Of a short window they may be fewer than are known.
     means = [*means, *onward(max(_BLOCKS * cycles - len(means), 0))]
-    return cycles, [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
+    blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
+    return cycles, blocks, means[-_LOOKED_AT:]
 
 
 def _period(means: Sequence[float]) -> int:
