@@ -219,8 +219,7 @@ def wanderer(body, duration, *settings):
 def test_what_goes_on_wandering_is_told_no_duration_and_has_not_settled(body, duration, mean):
     """The first was settled, as its halves agreed; two were told a longer duration each.
 
-    The means of four further windows of the last go one way, by less than those of halves go to
-    and fro.
+    The means of four further windows of the last go one way, but those of their halves to and fro.
     """
     answer = wanderer(body, duration)
     assert not answer.settled

@@ -6,7 +6,8 @@ now and then. So do those of a window of few rings of the body on its drive, eac
 much of a ring. How its cycles go on at the end says how far its mean may be from that of all.
 And where it repeats itself after some cycles of which a half has no whole number, the halves differ
 for ever: what they would differ by then is not held against them. Where cycles never repeat
-themselves, and the means of many go to and fro, no duration does, and none is foreseen.
+themselves, and the means of many go to and fro, for four more windows, none that does is foreseen:
+of 67 bodies by lot that were told so 8 had found a state in six times the duration.
 """
 
 import itertools
@@ -44,7 +45,7 @@ _STUDENT = 2.36  # of 7 degrees of freedom, 95 %
 # Of what cycles change by, that this changes by from cycle to cycle; of what goes slowly to and fro
 # it is less.
 _ROUGH = 0.1
-_STRAIGHT = 0.5  # of the way that the means of blocks go in all, what is somewhere still goes there
+_STRAIGHT = 0.6  # of the way that the means of blocks go in all, what is somewhere still goes there
 
 
 class Wandering(NamedTuple):
@@ -110,7 +111,8 @@ def _bends_apart(model: Model) -> bool:
 def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
     """Return how a body wanders at the end of a march that has not settled; None if it does not.
 
-    Nor is it said before the usual duration, in which many have come to repeat themselves.
+    Nor is it said before the usual duration, in which many have come to repeat themselves, nor of
+    one that does so, settles or goes somewhere in further windows.
 
     Parameters
     ----------
@@ -133,9 +135,7 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
     cycles, blocks, last = _blocks(onward, means, table, _WINDOWS)
     if _repeat(last) or _has_come(blocks):
         return None
-    ways = np.diff(np.mean(np.reshape(blocks, (_WINDOWS, -1)), axis=1))
-    one_way = bool((ways > 0.0).all() or (ways < 0.0).all())
-    if one_way and abs(blocks[-1] - blocks[0]) > _STRAIGHT * np.abs(np.diff(blocks)).sum():
+    if abs(blocks[-1] - blocks[0]) > _STRAIGHT * np.abs(np.diff(blocks)).sum():
         return None
     near = next_to(body, table)
     if near is not None and near.linear:
