@@ -23,7 +23,7 @@ _LINE = 8  # numbers in a line of a processor's cache, and in its widest registe
 
 
 def zeros_in_lines(count: int) -> FloatArray:
-    """Return zeros from the start of a line of the cache on: no register reads of two."""
+    """Return zeros that begin with a line of the cache: no register is read from two lines."""
     room = np.zeros(count + _LINE - 1)
     first = -(room.__array_interface__["data"][0] // room.itemsize) % _LINE
     return room[first : first + count]

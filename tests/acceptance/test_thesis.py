@@ -104,7 +104,7 @@ def test_every_figure_has_a_picture_and_its_numbers(made, number):
 @pytest.mark.slow
 @pytest.mark.campaign(over="number")
 @pytest.mark.parametrize("number", sorted(SLOW))
-def test_every_exhibit_of_flanks_drives_and_elastic_blocks_is_made(made, number):
+def test_every_exhibit_that_takes_longer_is_made(made, number):
     found = made(number)
     assert not found.failed
     check_figures(found)

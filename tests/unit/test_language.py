@@ -169,6 +169,9 @@ WORDY = [
     # What may jam.
     ("gearset-3", "tolerances.thread=['0 um','-10 um']", "tolerances.tooth=['-40 um','-60 um']",
      "tolerances.centre_distance=js9"),
+    # What locks on the reference circle only.
+    ("drive-actuator", "rating.friction=0.09"),
+    ("drive-actuator", "rating.friction=0.09", "rating.bs721_friction_angle=mu_over_cos"),
 ]  # fmt: skip
 
 

@@ -18,7 +18,7 @@ from asperity.kernels import compiled
 from asperity.kernels.building import link
 from asperity.kernels.compiled import kernel
 from asperity.kernels.native import keys, layout, load, table, target
-from asperity.kernels.native.entries import for_all_processors
+from asperity.kernels.native.entries import for_all_processors, listed
 
 SOURCE = "asperity/errors.py"
 NAME = "asperity.errors.half"
@@ -215,6 +215,10 @@ def test_of_alike_entries_the_first_is_called_that_the_processor_can_do(made, ro
 
 
 LANES, ALONE = "asperity.slider.batch_kernels", "asperity.slider.two_phase"
+
+
+def test_modules_that_are_made_for_wide_processors_have_kernels():
+    assert set(target._FASTEST) <= {entry.module for entry in listed().entries}
 
 
 @pytest.mark.parametrize(("module", "fastest"), [(LANES, target.WIDE), (ALONE, target.HALF_WIDE)])

@@ -6,7 +6,8 @@ now and then. So do those of a window of few rings of the body on its drive, eac
 much of a ring. How its cycles go on at the end says how far its mean may be from that of all.
 And where it repeats itself after some cycles of which a half has no whole number, the halves differ
 for ever: what they would differ by then is not held against them. Where cycles never repeat
-themselves, and the means of many go to and fro, no duration does, and none is foreseen.
+themselves, and the means of many go to and fro, for four more windows, none that does is foreseen:
+of 67 bodies by lot that were told so 8 had found a state in six times the duration.
 """
 
 import itertools
@@ -36,14 +37,15 @@ from asperity.slider.timetable import (
 )
 
 _LOOKED_AT = 36  # cycles, in which they repeat themselves or do not
-_BLOCKS, _LEAST = 8, 4  # of a further window, and cycles in one at least
+_BLOCKS, _LEAST = 8, 4  # of what is marched on, and cycles in one at least
+_WINDOWS = 4  # that are marched on, before it is said that a body goes on wandering
 _NOTHING = 1e-4  # of mu F_N, that a mean may be uncertain untold
 _STEADY = 1e-5  # of mu F_N, that cycles are apart which repeat themselves
 _STUDENT = 2.36  # of 7 degrees of freedom, 95 %
 # Of what cycles change by, that this changes by from cycle to cycle; of what goes slowly to and fro
 # it is less.
 _ROUGH = 0.1
-_STRAIGHT = 0.5  # of the way that the means of blocks go in all, what is somewhere still goes there
+_STRAIGHT = 0.6  # of the way that the means of blocks go in all, what is somewhere still goes there
 
 
 class Wandering(NamedTuple):
@@ -109,7 +111,8 @@ def _bends_apart(model: Model) -> bool:
 def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
     """Return how a body wanders at the end of a march that has not settled; None if it does not.
 
-    Nor is it said before the usual duration, in which many have come to repeat themselves.
+    Nor is it said before the usual duration, in which many have come to repeat themselves, nor of
+    one that does so, settles or goes somewhere in further windows.
 
     Parameters
     ----------
@@ -127,22 +130,34 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
         return None
     onward = _onward(body, table)
     means = onward(_LOOKED_AT)
-    changes = np.diff(means)
-    rough = float(np.abs(np.diff(changes)).sum()) > _ROUGH * float(np.abs(changes).sum())
-    if not rough or np.ptp(means) <= UNSTEADY or _period(means):
+    if not _is_rough(means):
         return None
-    cycles, blocks = _blocks(onward, means, table)
-    first, second = sum(window.quarters[:2]) / 2.0, sum(window.quarters[2:]) / 2.0
-    half = _BLOCKS // 2
-    ways = np.diff([first, second, float(np.mean(blocks[:half])), float(np.mean(blocks[half:]))])
-    way, gone = blocks[-1] - blocks[0], float(np.abs(np.diff(blocks)).sum())
-    goes_on = bool((way * ways > 0.0).all()) and abs(way) > _STRAIGHT * gone
-    if goes_on or (np.abs(ways).max() <= UNSTEADY and not bends_ever_more(model)):
+    cycles, blocks, last = _blocks(onward, means, table, _WINDOWS)
+    if _repeat(last) or _has_come(blocks):
+        return None
+    if abs(blocks[-1] - blocks[0]) > _STRAIGHT * np.abs(np.diff(blocks)).sum():
         return None
     near = next_to(body, table)
     if near is not None and near.linear:
         return None
     return Wandering(float(np.mean(blocks)), float(np.std(blocks, ddof=1)), cycles)
+
+
+def _is_rough(means: Sequence[float]) -> bool:
+    """Whether cycles neither repeat themselves nor go smoothly somewhere, by their means."""
+    changes = np.diff(means)
+    rough = float(np.abs(np.diff(changes)).sum()) > _ROUGH * float(np.abs(changes).sum())
+    return rough and not _repeat(means)
+
+
+def _repeat(means: Sequence[float]) -> bool:
+    """Whether cycles repeat themselves, or differ by nothing that matters."""
+    return float(np.ptp(means)) <= UNSTEADY or _period(means) > 0
+
+
+def _has_come(blocks: Sequence[float]) -> bool:
+    """Whether the last two windows are such as have settled, by the means of their halves."""
+    return float(np.ptp(blocks[_BLOCKS // 2 :])) <= UNSTEADY
 
 
 def scatter(
@@ -174,7 +189,7 @@ def scatter(
     if period:
         mean = float(np.mean(means[-period:]))
         return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
-    cycles, blocks = _blocks(onward, means, table)
+    cycles, blocks, _ = _blocks(onward, means, table)
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
     if bends_ever_more(body.model):
@@ -192,9 +207,12 @@ def _onward(body: Integrator, table: Timetable) -> Callable[[int], list[float]]:
 
 
 def _blocks(
-    onward: Callable[[int], list[float]], means: Sequence[float], table: Timetable
-) -> tuple[int, list[float]]:
-    """Return the cycles of a block of a further window, and the ratio of each block.
+    onward: Callable[[int], list[float]],
+    means: Sequence[float],
+    table: Timetable,
+    windows: int = 1,
+) -> tuple[int, list[float], list[float]]:
+    """Return the cycles of a block of further windows, the ratio of each, and the last cycles'.
 
     Parameters
     ----------
@@ -204,10 +222,14 @@ def _blocks(
         Ratios of these.
     table : Timetable
         Steps of the march.
+    windows : int
+        So many.
     """
-    cycles = max(table.cycles // _BLOCKS, _LEAST)
-    means = [*means, *onward(_BLOCKS * cycles - len(means))]
-    return cycles, [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
+    cycles = max(windows * table.cycles // _BLOCKS, _LEAST)
+    # Of a short window they may be fewer than are known.
+    means = [*means, *onward(max(_BLOCKS * cycles - len(means), 0))]
+    blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
+    return cycles, blocks, means[-_LOOKED_AT:]
 
 
 def _period(means: Sequence[float]) -> int:

@@ -27,8 +27,8 @@ from asperity.kernels.native.target import PLAIN, Target
 # Their loops over steps are faster for it and sooner made; a block's take LLVM a third longer.
 _OF_STEPS = ("asperity.slider.pressed", "asperity.slider.batch")
 
-# Loops over lanes that a factory makes, one for each law and stage: "<locals>" is in their names.
-# It is in those of Numba's own max and min too, which are to go into the loops.
+# Loops over lanes are functions that a factory makes, one for each law and stage: "<locals>" is in
+# their names. It is in those of Numba's own max and min too, which are to go into the loops.
 _LANES = "asperity.slider.batch"
 _OURS, _FROM_A_FACTORY = "_ZN8asperity", "_3clocals_3e"
 
