@@ -5,6 +5,7 @@ A ball that a shaken table throws has such motions: P. J. Holmes, J. Sound Vib. 
 
 import numpy as np
 import pytest
+from apparatus.grid import slow
 
 from asperity.casefile import read_case
 from asperity.results.settled import Standing
@@ -289,3 +290,23 @@ def test_rough_cycles_whose_means_still_go_somewhere_are_told_a_duration():
     assert not answer.settled
     assert "wandering" not in answer.settled_by
     assert "would do, by the means" in answer.notes[-1]
+
+
+STICKS = (
+    "slider.drive_velocity=4.7810622 mm/s", "slider.normal_force=31.089146 N",
+    "slider.drive_stiffness=522377.83 N/m", "slider.drive_damping=3.3459753 N s/m",
+    "slider.mass=0.61738834 kg", "friction.model=lugre", "friction.mu=0.164",
+    "friction.max_deflection=0.42436497 um", "friction.static_mu=0.1968",
+    "friction.stribeck_velocity=0.84317672 mm/s", "friction.contact_damping=1448.467 N s/m",
+    "friction.viscous_damping=3.674247 N s/m",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("duration", ["0.8 s", slow("0.81 s")])
+def test_slips_that_do_not_repeat_themselves_have_not_settled_by_chance(duration):
+    """Of windows that settled by their halves the means were 5.5e-3 apart."""
+    settings = (*STICKS, "vibration.velocity_ratio=0", f"solve.duration={duration}")
+    found = solve(Model.from_case(read_case("table-4.3", TABLES, settings)))
+    assert not found.settled
+    assert "halves of the next window" in found.settled_by
+    assert any("no solve.duration is foreseen" in note for note in found.notes)

@@ -3,7 +3,8 @@
 A body that is thrown and lands, or whose friction falls with the speed, may repeat itself after
 five cycles, of which a window has no whole number, or never; the halves of the window then agree
 now and then. So do those of a window of few rings of the body on its drive, each of which has as
-much of a ring. How its cycles go on at the end says how far its mean may be from that of all.
+much of a ring, and of a body that nothing shakes where it sticks and slips at no even pace. How it
+goes on at the end says how far its mean may be from that of all.
 And where it repeats itself after some cycles of which a half has no whole number, the halves differ
 for ever: what they would differ by then is not held against them. Where cycles never repeat
 themselves, and the means of many go to and fro, for four more windows, none that does is foreseen:
@@ -18,12 +19,14 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.results.settled import Standing
+from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import alike_after
 from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import at_the_end, ratios_of, two_phases_on
 from asperity.slider.model import Model
 from asperity.slider.nearby import next_to
 from asperity.slider.ringing import still_rings
+from asperity.slider.step_error import put
 from asperity.slider.timetable import (
     FAR,
     SHORT,
@@ -197,6 +200,20 @@ def scatter(
     return max(uncertain, on), "its cycles do not repeat themselves"
 
 
+def _slips_on(body: Integrator, table: Timetable, sums: np.void) -> float:
+    """Return how far the halves of the next window are from this one's mean, over mu F_N.
+
+    Of a body that nothing shakes and that sticks and slips; 0 of one whose friction stays.
+    """
+    model = body.model
+    if float(sums["friction_x_max"] - sums["friction_x_min"]) <= FAR * model.full_friction:
+        return 0.0
+    end = Cycle(model, table.window // 2, table.step)
+    put(end, table.step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
+    mean = float(sums["drive_force"] / sums["steps"])
+    return max(abs(each - mean) for each in ratios_of(end, 2))
+
+
 def _onward(body: Integrator, table: Timetable) -> Callable[[int], list[float]]:
     """Return what gives the ratios of so many more cycles after a march, which it is left at."""
     if body.model.solve.scheme == "two-phase":
@@ -340,7 +357,16 @@ def judged(
 
     As `scatter` takes what is known of it.
     """
-    if not standing.settled or not may_wander(body, table, sums):
+    if not standing.settled:
+        return standing, ()
+    model = body.model
+    if not model.vibrates and _falls(model) and model.solve.scheme != "two-phase":
+        off = _slips_on(body, table, sums)
+        said = (
+            f"it sticks and slips: the halves of the next window are up to {off:.2g} of mu F_N off"
+        )
+        return (standing if off <= FAR else Standing(False, said)), ()
+    if not may_wander(body, table, sums):
         return standing, ()
     off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]), means)
     if off <= _NOTHING:
