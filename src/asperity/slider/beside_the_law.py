@@ -57,7 +57,8 @@ def made_up_ring(model: Model, law: HomogenisedLaw, velocity: FloatArray, ratio:
         Mean drive force there, over mu F_N.
     """
     slider, drive = model.slider, model.slider.drive_velocity
-    if not law.standing(drive).settled or abs(np.mean(velocity) - drive) > _THERE * drive:
+    there = abs(float(np.mean(velocity)) - drive) <= _THERE * drive
+    if not (there and law.standing(drive).settled):
         return ""
     first, second = (float(np.ptp(half)) for half in np.array_split(velocity, 2))
     if second <= STEADY * drive:
