@@ -19,7 +19,6 @@ ACROSS = [
     "slider.lateral=free", "friction.mu=0.2768", "friction.max_deflection=0.314 um",
     "vibration.frequency=569.9 Hz", "vibration.velocity_amplitude=3.075 mm/s",
     "vibration.rise_time=0.575 ms", "vibration.applied_to=base", "vibration.direction=90 deg",
-    "solve.duration=1 s",
 ]  # fmt: skip
 PULLS = "the two-phase scheme lets its drive pull with the base's motion"
 

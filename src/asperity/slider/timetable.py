@@ -22,7 +22,7 @@ UNSTEADY = 1e-3
 FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
 NEAR_LIMIT = 0.75 * FAR  # as it is foreseen of asperities, of which up to a fifth more is left
 LAGS = 0.02  # of its velocity, that a body may be slower than its drive
-SHAKEN = 1e-3  # of the vibration, that the drive of the two-phase scheme adds unannounced
+SHAKEN = 5e-4  # of the vibration, that the drive of the two-phase scheme adds unannounced
 SHORT = 0.999  # of the usual window, one that has had no room for it
 WAYS = 5.0  # of the drive over the deflection limit, in which the asperities are taken up
 
