@@ -16,7 +16,8 @@ SOFT = [
 ACROSS = [
     "slider.drive_velocity=0.556 mm/s", "slider.normal_force=44.35 N",
     "slider.drive_stiffness=505 N/mm", "slider.drive_damping=137.6 N s/m", "slider.mass=0.713 kg",
-    "slider.lateral=free", "friction.mu=0.2768", "friction.max_deflection=0.314 um",
+    "slider.lateral=free", "friction.transfer=1", "friction.mu=0.2768",
+    "friction.max_deflection=0.314 um",
     "vibration.frequency=569.9 Hz", "vibration.velocity_amplitude=3.075 mm/s",
     "vibration.rise_time=0.575 ms", "vibration.applied_to=base", "vibration.direction=90 deg",
 ]  # fmt: skip
