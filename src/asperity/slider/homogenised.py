@@ -8,7 +8,6 @@ where the body's own motion is slow against the vibration.
 import dataclasses
 import math
 import time
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from asperity.results.ledger import REFUSED, PowerLedger, PressedLedger, guard
 from asperity.results.settled import Standing
 from asperity.slider import cycle_mean_law as hl
 from asperity.slider.advice import advice
-from asperity.slider.carried import carried
+from asperity.slider.beside_the_law import STEADY, made_up_ring, what_it_is
 from asperity.slider.cycle_mean_law import HomogenisedLaw, homogenise
 from asperity.slider.cycle_mean_normal import gain_notes, mean_motion
 from asperity.slider.foreseen import needed
@@ -38,7 +37,6 @@ _RECORDS = 2000
 _BLOCK = 1024
 _RING_SHARE = 0.02
 _FAST_STEPS = 200_000
-_STEADY = 1e-3
 _ADVICE = "solve.method 'march' shows what the body does"
 # Alexander's diagonally implicit Runge-Kutta method of order 3, three stages, L-stable.
 _G = 0.43586652150845967
@@ -189,13 +187,14 @@ def solve_homogenised(model: Model, *, history: bool = True) -> SlideResult:
     if history:
         rows = np.concatenate(parts[1:])
         record = _history(model, law, rows, _pull(model, rows))
+    pull = _pull(model, window) / law.full_friction
+    means = [float(np.mean(part)) for part in np.array_split(pull, 4)]
+    first, second = (np.mean(half) for half in np.array_split(pull, 2))
+    if ring := made_up_ring(model, law, window[:, 2], float(np.mean(pull))):
+        answer = _steady(model, law, began, breakaway, taken, history=False)
+        notes = (*answer.notes, ring)
+        return dataclasses.replace(answer, cycles=table.cycles, history=record, notes=notes)
     answer = _marched(model, law, window, began, breakaway, taken)
-    means = [
-        float(np.mean(_pull(model, part))) / law.full_friction for part in np.array_split(window, 4)
-    ]
-    first, second = (
-        np.mean(_pull(model, half)) / law.full_friction for half in np.array_split(window, 2)
-    )
     come_to = WindowMeans(model, table, float(second - first), means, breakaway is not None)
     marched = march_standing(come_to)
     standing = Standing(
@@ -314,7 +313,7 @@ def _result(
         )
         # On the way there are other states, with periods and multipliers of their own.
         drive = model.slider.drive_velocity
-        steady = bool(np.all(np.abs(rows[:, 2] - drive) <= _STEADY * drive))
+        steady = bool(np.all(np.abs(rows[:, 2] - drive) <= STEADY * drive))
         there = None
         if steady and drive not in law.missing:
             there = law.normal_to_the_plane(np.array([drive]))
@@ -344,7 +343,7 @@ def _result(
         seconds=time.perf_counter() - began,
         substeps=model.substeps,
         notes=(
-            *_what_it_is(model, law),
+            *what_it_is(model, law),
             *law.notes,
             *(f"at the drive velocity {note}" for note in law.remarks),
             *noted,
@@ -360,21 +359,6 @@ def _result(
     most = math.inf if model.slider.drive_velocity in law.missing else REFUSED
     noted = guard(ledger, _ADVICE, reached={"ratio": answer.ratio}, most=most)
     return dataclasses.replace(answer, notes=(*answer.notes, *noted))
-
-
-def _what_it_is(model: Model, law: HomogenisedLaw) -> Iterator[str]:
-    if not model.vibrates:
-        steady = "nothing vibrates: this is steady sliding at the drive velocity"
-        yield f"{steady}; solve.method 'march' shows the motion"
-        return
-    means = "friction and powers are means over a vibration cycle, from a table"
-    if model.slider.drive_velocity in law.missing:
-        means += " without a state at the drive velocity itself: compare solve.method 'march'"
-    yield means
-    yield from carried(model)
-    if model.vibration is not None and model.vibration.ramp > 0.0:
-        full = "vibration.ramp is left out: the law is that of the full amplitude from the start on"
-        yield f"{full}; solve.method 'march' follows the ramp"
 
 
 def _history(model: Model, law: HomogenisedLaw, rows: FloatArray, pull: FloatArray) -> History:

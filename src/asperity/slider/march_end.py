@@ -20,7 +20,7 @@ from asperity.slider.from_rest import ratio_of
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.model import Model
 from asperity.slider.on_twice import at_state
-from asperity.slider.orders import ORDER_ONE, of_the_error, part_of_difference
+from asperity.slider.orders import of_the_error, part_of_difference
 from asperity.slider.shooting import CLOSE, run_cycle
 from asperity.slider.step_error import (
     CLOSING,
@@ -34,6 +34,7 @@ from asperity.slider.step_error import (
     run_once,
 )
 from asperity.slider.timetable import Timetable, WindowMeans
+from asperity.slider.two_phase_error import error_of_two_phases
 from asperity.slider.unknowns import most_unknowns, read_unknowns, unknown_scales
 
 _AGAIN = 50  # cycles that are run again, where there are so many
@@ -87,7 +88,7 @@ def _end_of(body: Integrator, table: Timetable, ratio: float, *, drifts: bool) -
     model, step, steps = body.model, table.step, table.steps
     state, springs = body.kept["state"], body.kept.get("springs", np.zeros((2, 0)))
     if model.solve.scheme == "two-phase":
-        return MarchEnd(_of_two_phases(body, table))
+        return MarchEnd(error_of_two_phases(body, table))
     cycles = steps * step * model.frequency
     if not model.vibrates:
         again = max(1, int(_SHARE * steps / 2.0))
@@ -252,33 +253,4 @@ def _marched_again(
         run_once(cycle)
         means.append(float(cycle.body.sums["friction_x"] / cycle.body.sums["steps"]))
     error = abs(means[1] - means[0]) / of_the_error(model)
-    return error if math.isfinite(error) else None
-
-
-def _of_two_phases(body: Integrator, table: Timetable) -> float | None:
-    """Return the error of the two-phase scheme: its march goes on in steps twice as long too."""
-    model, step = body.model, table.step
-    # A body that rings on its drive tells of its mean friction in whole periods only; in as long a
-    # time before, it comes to where the longer steps have it.
-    time = _SHARE * table.steps * step / 2.0
-    for period in (1.0 / model.frequency if model.vibrates else 0.0, model.ring_period):
-        if 0.0 < period <= time:
-            time = math.floor(time / period) * period
-    count = max(1, round(0.5 * time / step))
-    end = model.frequency * (table.steps * step - model.start)
-    means = []
-    for longer in (1, 2):
-        again = integrator(model, longer * step)
-        again.kept["state"][:] = body.kept["state"]
-        again.kept["memory"][:] = body.kept["memory"]
-        for name in ("velocity_x", "velocity_y"):
-            again.state[name] *= longer
-        again.kept["memory"]["base_x"] *= longer
-        steps = 2 * count // longer
-        for stretch in range(2):
-            again.clear()
-            begin = end + stretch * steps * again.rate
-            again.march(begin, steps, np.empty((3, 1, 0)), record=False)
-        means.append(float(again.sums["friction_x"] / again.sums["steps"]))
-    error = abs(means[1] - means[0]) / ORDER_ONE
     return error if math.isfinite(error) else None
