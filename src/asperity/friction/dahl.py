@@ -103,6 +103,10 @@ def inverse_root(over):
 
 
 OVERSHOOT_BOUND = 0.02
+# Deflections between which `unsplit` with an exponent above 1 comes to take its size from the law
+# along the asperity.
+NEAR_LIMIT = 0.5
+NEARER_LIMIT = 0.75
 
 
 @kernel
@@ -148,6 +152,20 @@ def step_rate(size, hx, hy, scale, sx, sy, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
+def near_limit(size):
+    """How much of its size after a step a deflection has by the law along it, and the slope of it.
+
+    Nothing far from the limit, all near it; without a corner, for Newton's method to go across.
+    """
+    x = (size - NEAR_LIMIT) / (NEARER_LIMIT - NEAR_LIMIT)
+    if x <= 0.0:
+        return 0.0, 0.0
+    if x >= 1.0:
+        return 1.0, 0.0
+    return x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / (NEARER_LIMIT - NEAR_LIMIT)
+
+
+@kernel
 def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
     """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
     step = (sx, sy, d1x, d1y, d2x, d2y, exponent, law)
@@ -165,6 +183,17 @@ def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
             back = most / math.sqrt(over + most * most)
         sx1 *= back
         sy1 *= back
+    if law == UNSPLIT and exponent > 1.0 and NEAR_LIMIT < size <= 1.0:
+        along = hx * (d1x + d2x) + hy * (d1y + d2y)
+        if along > 0.0:
+            # By a slip across, the step misses the size by more than an asperity near its limit
+            # still bends, which is a power of what is left.
+            along /= math.sqrt(hx * hx + hy * hy)
+            size1 = 1.0 - remaining_distance(1.0 - size, along, exponent)
+            part, _ = near_limit(size)
+            back = 1.0 + part * (size1 / math.sqrt(sx1 * sx1 + sy1 * sy1) - 1.0)
+            sx1 *= back
+            sy1 *= back
     return sx1, sy1
 
 

@@ -7,13 +7,17 @@ finite element contact (which needs the derivative by the slip increments as wel
 import math
 
 from asperity.friction.dahl import (
+    NEAR_LIMIT,
     SPLIT,
     TINY,
+    UNSPLIT,
     VECTOR,
     closed_form,
     half_way,
     midpoint,
+    near_limit,
     relaxation,
+    remaining_distance,
     saturation,
     step_rate,
     to_steady,
@@ -125,6 +129,23 @@ def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
         along = ex * sx1_t + ey * sy1_t
         sx1_t = ex * most_t + (sx1_t - ex * along) * most / size1
         sy1_t = ey * most_t + (sy1_t - ey * along) * most / size1
+        sx1 = ex * most
+        sy1 = ey * most
+    if law == UNSPLIT and exponent > 1.0 and NEAR_LIMIT < size <= 1.0 and hx * dx + hy * dy > 0.0:
+        # As there: of the size after the step, a part by the law along the asperity.
+        ex, ey, _, ex_t, ey_t = _direction_slope(hx, hy, half, ux + 0.5 * tx, uy + 0.5 * ty)
+        along_t = ex * tx + ey * ty + ex_t * dx + ey_t * dy
+        rest = 1.0 - size
+        left = remaining_distance(rest, ex * dx + ey * dy, exponent)
+        left_t = -(left**exponent) * along_t
+        left_t -= ((left / rest) ** exponent if rest > 0.0 else 1.0) * size_t
+        part, part_slope = near_limit(size)
+        size1 = math.sqrt(sx1 * sx1 + sy1 * sy1)
+        ex, ey, size1_t, ex_t, ey_t = _direction_slope(sx1, sy1, size1, sx1_t, sy1_t)
+        mixed = size1 + part * (1.0 - left - size1)
+        mixed_t = size1_t - part * (left_t + size1_t) + part_slope * size_t * (1.0 - left - size1)
+        sx1_t = ex * mixed_t + ex_t * mixed
+        sy1_t = ey * mixed_t + ey_t * mixed
     return sx1_t, sy1_t
 
 

@@ -92,6 +92,8 @@ C     A coarse increment can pass the limit a little: back onto it.
         S(2) = EY*BOUND
         S(3) = BOUND
       END IF
+      IF (XI.GT.1.D0 .AND. SIZE.LE.1.D0)
+     1 CALL ASPNEA(S,SIZE,H,HALF,D,E1,E2,XI,T)
       RETURN
       END
 C

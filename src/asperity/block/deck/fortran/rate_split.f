@@ -11,3 +11,11 @@ C     one by one (split), and its derivative.
       CALL ASPTRM(EX,EY,SHARE,D2(1),D2(2),XI,DE,DSHARE,U2,RATE,DRATE)
       RETURN
       END
+C
+      SUBROUTINE ASPNEA(S,SIZE,H,HALF,D,E1,E2,XI,T)
+C     Nothing near the limit: parts of the slip that oppose each other
+C     keep the asperity away from it.
+      IMPLICIT DOUBLE PRECISION (A-H,O-Z)
+      DIMENSION S(3),H(2),D(2),E1(2),E2(2),T(2,2)
+      RETURN
+      END
