@@ -103,10 +103,9 @@ def inverse_root(over):
 
 
 OVERSHOOT_BOUND = 0.02
-# Deflections between which `unsplit` with an exponent above 1 comes to take its size from the law
-# along the asperity.
+# Deflections between which the step of `unsplit` with an exponent above 1 becomes `along_law`.
 NEAR_LIMIT = 0.5
-NEARER_LIMIT = 0.75
+NEARER_LIMIT = 0.6
 
 
 @kernel
@@ -152,22 +151,42 @@ def step_rate(size, hx, hy, scale, sx, sy, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
-def near_limit(size):
-    """How much of its size after a step a deflection has by the law along it, and the slope of it.
+def near_limit(size, hx, hy, dx, dy, exponent, law):
+    """How much of a step is `along_law`, and its slope by the size of the deflection before.
 
-    Nothing far from the limit, all near it; without a corner, for Newton's method to go across.
+    Nothing far from the limit or where the slip bends back, all near it; without a corner, for
+    Newton's method to go across.
     """
-    x = (size - NEAR_LIMIT) / (NEARER_LIMIT - NEAR_LIMIT)
-    if x <= 0.0:
+    if law != UNSPLIT or exponent <= 1.0 or not NEAR_LIMIT < size <= 1.0:
         return 0.0, 0.0
+    if hx * dx + hy * dy <= 0.0:
+        return 0.0, 0.0
+    x = (size - NEAR_LIMIT) / (NEARER_LIMIT - NEAR_LIMIT)
     if x >= 1.0:
         return 1.0, 0.0
     return x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / (NEARER_LIMIT - NEAR_LIMIT)
 
 
 @kernel
-def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
-    """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
+def along_law(sx, sy, size, hx, hy, dx, dy, exponent):
+    """Step of ``unsplit`` near the limit: the size by the law along the asperity, exact for that.
+
+    By a slip across, `by_rate` misses the size by more than an asperity near its limit still
+    bends, which is a power of what is left.
+    """
+    along = (hx * dx + hy * dy) / math.sqrt(hx * hx + hy * hy)
+    size1 = 1.0 - remaining_distance(1.0 - size, along, exponent)
+    # What the size does not grow by is relaxed.
+    decay, gain = relaxation(2.0 * (along + size - size1) / (size + size1))
+    wx = sx * decay + dx * gain
+    wy = sy * decay + dy * gain
+    back = size1 / math.sqrt(wx * wx + wy * wy)
+    return wx * back, wy * back
+
+
+@kernel
+def by_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Step with the relaxation half-way, away from `near_limit`."""
     step = (sx, sy, d1x, d1y, d2x, d2y, exponent, law)
     size, hx, hy, scale = half_way(*step)
     decay, gain = relaxation(step_rate(size, hx, hy, scale, *step))
@@ -183,18 +202,27 @@ def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
             back = most / math.sqrt(over + most * most)
         sx1 *= back
         sy1 *= back
-    if law == UNSPLIT and exponent > 1.0 and NEAR_LIMIT < size <= 1.0:
-        along = hx * (d1x + d2x) + hy * (d1y + d2y)
-        if along > 0.0:
-            # By a slip across, the step misses the size by more than an asperity near its limit
-            # still bends, which is a power of what is left.
-            along /= math.sqrt(hx * hx + hy * hy)
-            size1 = 1.0 - remaining_distance(1.0 - size, along, exponent)
-            part, _ = near_limit(size)
-            back = 1.0 + part * (size1 / math.sqrt(sx1 * sx1 + sy1 * sy1) - 1.0)
-            sx1 *= back
-            sy1 *= back
     return sx1, sy1
+
+
+@kernel
+def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
+    if law == UNSPLIT and exponent > 1.0:
+        dx = d1x + d2x
+        dy = d1y + d2y
+        hx = sx + 0.5 * dx
+        hy = sy + 0.5 * dy
+        size = math.sqrt(sx * sx + sy * sy)
+        part, _ = near_limit(size, hx, hy, dx, dy, exponent, law)
+        if part > 0.0:
+            wx, wy = along_law(sx, sy, size, hx, hy, dx, dy, exponent)
+            if part < 1.0:
+                mx, my = by_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+                wx = mx + part * (wx - mx)
+                wy = my + part * (wy - my)
+            return wx, wy
+    return by_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
 
 
 @kernel

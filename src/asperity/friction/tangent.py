@@ -7,11 +7,11 @@ finite element contact (which needs the derivative by the slip increments as wel
 import math
 
 from asperity.friction.dahl import (
-    NEAR_LIMIT,
     SPLIT,
     TINY,
-    UNSPLIT,
     VECTOR,
+    along_law,
+    by_rate,
     closed_form,
     half_way,
     midpoint,
@@ -72,14 +72,14 @@ def _direction_slope(x, y, size, ux, uy):
 
 @kernel
 def _half_way_rate(step):
-    """What `dahl.midpoint` finds half-way, the relaxation there; all that its slopes share."""
+    """What `dahl.by_rate` finds half-way, the relaxation there; all that its slopes share."""
     size, hx, hy, scale = half_way(*step)
     return size, hx, hy, scale, step_rate(size, hx, hy, scale, *step)
 
 
 @kernel
-def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
-    """Derivative of `dahl.midpoint` for the deflection changing by ``u``, the slip by ``t``.
+def _by_rate_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
+    """Derivative of `dahl.by_rate` for the deflection changing by ``u``, the slip by ``t``.
 
     ``step`` is what that takes, ``found`` the `_half_way_rate` of it.
     """
@@ -129,24 +129,59 @@ def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
         along = ex * sx1_t + ey * sy1_t
         sx1_t = ex * most_t + (sx1_t - ex * along) * most / size1
         sy1_t = ey * most_t + (sy1_t - ey * along) * most / size1
-        sx1 = ex * most
-        sy1 = ey * most
-    if law == UNSPLIT and exponent > 1.0 and NEAR_LIMIT < size <= 1.0 and hx * dx + hy * dy > 0.0:
-        # As there: of the size after the step, a part by the law along the asperity.
-        ex, ey, _, ex_t, ey_t = _direction_slope(hx, hy, half, ux + 0.5 * tx, uy + 0.5 * ty)
-        along_t = ex * tx + ey * ty + ex_t * dx + ey_t * dy
-        rest = 1.0 - size
-        left = remaining_distance(rest, ex * dx + ey * dy, exponent)
-        left_t = -(left**exponent) * along_t
-        left_t -= ((left / rest) ** exponent if rest > 0.0 else 1.0) * size_t
-        part, part_slope = near_limit(size)
-        size1 = math.sqrt(sx1 * sx1 + sy1 * sy1)
-        ex, ey, size1_t, ex_t, ey_t = _direction_slope(sx1, sy1, size1, sx1_t, sy1_t)
-        mixed = size1 + part * (1.0 - left - size1)
-        mixed_t = size1_t - part * (left_t + size1_t) + part_slope * size_t * (1.0 - left - size1)
-        sx1_t = ex * mixed_t + ex_t * mixed
-        sy1_t = ey * mixed_t + ey_t * mixed
     return sx1_t, sy1_t
+
+
+@kernel
+def _along_law_slope(step, size, hx, hy, ux, uy, tx, ty):
+    """Derivative of `dahl.along_law` for the deflection changing by ``u``, the slip by ``t``."""
+    sx, sy, d1x, d1y, d2x, d2y, exponent, _ = step
+    dx = d1x + d2x
+    dy = d1y + d2y
+    half = math.sqrt(hx * hx + hy * hy)
+    ex, ey, _, ex_t, ey_t = _direction_slope(hx, hy, half, ux + 0.5 * tx, uy + 0.5 * ty)
+    along = ex * dx + ey * dy
+    along_t = ex * tx + ey * ty + ex_t * dx + ey_t * dy
+    size_t = (sx * ux + sy * uy) / size
+    rest = 1.0 - size
+    left = remaining_distance(rest, along, exponent)
+    size1 = 1.0 - left
+    size1_t = left**exponent * along_t
+    size1_t += ((left / rest) ** exponent if rest > 0.0 else 1.0) * size_t
+    both = 0.5 * (size + size1)
+    rate = (along + size - size1) / both
+    rate_t = (along_t + size_t - size1_t - 0.5 * rate * (size_t + size1_t)) / both
+    decay, gain = relaxation(rate)
+    gain_t = relaxation_slope(rate) * rate_t
+    wx = sx * decay + dx * gain
+    wy = sy * decay + dy * gain
+    wx_t = ux * decay - sx * decay * rate_t + tx * gain + dx * gain_t
+    wy_t = uy * decay - sy * decay * rate_t + ty * gain + dy * gain_t
+    ex, ey, _, ex_t, ey_t = _direction_slope(wx, wy, math.sqrt(wx * wx + wy * wy), wx_t, wy_t)
+    return ex * size1_t + ex_t * size1, ey * size1_t + ey_t * size1
+
+
+@kernel
+def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
+    """Derivative of `dahl.midpoint` for the deflection changing by ``u``, the slip by ``t``.
+
+    ``step`` is what that takes, ``found`` the `_half_way_rate` of it.
+    """
+    sx, sy, d1x, d1y, d2x, d2y, exponent, law = step
+    size, hx, hy = found[:3]
+    slip = (d1x + d2x, d1y + d2y)
+    part, part_slope = near_limit(size, hx, hy, *slip, exponent, law)
+    if part <= 0.0:
+        return _by_rate_slope(step, found, ux, uy, t1x, t1y, t2x, t2y)
+    wx_t, wy_t = _along_law_slope(step, size, hx, hy, ux, uy, t1x + t2x, t1y + t2y)
+    if part < 1.0:
+        wx, wy = along_law(sx, sy, size, hx, hy, *slip, exponent)
+        mx, my = by_rate(*step)
+        mx_t, my_t = _by_rate_slope(step, found, ux, uy, t1x, t1y, t2x, t2y)
+        part_t = part_slope * (sx * ux + sy * uy) / size
+        wx_t = mx_t + part * (wx_t - mx_t) + part_t * (wx - mx)
+        wy_t = my_t + part * (wy_t - my_t) + part_t * (wy - my)
+    return wx_t, wy_t
 
 
 @kernel

@@ -12,10 +12,10 @@ C     one by one (split), and its derivative.
       RETURN
       END
 C
-      SUBROUTINE ASPNEA(S,SIZE,H,HALF,D,E1,E2,XI,T)
-C     Nothing near the limit: parts of the slip that oppose each other
-C     keep the asperity away from it.
+      SUBROUTINE ASPNEA(SIZE,H,D,XI,PART)
+C     How much of an increment is by the law along the asperity: nothing.
       IMPLICIT DOUBLE PRECISION (A-H,O-Z)
-      DIMENSION S(3),H(2),D(2),E1(2),E2(2),T(2,2)
+      DIMENSION H(2),D(2)
+      PART = 0.D0
       RETURN
       END
