@@ -13,6 +13,7 @@ from apparatus.bodies import Lot
 from apparatus.plain_body import solved
 
 from asperity.slider import solve
+from asperity.slider.longer import lasting
 
 BAR = 1e-3
 LOT = 11
@@ -76,3 +77,32 @@ def test_nearly_all_asperities_near_their_limit_are_where_the_plain_way_has_them
     found = {member: off(member, tmp_path) for member in range(40)}
     apart = {member: each for member, each in found.items() if abs(each[0]) > BAR + each[1]}
     assert len(apart) <= 0.1 * len(found), apart
+
+
+def shaken_across(folder):
+    """Return a body whose asperities come to a mean below their limit, a ratio of 0.9672."""
+    tables = {
+        "slider": {
+            "drive_velocity": "7.32 mm/s", "normal_force": "11.9 N", "mass": "0.605 kg",
+            "drive_stiffness": "15300 N/m", "lateral": "guided",
+        },
+        "friction": {
+            "model": "dahl", "law": "unsplit", "mu": 0.286, "max_deflection": "0.7 um",
+            "exponent": 3.0,
+        },
+        "vibration": {
+            "waveform": "triangle", "frequency": "763 Hz", "velocity_amplitude": "2.29 mm/s",
+            "direction": "90 deg",
+        },
+        "solve": {"method": "march", "duration": "2.5 s"},
+    }  # fmt: skip
+    return Lot(tables, 0).model(folder)
+
+
+def test_a_duration_is_told_by_the_power_of_time_in_which_they_come_to_their_limit(tmp_path):
+    """By the modes of the state, which next to the limit hardly fade, it was 1600 s."""
+    model = shaken_across(tmp_path)
+    (note,) = solve(model, history=False).notes
+    longer = float(note.split()[3])
+    assert 20.0 < longer < 60.0
+    assert solve(lasting(model, longer), history=False).settled
