@@ -12,10 +12,10 @@ C     one by one (split), and its derivative.
       RETURN
       END
 C
-      SUBROUTINE ASPNEA(SIZE,H,D,XI,PART)
-C     How much of an increment is by the law along the asperity: nothing.
+      SUBROUTINE ASPNEA(S,T,S0,SIZE,H,D,E1,E2,XI)
+C     Nothing else near the limit: the parts of the slip oppose each
+C     other, and keep the asperity from it.
       IMPLICIT DOUBLE PRECISION (A-H,O-Z)
-      DIMENSION H(2),D(2)
-      PART = 0.D0
+      DIMENSION S(3),T(2,2),S0(2),H(2),D(2),E1(2),E2(2)
       RETURN
       END
