@@ -257,10 +257,11 @@ def remaining_distance(rho, length, exponent):
     if exponent == 1.0:
         return rho * math.exp(-length)
     order = 1.0 - exponent
-    base = 1.0 - order * length * rho ** (-order)
-    if base <= 0.0:
+    grown = -order * length * rho ** (-order)
+    if grown <= -1.0:
         return 0.0
-    return rho * base ** (1.0 / order)
+    # Not as a power of one more, which next to an exponent of 1 has no digits.
+    return rho * math.exp(math.log1p(grown) / order)
 
 
 @kernel
