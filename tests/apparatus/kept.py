@@ -4,7 +4,8 @@ Each is kept under what it follows from: the numbers given, to nine digits, and 
 plain way. What is not kept is calculated. Where a source or an ordinary test has changed, delete
 ``kept.json`` and run, in one process and with ``KEEP=1``, ``pytest`` of the files of tests that
 call them: ``tests/literature/test_drive_plain.py``, ``tests/property/test_slider_ways.py``,
-``tests/property/test_slider_plays.py`` and ``tests/unit/test_slider_astray.py``.
+``tests/property/test_slider_plays.py``, ``tests/property/test_slider_limit.py`` and
+``tests/unit/test_slider_astray.py``.
 """
 
 import functools

@@ -111,3 +111,30 @@ def test_for_a_long_slip_dahl_friction_is_coulomb_friction(law):
     slip = np.array([-3e-6, 4e-6])
     _, share, _ = update((2e-8, 1e-8), tuple(slip), NOTHING, LIMIT, 1.0, law)
     assert share == pytest.approx(project(*slip, 0.0, 0.0, 0.0, 0.0), abs=1e-12)
+
+
+@pytest.mark.parametrize("exponent", [1.5, 2.0, 3.0, 4.0])
+def test_an_asperity_near_its_limit_that_the_slip_turns_bends_as_in_fine_steps(exponent):
+    """It comes to the limit as a power of the slip, and no step may put it there."""
+    left = []
+    for parts in (1, 50):
+        s = (0.9, 0.0)
+        for n in range(1000):
+            across = 0.02 if n % 20 < 10 else -0.02
+            for _ in range(parts):
+                step = (0.02 / parts, across / parts, 0.0, 0.0, exponent, UNSPLIT)
+                s = advance(*s, *step)
+        left.append(1.0 - math.hypot(*s))
+    assert left[0] == pytest.approx(left[1], rel=2e-3)
+    assert left[0] > 1e-3
+
+
+@pytest.mark.parametrize("law", [UNSPLIT, VECTOR])
+def test_an_exponent_next_to_one_goes_as_one_does(law):
+    """As a range of a sweep may have it, from whose rounding the slip bent nothing."""
+    step = (0.8, 0.0), (0.02, 0.01), NOTHING, 1.0
+    one, tangents = update(*step, 1.0, law)[1:]
+    for exponent in (1.0 + 2.3e-16, 1.0 + 1e-13, 1.0 + 1e-9):
+        near, near_tangents = update(*step, exponent, law)[1:]
+        assert near == pytest.approx(one, abs=1e-6)
+        assert np.ravel(near_tangents) == pytest.approx(np.ravel(tangents), abs=1e-3)

@@ -103,6 +103,9 @@ def inverse_root(over):
 
 
 OVERSHOOT_BOUND = 0.02
+# Deflections between which the step of `unsplit` with an exponent above 1 becomes `along_law`.
+NEAR_LIMIT = 0.5
+NEARER_LIMIT = 0.6
 
 
 @kernel
@@ -148,8 +151,42 @@ def step_rate(size, hx, hy, scale, sx, sy, d1x, d1y, d2x, d2y, exponent, law):
 
 
 @kernel
-def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
-    """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
+def near_limit(size, hx, hy, dx, dy, exponent, law):
+    """How much of a step is `along_law`, and its slope by the size of the deflection before.
+
+    Nothing far from the limit or where the slip bends back, all near it; without a corner, for
+    Newton's method to go across.
+    """
+    if law != UNSPLIT or exponent <= 1.0 or not NEAR_LIMIT < size <= 1.0:
+        return 0.0, 0.0
+    if hx * dx + hy * dy <= 0.0:
+        return 0.0, 0.0
+    x = (size - NEAR_LIMIT) / (NEARER_LIMIT - NEAR_LIMIT)
+    if x >= 1.0:
+        return 1.0, 0.0
+    return x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / (NEARER_LIMIT - NEAR_LIMIT)
+
+
+@kernel
+def along_law(sx, sy, size, hx, hy, dx, dy, exponent):
+    """Step of ``unsplit`` near the limit: the size by the law along the asperity, exact for that.
+
+    By a slip across, `by_rate` misses the size by more than an asperity near its limit still
+    bends, which is a power of what is left.
+    """
+    along = (hx * dx + hy * dy) / math.sqrt(hx * hx + hy * hy)
+    size1 = 1.0 - remaining_distance(1.0 - size, along, exponent)
+    # What the size does not grow by is relaxed.
+    decay, gain = relaxation(2.0 * (along + size - size1) / (size + size1))
+    wx = sx * decay + dx * gain
+    wy = sy * decay + dy * gain
+    back = size1 / math.sqrt(wx * wx + wy * wy)
+    return wx * back, wy * back
+
+
+@kernel
+def by_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Step with the relaxation half-way, away from `near_limit`."""
     step = (sx, sy, d1x, d1y, d2x, d2y, exponent, law)
     size, hx, hy, scale = half_way(*step)
     decay, gain = relaxation(step_rate(size, hx, hy, scale, *step))
@@ -166,6 +203,26 @@ def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
         sx1 *= back
         sy1 *= back
     return sx1, sy1
+
+
+@kernel
+def midpoint(sx, sy, d1x, d1y, d2x, d2y, exponent, law):
+    """Exponential midpoint step of ``split`` and ``unsplit``; stays inside the limit."""
+    if law == UNSPLIT and exponent > 1.0:
+        dx = d1x + d2x
+        dy = d1y + d2y
+        hx = sx + 0.5 * dx
+        hy = sy + 0.5 * dy
+        size = math.sqrt(sx * sx + sy * sy)
+        part, _ = near_limit(size, hx, hy, dx, dy, exponent, law)
+        if part > 0.0:
+            wx, wy = along_law(sx, sy, size, hx, hy, dx, dy, exponent)
+            if part < 1.0:
+                mx, my = by_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
+                wx = mx + part * (wx - mx)
+                wy = my + part * (wy - my)
+            return wx, wy
+    return by_rate(sx, sy, d1x, d1y, d2x, d2y, exponent, law)
 
 
 @kernel
@@ -200,10 +257,11 @@ def remaining_distance(rho, length, exponent):
     if exponent == 1.0:
         return rho * math.exp(-length)
     order = 1.0 - exponent
-    base = 1.0 - order * length * rho ** (-order)
-    if base <= 0.0:
+    grown = -order * length * rho ** (-order)
+    if grown <= -1.0:
         return 0.0
-    return rho * base ** (1.0 / order)
+    # Not as a power of one more, which next to an exponent of 1 has no digits.
+    return rho * math.exp(math.log1p(grown) / order)
 
 
 @kernel

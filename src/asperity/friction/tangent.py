@@ -10,10 +10,14 @@ from asperity.friction.dahl import (
     SPLIT,
     TINY,
     VECTOR,
+    along_law,
+    by_rate,
     closed_form,
     half_way,
     midpoint,
+    near_limit,
     relaxation,
+    remaining_distance,
     saturation,
     step_rate,
     to_steady,
@@ -68,14 +72,14 @@ def _direction_slope(x, y, size, ux, uy):
 
 @kernel
 def _half_way_rate(step):
-    """What `dahl.midpoint` finds half-way, the relaxation there; all that its slopes share."""
+    """What `dahl.by_rate` finds half-way, the relaxation there; all that its slopes share."""
     size, hx, hy, scale = half_way(*step)
     return size, hx, hy, scale, step_rate(size, hx, hy, scale, *step)
 
 
 @kernel
-def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
-    """Derivative of `dahl.midpoint` for the deflection changing by ``u``, the slip by ``t``.
+def _by_rate_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
+    """Derivative of `dahl.by_rate` for the deflection changing by ``u``, the slip by ``t``.
 
     ``step`` is what that takes, ``found`` the `_half_way_rate` of it.
     """
@@ -129,6 +133,58 @@ def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
 
 
 @kernel
+def _along_law_slope(step, size, hx, hy, ux, uy, tx, ty):
+    """Derivative of `dahl.along_law` for the deflection changing by ``u``, the slip by ``t``."""
+    sx, sy, d1x, d1y, d2x, d2y, exponent, _ = step
+    dx = d1x + d2x
+    dy = d1y + d2y
+    half = math.sqrt(hx * hx + hy * hy)
+    ex, ey, _, ex_t, ey_t = _direction_slope(hx, hy, half, ux + 0.5 * tx, uy + 0.5 * ty)
+    along = ex * dx + ey * dy
+    along_t = ex * tx + ey * ty + ex_t * dx + ey_t * dy
+    size_t = (sx * ux + sy * uy) / size
+    rest = 1.0 - size
+    left = remaining_distance(rest, along, exponent)
+    size1 = 1.0 - left
+    size1_t = left**exponent * along_t
+    size1_t += ((left / rest) ** exponent if rest > 0.0 else 1.0) * size_t
+    both = 0.5 * (size + size1)
+    rate = (along + size - size1) / both
+    rate_t = (along_t + size_t - size1_t - 0.5 * rate * (size_t + size1_t)) / both
+    decay, gain = relaxation(rate)
+    gain_t = relaxation_slope(rate) * rate_t
+    wx = sx * decay + dx * gain
+    wy = sy * decay + dy * gain
+    wx_t = ux * decay - sx * decay * rate_t + tx * gain + dx * gain_t
+    wy_t = uy * decay - sy * decay * rate_t + ty * gain + dy * gain_t
+    ex, ey, _, ex_t, ey_t = _direction_slope(wx, wy, math.sqrt(wx * wx + wy * wy), wx_t, wy_t)
+    return ex * size1_t + ex_t * size1, ey * size1_t + ey_t * size1
+
+
+@kernel
+def _midpoint_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
+    """Derivative of `dahl.midpoint` for the deflection changing by ``u``, the slip by ``t``.
+
+    ``step`` is what that takes, ``found`` the `_half_way_rate` of it.
+    """
+    sx, sy, d1x, d1y, d2x, d2y, exponent, law = step
+    size, hx, hy = found[:3]
+    slip = (d1x + d2x, d1y + d2y)
+    part, part_slope = near_limit(size, hx, hy, *slip, exponent, law)
+    if part <= 0.0:
+        return _by_rate_slope(step, found, ux, uy, t1x, t1y, t2x, t2y)
+    wx_t, wy_t = _along_law_slope(step, size, hx, hy, ux, uy, t1x + t2x, t1y + t2y)
+    if part < 1.0:
+        wx, wy = along_law(sx, sy, size, hx, hy, *slip, exponent)
+        mx, my = by_rate(*step)
+        mx_t, my_t = _by_rate_slope(step, found, ux, uy, t1x, t1y, t2x, t2y)
+        part_t = part_slope * (sx * ux + sy * uy) / size
+        wx_t = mx_t + part * (wx_t - mx_t) + part_t * (wx - mx)
+        wy_t = my_t + part * (wy_t - my_t) + part_t * (wy - my)
+    return wx_t, wy_t
+
+
+@kernel
 def _closed_form_factors(rho, length, exponent):
     """(phi^i/rho, (1-g)/L, -(dg/drho)/(L rho)) of the closed form, with g = phi/rho.
 
@@ -142,8 +198,9 @@ def _closed_form_factors(rho, length, exponent):
     base = 1.0 - part * length
     if base <= 0.0:
         return 0.0, 1.0 / length, 0.0
-    left = base ** (1.0 / order)
-    turn = -math.expm1(math.log1p(-part * length) / order) / length
+    grown = math.log1p(-part * length) / order
+    left = math.exp(grown)
+    turn = -math.expm1(grown) / length
     bend = left * part / (base * rho * rho) if rho > TINY else 0.0
     return left / base * rho ** (-order), turn, bend
 

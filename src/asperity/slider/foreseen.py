@@ -117,6 +117,11 @@ def _to_the_state(window: WindowMeans, end: Nearby, loaded: float) -> list[float
     there = comes_there(end, model, most_off(end.ratio), later)
     if there is None:
         return None
+    if bends_ever_more(model):
+        # By the power of time in which they come to their limit: modes there hardly fade.
+        left = abs(end.ratio - window.quarters[-1]) / (_LEFT * FAR)
+        slowly = max(left, 1.0) ** (model.friction.exponent - 1.0)
+        there = min(there, model.start + (model.duration - model.start) * slowly)
     if by_law:
         return [there, loaded]
     if end.linear:

@@ -9,7 +9,7 @@ C     T(I,J): derivative of S(I) by the slip along axis J.
 C     ONESID is not used: this law knows no forced direction.
       IMPLICIT DOUBLE PRECISION (A-H,O-Z)
       DIMENSION S(3),D1(2),D2(2),E1(2),E2(2),T(2,2),D(2),H(2),V(2),
-     1 U1(2),U2(2),DA(2),DS(2)
+     1 U1(2),U2(2),DA(2),DS(2),S0(2)
       LOGICAL ONESID
       PARAMETER (TINY=1.D-150)
 C
@@ -30,6 +30,8 @@ C     rate depend on the size.
       H(2) = S(2)+0.5D0*D(2)
       HALF = SQRT(H(1)**2+H(2)**2)
       SCALE = 1.D0+0.5D0*FIRST
+      S0(1) = S(1)
+      S0(2) = S(2)
 C
       RATE = 0.D0
       DO 10 J = 1,2
@@ -92,6 +94,7 @@ C     A coarse increment can pass the limit a little: back onto it.
         S(2) = EY*BOUND
         S(3) = BOUND
       END IF
+      CALL ASPNEA(S,T,S0,SIZE,H,D,E1,E2,XI)
       RETURN
       END
 C

@@ -11,3 +11,11 @@ C     one by one (split), and its derivative.
       CALL ASPTRM(EX,EY,SHARE,D2(1),D2(2),XI,DE,DSHARE,U2,RATE,DRATE)
       RETURN
       END
+C
+      SUBROUTINE ASPNEA(S,T,S0,SIZE,H,D,E1,E2,XI)
+C     Nothing else near the limit: the parts of the slip oppose each
+C     other, and keep the asperity from it.
+      IMPLICIT DOUBLE PRECISION (A-H,O-Z)
+      DIMENSION S(3),T(2,2),S0(2),H(2),D(2),E1(2),E2(2)
+      RETURN
+      END
