@@ -257,11 +257,10 @@ def remaining_distance(rho, length, exponent):
     if exponent == 1.0:
         return rho * math.exp(-length)
     order = 1.0 - exponent
-    grown = -order * length * rho ** (-order)
-    if grown <= -1.0:
+    base = 1.0 - order * length * rho ** (-order)
+    if base <= 0.0:
         return 0.0
-    # Not as a power of one more, which next to an exponent of 1 has no digits.
-    return rho * math.exp(math.log1p(grown) / order)
+    return rho * base ** (1.0 / order)
 
 
 @kernel

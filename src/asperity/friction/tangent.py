@@ -198,9 +198,8 @@ def _closed_form_factors(rho, length, exponent):
     base = 1.0 - part * length
     if base <= 0.0:
         return 0.0, 1.0 / length, 0.0
-    grown = math.log1p(-part * length) / order
-    left = math.exp(grown)
-    turn = -math.expm1(grown) / length
+    left = base ** (1.0 / order)
+    turn = -math.expm1(math.log1p(-part * length) / order) / length
     bend = left * part / (base * rho * rho) if rho > TINY else 0.0
     return left / base * rho ** (-order), turn, bend
 

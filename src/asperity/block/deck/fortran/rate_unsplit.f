@@ -35,8 +35,8 @@ C
       ALONG = EX*D(1)+EY*D(2)
 C     What is left of the limit before and after.
       REST = 1.D0-SIZE
-      GROWN = (XI-1.D0)*ALONG*REST**(XI-1.D0)
-      REST1 = REST*EXP(ASPL1P(GROWN)/(1.D0-XI))
+      BASE = 1.D0+(XI-1.D0)*ALONG*REST**(XI-1.D0)
+      REST1 = REST*BASE**(1.D0/(1.D0-XI))
       SIZE1 = 1.D0-REST1
       BOTH = 0.5D0*(SIZE+SIZE1)
       RATE = (ALONG+SIZE-SIZE1)/BOTH
