@@ -127,3 +127,14 @@ def test_an_asperity_near_its_limit_that_the_slip_turns_bends_as_in_fine_steps(e
         left.append(1.0 - math.hypot(*s))
     assert left[0] == pytest.approx(left[1], rel=2e-3)
     assert left[0] > 1e-3
+
+
+@pytest.mark.parametrize("law", [UNSPLIT, VECTOR])
+def test_an_exponent_next_to_one_goes_as_one_does(law):
+    """As a range of a sweep may have it, from whose rounding the slip bent nothing."""
+    step = (0.8, 0.0), (0.02, 0.01), NOTHING, 1.0
+    one, tangents = update(*step, 1.0, law)[1:]
+    for exponent in (1.0 + 2.3e-16, 1.0 + 1e-13, 1.0 + 1e-9, 1.0 + 2e-7):
+        near, near_tangents = update(*step, exponent, law)[1:]
+        assert near == pytest.approx(one, abs=1e-6)
+        assert np.ravel(near_tangents) == pytest.approx(np.ravel(tangents), abs=1e-3)

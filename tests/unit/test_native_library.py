@@ -159,8 +159,8 @@ def test_a_compiler_that_does_not_link_is_told_before_anything_is_compiled(
 
 
 def test_a_symbol_follows_from_the_entry_and_not_from_its_place(entry):
-    moved = Entry(entry.number + 1, entry.name, entry.arguments, 2.0)
-    other = Entry(entry.number, entry.name, [["d"], ["q"]], 1.0)
+    moved = Entry(entry.number + 1, entry.name, entry.arguments, 2.0, entry.target)
+    other = Entry(entry.number, entry.name, [["d"], ["q"]], 1.0, entry.target)
     assert link.symbol(entry) == link.symbol(moved) != link.symbol(other)
 
 

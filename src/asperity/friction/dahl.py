@@ -106,6 +106,8 @@ OVERSHOOT_BOUND = 0.02
 # Deflections between which the step of `unsplit` with an exponent above 1 becomes `along_law`.
 NEAR_LIMIT = 0.5
 NEARER_LIMIT = 0.6
+# Of an exponent from 1, which it counts as: a power of one more has no digits there.
+NEXT_TO_ONE = 1e-7
 
 
 @kernel
@@ -157,7 +159,7 @@ def near_limit(size, hx, hy, dx, dy, exponent, law):
     Nothing far from the limit or where the slip bends back, all near it; without a corner, for
     Newton's method to go across.
     """
-    if law != UNSPLIT or exponent <= 1.0 or not NEAR_LIMIT < size <= 1.0:
+    if law != UNSPLIT or exponent <= 1.0 + NEXT_TO_ONE or not NEAR_LIMIT < size <= 1.0:
         return 0.0, 0.0
     if hx * dx + hy * dy <= 0.0:
         return 0.0, 0.0
@@ -241,7 +243,7 @@ def closed_form(sx, sy, dx, dy, exponent):
     length = math.sqrt(dx * dx + dy * dy)
     if length <= TINY:
         return sx + dx, sy + dy
-    if exponent == 1.0:
+    if abs(exponent - 1.0) < NEXT_TO_ONE:
         decay, gain = relaxation(length)
         return sx * decay + dx * gain, sy * decay + dy * gain
     nx, ny, wx, wy, rho = to_steady(sx, sy, dx, dy, length)
@@ -254,7 +256,7 @@ def closed_form(sx, sy, dx, dy, exponent):
 @kernel
 def remaining_distance(rho, length, exponent):
     """Distance to the steady deflection after slipping ``length`` from the distance ``rho``."""
-    if exponent == 1.0:
+    if abs(exponent - 1.0) < NEXT_TO_ONE:
         return rho * math.exp(-length)
     order = 1.0 - exponent
     base = 1.0 - order * length * rho ** (-order)

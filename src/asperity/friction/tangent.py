@@ -7,6 +7,7 @@ finite element contact (which needs the derivative by the slip increments as wel
 import math
 
 from asperity.friction.dahl import (
+    NEXT_TO_ONE,
     SPLIT,
     TINY,
     VECTOR,
@@ -190,7 +191,7 @@ def _closed_form_factors(rho, length, exponent):
 
     Written so that nothing cancels for a small slip; in steady sliding rho is 0.
     """
-    if exponent == 1.0:
+    if abs(exponent - 1.0) < NEXT_TO_ONE:
         speed, turn = relaxation(length)
         return speed, turn, 0.0
     order = 1.0 - exponent
