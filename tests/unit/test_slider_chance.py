@@ -310,3 +310,15 @@ def test_slips_that_do_not_repeat_themselves_have_not_settled_by_chance(duration
     assert not found.settled
     assert "halves of the next window" in found.settled_by
     assert any("no solve.duration is foreseen" in note for note in found.notes)
+
+
+def test_nor_have_those_of_a_body_with_a_thousand_times_the_forces():
+    heavy = (
+        "slider.normal_force=31.089146 kN", "slider.drive_stiffness=522377830 N/m",
+        "slider.drive_damping=3345.9753 N s/m", "slider.mass=617.38834 kg",
+        "friction.contact_damping=1448467 N s/m", "friction.viscous_damping=3674.247 N s/m",
+    )  # fmt: skip
+    settings = (*STICKS, *heavy, "vibration.velocity_ratio=0", "solve.duration=0.8 s")
+    found = solve(Model.from_case(read_case("table-4.3", TABLES, settings)))
+    assert not found.settled
+    assert "halves of the next window" in found.settled_by

@@ -205,10 +205,9 @@ def _slips_on(body: Integrator, table: Timetable, sums: np.void) -> float:
 
     Of a body that nothing shakes and that sticks and slips; 0 of one whose friction stays.
     """
-    model = body.model
-    if float(sums["friction_x_max"] - sums["friction_x_min"]) <= FAR * model.full_friction:
+    if float(sums["friction_x_max"] - sums["friction_x_min"]) <= FAR:
         return 0.0
-    end = Cycle(model, table.window // 2, table.step)
+    end = Cycle(body.model, table.window // 2, table.step)
     put(end, table.step, body.kept["state"], body.kept.get("springs", np.zeros((2, 0))))
     mean = float(sums["drive_force"] / sums["steps"])
     return max(abs(each - mean) for each in ratios_of(end, 2))
