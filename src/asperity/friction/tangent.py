@@ -72,6 +72,22 @@ def _direction_slope(x, y, size, ux, uy):
 
 
 @kernel
+def _relaxed_slope(sx, sy, dx, dy, rate, ux, uy, tx, ty, rate_t):
+    """Deflection relaxed by ``rate`` along the slip ``d``, and its derivative.
+
+    For the deflection changing by ``u``, the slip by ``t``, the rate by ``rate_t``.
+    """
+    decay, gain = relaxation(rate)
+    gain_t = relaxation_slope(rate) * rate_t
+    return (
+        sx * decay + dx * gain,
+        sy * decay + dy * gain,
+        ux * decay - sx * decay * rate_t + tx * gain + dx * gain_t,
+        uy * decay - sy * decay * rate_t + ty * gain + dy * gain_t,
+    )
+
+
+@kernel
 def _half_way_rate(step):
     """What `dahl.by_rate` finds half-way, the relaxation there; all that its slopes share."""
     size, hx, hy, scale = half_way(*step)
@@ -115,12 +131,7 @@ def _by_rate_slope(step, found, ux, uy, t1x, t1y, t2x, t2y):
         rate_t = _rate_slope(ex, ey, ex_t, ey_t, share, share_t, *slips)
     elif size > TINY:
         rate_t = _rate_slope(ex, ey, ex_t, ey_t, 0.0, 0.0, *slips)
-    decay, gain = relaxation(rate)
-    gain_t = relaxation_slope(rate) * rate_t
-    sx1 = sx * decay + dx * gain
-    sy1 = sy * decay + dy * gain
-    sx1_t = ux * decay - sx * decay * rate_t + tx * gain + dx * gain_t
-    sy1_t = uy * decay - sy * decay * rate_t + ty * gain + dy * gain_t
+    sx1, sy1, sx1_t, sy1_t = _relaxed_slope(sx, sy, dx, dy, rate, ux, uy, tx, ty, rate_t)
     most = max(1.0, size)
     most_t = size_t if size > 1.0 else 0.0
     size1 = math.sqrt(sx1 * sx1 + sy1 * sy1)
@@ -152,12 +163,7 @@ def _along_law_slope(step, size, hx, hy, ux, uy, tx, ty):
     both = 0.5 * (size + size1)
     rate = (along + size - size1) / both
     rate_t = (along_t + size_t - size1_t - 0.5 * rate * (size_t + size1_t)) / both
-    decay, gain = relaxation(rate)
-    gain_t = relaxation_slope(rate) * rate_t
-    wx = sx * decay + dx * gain
-    wy = sy * decay + dy * gain
-    wx_t = ux * decay - sx * decay * rate_t + tx * gain + dx * gain_t
-    wy_t = uy * decay - sy * decay * rate_t + ty * gain + dy * gain_t
+    wx, wy, wx_t, wy_t = _relaxed_slope(sx, sy, dx, dy, rate, ux, uy, tx, ty, rate_t)
     ex, ey, _, ex_t, ey_t = _direction_slope(wx, wy, math.sqrt(wx * wx + wy * wy), wx_t, wy_t)
     return ex * size1_t + ex_t * size1, ey * size1_t + ey_t * size1
 

@@ -179,3 +179,12 @@ def integrator(model: Model, step: float) -> Integrator:
     if model.solve.scheme == "two-phase":
         return TwoPhase(model, step)
     return Integrator(model, step)
+
+
+def another_at(body: Integrator, step: float) -> Integrator:
+    """Return one that is where ``body`` is, with steps of so many radians; its sums are empty."""
+    other = integrator(body.model, step)
+    for name, held in body.kept.items():
+        if name != "sums":
+            other.kept[name][:] = held
+    return other

@@ -17,7 +17,7 @@ from asperity.arrays import FloatArray
 from asperity.slider import at_corners, on_twice
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import ratio_of
-from asperity.slider.integrators import Integrator, integrator
+from asperity.slider.integrators import Integrator, another_at
 from asperity.slider.model import Model
 from asperity.slider.on_twice import at_state
 from asperity.slider.orders import of_the_error, part_of_difference
@@ -191,9 +191,7 @@ def two_phases_on(body: Integrator, table: Timetable) -> Iterator[float]:
     The body is left as it is.
     """
     model, done = body.model, 0
-    again = integrator(model, table.step)
-    again.kept["state"][:] = body.kept["state"]
-    again.kept["memory"][:] = body.kept["memory"]
+    again = another_at(body, table.step)
     begin = model.frequency * (table.steps * table.step - model.start)
     for cycle in itertools.count(1):
         until = round(cycle / again.rate)

@@ -14,7 +14,7 @@ import math
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.slider.integrators import Integrator, integrator
+from asperity.slider.integrators import Integrator, another_at
 from asperity.slider.timetable import Timetable
 
 _SHARE = 0.15  # of a march's steps, that are marched for its error in all
@@ -74,9 +74,7 @@ def _march_on(
     stretched by so much more ``force``, over mu F_N, before.
     """
     model = end.model
-    body = integrator(model, longer * table.step)
-    body.kept["state"][:] = end.kept["state"]
-    body.kept["memory"][:] = end.kept["memory"]
+    body = another_at(end, longer * table.step)
     for name in ("velocity_x", "velocity_y"):
         body.state[name] *= longer
     body.kept["memory"]["base_x"] *= longer
