@@ -38,6 +38,7 @@ ROOMS = (
     "sweep table-4.3 --over vibration.velocity_ratio=1,6 EARLY",
     "slide normal-pin",
     "slide normal-pin --set vibration.waveform=triangle",
+    "slide normal-pin --set vibration.waveform=triangle --set friction.model=coulomb",
     "slide normal-pin EARLY --set solve.method=march",
     "slide normal-pin --set solve.method=march",
     "slide normal-pin --set solve.method=march --set vibration.velocity_ratio=20 "
