@@ -66,15 +66,20 @@ def ratio_let_down(cycle: Cycle, jacobian: FloatArray, slopes: FloatArray) -> fl
 
 @kernel
 def predicted_at_corners(
-    start, springs, p, q, increments, rises, halves, rise_halves, sums, jacobian, slopes
+    start, springs, p, q, increments, rises, halves, rise_halves, sums, jacobian, slopes, remembers
 ):  # fmt: skip
-    """What `predicted_on_half` and `_let_down_in_a_cycle` return, in one call."""
+    """What `predicted_on_half` and `_let_down_in_a_cycle` return, in one call.
+
+    No load jumps where friction remembers nothing of it.
+    """
     first, ratio = predicted_on_half(
         start, springs, p, q, halves, rise_halves, sums, jacobian, slopes
     )
-    jumps, let_down = _let_down_in_a_cycle(
-        start, springs, p, q, increments, rises, sums, jacobian, slopes
-    )
+    jumps, let_down = 0, ratio
+    if remembers:
+        jumps, let_down = _let_down_in_a_cycle(
+            start, springs, p, q, increments, rises, sums, jacobian, slopes
+        )
     return first, ratio, jumps, let_down
 
 

@@ -269,12 +269,12 @@ def _foreseen(
     p, q, kept, halves = cycle.body.p, cycle.q, cycle.body.kept, cycle.halves()
     at, matrix = (kept["state"], cycle.springs, p, q), (kept["sums"], jacobian, slopes)
     jumps, let_down = 0, here
-    if at_corners.remembers_jumps(cycle):
-        first, ratio, jumps, let_down = at_corners.predicted_at_corners(
-            *at, cycle.increments, cycle.rises, *halves, *matrix
-        )
-    else:
+    if q is None:
         first, ratio = predicted_on_half(*at, *halves, *matrix)
+    else:
+        first, ratio, jumps, let_down = at_corners.predicted_at_corners(
+            *at, cycle.increments, cycle.rises, *halves, *matrix, at_corners.remembers_jumps(cycle)
+        )
     hidden = abs(let_down - here) if jumps and math.isfinite(let_down) else 0.0
     most = WANTED * max(abs(here), _LEAST_RATIO) / part
     apart = abs(first - here) + abs(ratio - first)
