@@ -113,6 +113,7 @@ def test_a_state_that_a_body_comes_to_from_rest_alone_is_told(asperity):
     assert answer["ratio_from_rest"] == [None, pytest.approx(rested, abs=1e-5)]
 
 
+@pytest.mark.slow
 def test_a_walk_that_was_interrupted_on_its_way_back_goes_on_there(asperity, tmp_path):
     # There and back through a loop: which state it is in follows from where it came from.
     line = [

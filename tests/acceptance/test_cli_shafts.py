@@ -135,6 +135,7 @@ def test_a_bearing_that_does_not_bear_at_rest_fails_the_gearbox(run):
     assert "does not hold: bearings at rest by ISO 76" in failing
 
 
+@pytest.mark.slow
 def test_a_wheel_shaft_alone_is_enough(run, tmp_path):
     text = run("cases", CASE).stdout
     before, _, rest = text.partition("[worm_shaft]")

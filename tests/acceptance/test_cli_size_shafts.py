@@ -121,6 +121,7 @@ def test_those_that_are_judged_last_are_those_that_nothing_beats(monkeypatch, ra
     assert rating == "4 kN" or any("do not hold" in note for note in quick.notes)
 
 
+@pytest.mark.slow
 def test_a_shaft_that_cannot_be_judged_is_refused_as_rate_refuses_it(asperity, duty_file):
     tandem = 'arrangement = "pair tandem"\ncarries = "away"'
     changed(duty_file, 'arrangement = "pair back-to-back"', tandem)

@@ -39,6 +39,7 @@ TEETH = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "stem"),
     [

@@ -122,6 +122,7 @@ def test_screen_and_report_are_in_inches_and_json_is_in_si(asperity, tmp_path):
     assert "losses 1438 W" in asperity(*words)[1]
 
 
+@pytest.mark.slow
 def test_the_workbook_has_units_of_the_us_as_live_formulas(asperity, tmp_path):
     asperity("rate", "gearset-3", "--units", "us", "--out", tmp_path)
     with zipfile.ZipFile(tmp_path / "rate.xlsx") as book:

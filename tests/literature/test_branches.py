@@ -103,6 +103,7 @@ def test_springs_and_rigid_machines_are_followed_too():
     assert again.ratio == pytest.approx(first.ratio, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_body_that_never_repeats_itself_is_told_and_the_next_is_followed_on():
     models = bodies([1.2e-6, 0.1e-6], "vibration.frequency=4.3 kHz", "normal.damping_ratio=0.001")
     first, second = follow(models)

@@ -97,6 +97,7 @@ def test_the_answer_of_an_unstable_state_says_where_a_march_from_rest_settles(so
     assert marched.ratio == found.ratio_from_rest
 
 
+@pytest.mark.slow
 def test_so_do_sweeps_and_branches_with_their_pictures(soft, monkeypatch, tmp_path):
     monkeypatch.setenv("ASPERITY_CACHE", str(tmp_path / "cache"))
     over = ["vibration.frequency=600,640 Hz"]
@@ -134,6 +135,7 @@ def test_what_stays_is_not_marched_and_what_does_not_settle_is_said(soft, monkey
     assert not solve(rings, history=False).settled
 
 
+@pytest.mark.slow
 def test_a_march_that_has_not_settled_gives_no_ratio_from_rest(soft):
     # Its mean of 1.24 is on the way to that of the state, where it settles after 0.4 s.
     heavy = "vibration.frequency=20000 Hz", "slider.mass=10 kg"
@@ -160,6 +162,7 @@ def test_a_march_from_rest_that_comes_to_the_same_ratio_is_not_another(soft):
     assert found.notes[-1] == "a march from rest comes to the same ratio"
 
 
+@pytest.mark.slow
 def test_a_march_beside_a_state_takes_no_more_steps_than_it_may(soft, monkeypatch):
     marches = []
 

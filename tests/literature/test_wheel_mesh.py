@@ -117,6 +117,7 @@ def test_several_teeth_share_their_cut_faces(wheel, coarse):
     assert len(three.face_set("flank_plus")) == 3 * len(three.face_set("flank_plus_0"))
 
 
+@pytest.mark.slow
 def test_a_whole_wheel_closes_on_itself(wheel):
     teeth = wheel.pair.geometry.wheel_teeth
     one, whole = mesh.tooth(wheel, 1.5), mesh.tooth(wheel, 1.5, teeth=teeth)

@@ -135,6 +135,7 @@ def test_the_tangents_are_the_derivatives_by_both_slip_parts(
             assert tangent[axis::2] == pytest.approx(measured, abs=1e-6)
 
 
+@pytest.mark.slow
 @given(
     deflections, moderate_slips, moderate_slips, st.floats(1.0, 2.0), st.floats(0.1, 10.0),
     st.floats(0.0, 2.0), st.floats(0.0, 2.0), laws,

@@ -99,6 +99,7 @@ def shaken_across(folder):
     return Lot(tables, 0).model(folder)
 
 
+@pytest.mark.slow
 def test_a_duration_is_told_by_the_power_of_time_in_which_they_come_to_their_limit(tmp_path):
     """By the modes of the state, which next to the limit hardly fade, it was 1600 s."""
     model = shaken_across(tmp_path)

@@ -85,6 +85,7 @@ def test_whatever_the_tables_hold_there_is_an_answer_or_one_line(given):
         assert row.hours is None or row.lasting <= row.hours < math.inf
 
 
+@pytest.mark.slow
 def test_the_campaign_draws_spectra_that_are_rated_as_well_as_refused():
     seen = {"rated": 0, "refused": 0}
 

@@ -31,6 +31,7 @@ def test_a_range_has_exactly_its_steps_and_never_passes_the_stop(
     assert list(axis.shown) == [(start + place * step) / scale for place in range(count + 1)]
 
 
+@pytest.mark.slow
 @given(st.sampled_from(["vibration.direction=", "friction.law=", ""]), st.text(max_size=40))
 def test_any_text_is_an_axis_or_an_input_error_of_one_line(path, text):
     said = "an axis"

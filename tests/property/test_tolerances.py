@@ -227,6 +227,7 @@ def test_an_identical_hob_makes_the_centre_distance_count_more_where_it_closes()
     assert 0.0 < opened < middle < -closed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("hob", "mount"), [
     slow(None, Mount(shaft_angle_error="0.03 deg")), (Hob(tilt="0.03 deg"), None)])  # fmt: skip
 def test_where_the_worm_stands_as_its_hob_stood_an_angle_that_may_be_off_leaves_most(hob, mount):

@@ -43,6 +43,7 @@ def test_a_body_rings_on_its_drive_by_the_law_no_more_than_it_does_shaken():
     assert np.ptp(late) > 0.5 * 5.74e-3
 
 
+@pytest.mark.slow
 def test_a_ring_that_the_drive_damps_is_not_told_of():
     by_the_law, state = answers("slider.drive_damping=400 N s/m")
     assert by_the_law.ratio == pytest.approx(state.ratio, abs=1e-6)

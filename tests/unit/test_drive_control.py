@@ -105,6 +105,7 @@ def plain():
     return stroke()
 
 
+@pytest.mark.slow
 def test_a_stroke_shaken_at_its_seats_needs_there_what_a_drive_that_is_shaken_does(plain):
     steady = drive.answer(drive.prepare(case("drive.protocol=steady")), Run())
     # Before the first seat ends.

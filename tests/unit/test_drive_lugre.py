@@ -57,6 +57,7 @@ def drawn_steps(count, seed):
         yield law, more, dt, loads, ways
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("plain_kernels")
 def test_in_ten_thousand_steps_of_any_size_asperities_and_teeth_make_no_energy():
     slow = steps = 0
@@ -103,6 +104,7 @@ def test_asperities_above_their_limit_relax_over_the_slip_that_bent_teeth_leave(
     assert left < 1e-8
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("plain_kernels")
 def test_of_rigid_teeth_a_step_is_that_of_the_friction_room_s_law():
     for law, _, dt, loads, ways in drawn_steps(60, 6):

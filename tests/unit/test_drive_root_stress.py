@@ -55,6 +55,7 @@ def found():
     patched.undo()
 
 
+@pytest.mark.slow
 def test_the_answer_is_the_largest_of_its_courses_and_its_fillet(found):
     assert found.tension == pytest.approx(1e-6 * found.tension_course.max())
     assert found.tension == pytest.approx(1e-6 * found.fillet_tension.max())

@@ -73,6 +73,7 @@ def test_over_two_axes_it_has_the_closed_form_beside_it_and_less_power_near_reso
     assert found["resonance_worm"] == pytest.approx(2926.0, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_its_picture_is_a_map_with_both_readings_and_the_resonances_marked(mapped, tmp_path):
     figure = read(mapped.save(tmp_path / "sweep.nc")).figure()
     assert figure.get_suptitle().startswith("4 settled, the wheel in balance to")

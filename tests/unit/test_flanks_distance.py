@@ -191,6 +191,7 @@ def brute_force(worm, points):
     return cKDTree(cloud).query(points)[0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["ZI", slow("ZN"), slow("ZC")])
 def test_outside_the_distance_is_that_to_the_nearest_point_of_the_whole_worm(kind):
     """Flank, rounding, tip land and core together; the cloud can only be farther, by its grid."""

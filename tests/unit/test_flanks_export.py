@@ -108,6 +108,7 @@ def test_every_edge_of_worm_tooth_teeth_and_wheel_joins_two_faces(wheel):
     assert [body.name for body in bodies] == ["worm", "tooth", "teeth", "worm", "wheel"]
 
 
+@pytest.mark.slow
 def test_the_skins_of_whole_worm_and_wheel_are_closed(wheel):
     import trimesh
 
@@ -228,6 +229,7 @@ def test_the_triangles_of_a_body_are_closed_and_hold_its_volume(wheel, tmp_path,
     assert errors[1] < 0.35 * errors[0]
 
 
+@pytest.mark.slow
 def test_bodies_go_into_stl_and_glb(wheel, tmp_path):
     import trimesh
 

@@ -115,6 +115,7 @@ def test_turned_the_other_way_neither_meets_the_lines(hand):
     assert min(wheel) > 2 * NEAR
 
 
+@pytest.mark.slow
 def test_a_left_handed_pair_is_drawn_as_the_mirror_image():
     right, left = opened(made("right")[1])[1], opened(made("left")[1])[1]
     for side in TURNED:

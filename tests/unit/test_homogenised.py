@@ -521,6 +521,7 @@ def test_without_vibration_lugre_friction_is_its_steady_curve():
     assert answer.ratio == pytest.approx(periodic.ratio, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_far_beyond_the_vibration_viscous_friction_adds_to_full_friction(with_lugre):
     law = with_lugre
     end = law.velocity[-1]

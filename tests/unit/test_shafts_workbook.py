@@ -128,6 +128,7 @@ def check_at_rest(sheets, found, moved):
         assert again < 0.95 * told(found)[place]
 
 
+@pytest.mark.slow
 def test_a_rated_torque_above_every_part_is_a_load_of_the_sheet(tmp_path):
     found, sheets = beside_the_rating(tmp_path, "operation.output_torque='400 N m'")
     assert held(sheets, found) > 80

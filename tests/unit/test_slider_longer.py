@@ -198,6 +198,7 @@ HEAVY = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_heavy_body_is_foreseen_to_ring_for_as_long_as_shaken_friction_damps_it():
     shaken = "vibration.direction=90 deg", "vibration.velocity_ratio=0.15"
     body = Model.from_case(read_case("table-4.3", TABLES, (*HEAVY, *shaken)))

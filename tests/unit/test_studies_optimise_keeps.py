@@ -94,6 +94,7 @@ def test_what_falls_and_what_does_not_hold_is_named(best):
     assert best.after.agma6034["safety_torque"] >= best.before.agma6034["safety_torque"] * 0.999998
 
 
+@pytest.mark.slow
 def test_the_design_to_be_made_has_round_numbers_and_is_rated_again(best):
     made = best.made.gearset
     for value, step in (

@@ -141,6 +141,7 @@ def test_both_laws_agree_where_slip_does_not_turn_and_part_where_it_does():
         assert found.subroutine < found.coulomb - 0.1
 
 
+@pytest.mark.slow
 def test_a_sound_asperity_hammers_as_coulomb_does_whatever_the_increments():
     for increments in (500, 4000):
         for k in (0.5, 3.0, 20.0):
@@ -148,6 +149,7 @@ def test_a_sound_asperity_hammers_as_coulomb_does_whatever_the_increments():
             assert found.dahl == pytest.approx(found.coulomb, abs=0.01)
 
 
+@pytest.mark.slow
 def test_coulomb_friction_of_the_hammering_worm_is_its_integral():
     # With all of the motion along the sliding, friction is the sign of 1 - k cos.
     phase = np.pi * (np.arange(20000) + 0.5) / 20000

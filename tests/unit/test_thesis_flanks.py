@@ -37,6 +37,7 @@ def test_an_identical_hob_gives_contact_lines_across_the_face(formation):
     assert np.count_nonzero(share > 0.5) >= 4
 
 
+@pytest.mark.slow
 def test_misalignment_of_an_identical_hob_gives_contact_at_one_edge(formation):
     _, low, high = bearing_columns(formation, MISALIGNED)
     assert low == pytest.approx(float(formation["face"].isel(design=MISALIGNED).min()))

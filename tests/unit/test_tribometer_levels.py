@@ -180,6 +180,7 @@ def covered(noise, seeds, *, by_pulses=False):
     return *means, {name: math.sqrt(np.mean(values)) for name, values in over.items()}
 
 
+@pytest.mark.slow
 def test_intervals_cover_and_do_not_lean():
     shares, overs = [], []
     for place, noise in enumerate(NOISES.values()):

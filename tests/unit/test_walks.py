@@ -115,6 +115,7 @@ def test_a_sampling_rate_arrives_in_the_plan():
     assert asked("The sampling rate of a rig").require(Plan).sample_rate == 50e3
 
 
+@pytest.mark.slow
 def test_a_walk_is_drawn_over_the_folders_that_it_touches(drawing, tmp_path):
     drawing.draw_all(DOCS / "built.rst", tmp_path)
     found = sorted(path.name for path in tmp_path.iterdir())
