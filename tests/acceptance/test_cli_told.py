@@ -193,9 +193,7 @@ def test_an_axis_from_a_file_of_points_is_shown_as_such_too(asperity, tmp_path):
     assert row[2].endswith("points.csv: the column friction.mu")
 
 
-@pytest.mark.parametrize(
-    "cases", [slow("gearset-3", "gearset-3b"), ("table-4.3", "table-4.4")]
-)
+@pytest.mark.parametrize("cases", [slow(("gearset-3", "gearset-3b")), ("table-4.3", "table-4.4")])
 def test_cases_side_by_side_are_the_same_in_netcdf_and_json(asperity, tmp_path, cases):
     code, _, errors = asperity("compare", *cases, "--out", tmp_path)
     assert code == 0, errors
