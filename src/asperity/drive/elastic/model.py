@@ -45,6 +45,8 @@ from asperity.runs import Run
 
 _MILLIMETRES = 1e3
 _PHASES = 8
+# Of a mean torque, the least: where teeth come in and go out it has corners.
+_PLACES = 36
 # Asperities of Coulomb's friction: a deflection far below what the teeth bend.
 _BRITTLE = 2e-8
 # Turn of the worm that slides all asperities through, rad.
@@ -104,17 +106,31 @@ class TeethModel(MeshModel):
     @property
     def worm_torque(self) -> float:
         """Without vibration, mean over a pitch, N m."""
-        return float(self.sweeps[0].worm_torque.mean())
+        return self._over_a_pitch[0]
 
-    def torque_over(self, first: float, last: float) -> float:
-        """Mean without vibration over angles of the worm, N m."""
+    @property
+    def torque_off(self) -> float:
+        """Share that the torque without vibration may be off by."""
+        return self._over_a_pitch[1]
+
+    @functools.cached_property
+    def _over_a_pitch(self) -> tuple[float, float]:
+        return self.torque_over(0.0, self.pitch_angle)
+
+    def torque_over(self, first: float, last: float) -> tuple[float, float]:
+        """Mean without vibration over angles of the worm, N m, and what share it may be off by.
+
+        That is what a third of the places is off, each in the middle of three.
+        """
         contact = self.contact
-        count = max(_PHASES, math.ceil(_PHASES * (last - first) / self.pitch_angle))
+        pitches = (last - first) / self.pitch_angle
+        count = 3 * math.ceil(max(_PLACES, _PHASES * pitches) / 3)
         places = (np.arange(count) + 0.5) / count
         phases = np.asarray(first + (last - first) * places, np.float64)
         touching = touching_angles(contact, phases)
         (course,) = sweep(Equilibrium(contact), phases, touching, [LoadCase(self.problem.load)])
-        return float(course.worm_torque.mean())
+        mean = float(course.worm_torque.mean())
+        return mean, abs(float(course.worm_torque[1::3].mean()) / mean - 1.0)
 
     @property
     def reversed_torque(self) -> float:

@@ -44,7 +44,7 @@ class Rest:
     normal : float
         Mean normal force, N.
     spread : float
-        Of its torque over three parts of its march; 0 of steady sliding.
+        Of its torque over three parts of its march; of steady sliding the share it may be off by.
     marched : bool
         Whether it is another than steady sliding.
     states, committed : ndarray
@@ -82,7 +82,7 @@ def at_rest(
     """
     held = not moving.rolls
     steady = Rest(
-        model.worm_torque, problem.load, model.normal_force, 0.0, False,
+        model.worm_torque, problem.load, model.normal_force, model.torque_off, False,
         *begin(problem, model, moving),
     )  # fmt: skip
     # Of the first cycles, steady sliding is what they begin in.
@@ -128,13 +128,14 @@ def over_the_same(
         still = system(problem, model, shaken=False)
         before = March(model, still, *begin(problem, model, still), Run(), march.stop)
         before.go(cycles)
-        return dataclasses.replace(rest, torque=mean(before.rows, "torque"))
+        return dataclasses.replace(rest, torque=mean(before.rows, "torque"), spread=0.0)
     pitches = cycles * march.cycle / model.pitch
     if abs(pitches - round(pitches)) < _WHOLE * pitches:
         return rest
     last = problem.worm_speed * march.rows.size * march.cycle
     first = last - problem.worm_speed * cycles * march.cycle
-    return dataclasses.replace(rest, torque=model.torque_over(first, last))
+    torque, off = model.torque_over(first, last)
+    return dataclasses.replace(rest, torque=torque, spread=off)
 
 
 def _marched(

@@ -123,7 +123,7 @@ def saving(
     of_blocks = left(np.array([power * (1.0 - over * advantage(one)) for one in blocks]))
     of_step = math.inf if off is None else power * over * advantage(last) * off.advantage
     least = LEAST * power
-    unknown = abs(judged.balance * found) + (rest.spread * power if rest.marched else 0.0)
+    unknown = abs(judged.balance * found) + rest.spread * power
     by_step = math.inf if off is None else off.actuator
     actuator_error = left(np.array([mean(one, "actuator") for one in blocks])) + by_step
     return Saving(found, of_blocks + of_step + unknown + least, actuator_error, of_blocks, of_step)

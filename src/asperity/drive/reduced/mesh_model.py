@@ -56,9 +56,14 @@ class MeshModel(abc.ABC):
     def reversed_torque(self) -> float:
         """Of the worm if all friction were turned round, N m; the mean over a pitch."""
 
+    @property
     @abc.abstractmethod
-    def torque_over(self, first: float, last: float) -> float:
-        """Mean without vibration over angles of the worm, N m."""
+    def torque_off(self) -> float:
+        """Share that the torque without vibration may be off by."""
+
+    @abc.abstractmethod
+    def torque_over(self, first: float, last: float) -> tuple[float, float]:
+        """Mean without vibration over angles of the worm, N m, and what share it may be off by."""
 
     @property
     @abc.abstractmethod
