@@ -112,6 +112,30 @@ def test_ways_that_are_no_further_apart_than_their_errors_stand_at_one_place():
     assert one.to_json()["directions"][-1]["saved_W"] is None
 
 
+def test_what_is_known_to_less_than_itself_is_told_as_no_saving():
+    one = dataclasses.replace(
+        solved(*weak("screw", "worm")), efficiency_static=0.3, system_efficiency=0.4
+    )
+    # Of one that is known, of one within its error, and of those of which next to nothing is.
+    for error, saves in ((None, True), (0.2, True), (0.3, False), (1.0, False), (1.5, False)):
+        told = str(dataclasses.replace(one, energy_ratio_error=error).headline()[1])
+        assert ("it saves energy" in told) == saves, error
+        assert ("it saves no energy" in told) == (not saves), error
+
+
+def test_an_energy_ratio_of_which_no_error_is_known_is_not_shown_of_a_way_that_settled():
+    one = directions.answer(
+        directions.prepare(problem(*weak("axial", "worm", "solve.duration=6 ms")).case), Run()
+    )  # fmt: skip
+    nan = np.full(4, np.nan)
+    unknown = dataclasses.replace(
+        one, energy_ratio_error=nan, settled=np.array([1, 1, 0, 1], np.int8)
+    )
+    table, *_ = unknown.tables()
+    at = [column.heading for column in table.columns].index("energy")
+    assert [row[at] != "-" for row in table.rows] == [False, False, True, False]
+
+
 class TestErrorOfBlocks:
     @pytest.mark.parametrize("fades", [0.02, 0.3, 0.7, 0.85])
     def test_holds_what_fades(self, fades):

@@ -179,9 +179,10 @@ class Directions(Result):
 
 
 def _shown(row: Mapping[str, Any], key: str) -> Any:
-    """A value of the table, in which no energy ratio tells less than its error."""
+    """A value of the table, in which no energy ratio that stays tells less than its error."""
     value = row[key]
-    if key == "energy_ratio" and abs(value - 1.0) <= row["energy_ratio_error"]:
+    known = abs(row["energy_ratio"] - 1.0) > row["energy_ratio_error"]  # not of one that is not
+    if key == "energy_ratio" and row["settled"] and not known:
         return None
     return value
 

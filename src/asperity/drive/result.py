@@ -259,7 +259,7 @@ def _energy(answer: DriveResult) -> str:
     efficiency, equal = answer.system_efficiency, answer.equal
     if efficiency is not None:
         before = answer.efficiency_static
-        word = "saves energy" if efficiency > before / (1.0 - equal) else "saves no energy"
+        word = "saves energy" if efficiency * (1.0 - equal) > before else "saves no energy"
         return Sentence(
             said, ", efficiency with the actuator's electrical side ",
             Number.of(efficiency, ".3g", "system_efficiency"), ", without vibration ",

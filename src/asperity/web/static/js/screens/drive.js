@@ -55,17 +55,16 @@ function Ledger({ answer, found }) {
 
 /** Whether the actuator's power is won back; on demand, whether a smaller motor is. */
 function Worth({ answer, found }) {
-  const electrical = answer.system_efficiency !== null;
-  const [after, before] = electrical ? [answer.system_efficiency, answer.efficiency_static]
-    : [1 / answer.energy_ratio, 1];
-  const says = electrical
+  const { system_efficiency: after, efficiency_static: before, energy_ratio: ratio } = answer;
+  const least = 1 - Math.max(0.005, answer.energy_ratio_error);
+  const says = after
     ? `with the actuator's electrical power the efficiency is ${digits(100 * after, 3)} %, `
       + `without vibration ${digits(100 * before, 3)} %`
-    : `mechanical power put in is ${digits(answer.energy_ratio, 3)} times that without; `
-      + "give an [actuator] for its electrical power";
+    : `mechanical power put in is ${digits(ratio, 3)} times that without; give an [actuator] for its electrical power`;
   return html`<h3>Worth it?</h3>
     <p>${answer.settled
-      ? html`<${Verdict} ok=${after > before / 0.995} yes="it saves power" no="it saves no power" />`
+      ? html`<${Verdict} ok=${after ? after * least > before : ratio && ratio < least}
+          yes="it saves power" no="it saves no power" />`
       : "no verdict, since the state has not settled:"} ${says}</p>
     ${answer.settled && answer.motor_shaken ? html`<p>
       <${Verdict} ok=${answer.saved_mass_kg > 0} yes="a smaller motor pays" no="a smaller motor does not pay" />
