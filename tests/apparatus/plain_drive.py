@@ -2,9 +2,10 @@
 
 Worm rotation on the shaft's torsion, worm shift on its bearing, wheel inertia; one point of contact
 on each flank, as vectors in space (along the worm's surface motion, along its axis, radial); the
-normal force by powers between measured points; friction by the rate equations of Coulomb, Dahl and
-LuGre, the teeth a spring behind the asperities. Leapfrog in steps far below the package's, forces
-from half a step before; nothing is imported from the package but how kernels are compiled.
+normal force by powers between measured points; friction by the rate equations of Coulomb, Dahl
+(exponents 1 and 0) and LuGre, the teeth a spring behind the asperities (not of exponent 0).
+Leapfrog in steps far below the package's, forces from half a step before; nothing is imported from
+the package but how kernels are compiled.
 """
 
 import math
@@ -14,7 +15,7 @@ import numpy as np
 
 from asperity.kernels.compiled import kernel
 
-COULOMB, DAHL, LUGRE = 0, 1, 2
+COULOMB, DAHL, LUGRE, BRITTLE = 0, 1, 2, 3
 SINE, TRIANGLE, SQUARE = 0, 1, 2
 
 
@@ -101,6 +102,22 @@ def rub(plain, w, force, load, slip, dt):
             for i in range(3):
                 w[i] *= limit / size
         for i in range(3):
+            force[i] = plain.stiffness * w[i]
+        return
+    if plain.law == BRITTLE:
+        # On rigid teeth: straight towards the steady deflection, by all of the slip.
+        way = math.sqrt(slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]) + 1e-300
+        far = 0.0
+        for i in range(3):
+            far += (limit * slip[i] / way - w[i]) ** 2
+        part = min(way / (math.sqrt(far) + 1e-300), 1.0)
+        size = 0.0
+        for i in range(3):
+            w[i] += part * (limit * slip[i] / way - w[i])
+            size += w[i] * w[i]
+        back = min(1.0, limit / (math.sqrt(size) + 1e-300))
+        for i in range(3):
+            w[i] *= back
             force[i] = plain.stiffness * w[i]
         return
     way2 = 0.0

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from apparatus import random_drives
 from apparatus.drives import solved
+from apparatus.grid import slow
 from apparatus.random_drives import CIRCLE, settings
 
 SEED = 1967
@@ -53,9 +54,17 @@ def agree(drive):
     return True
 
 
-@pytest.mark.parametrize(("law", "mode"), [("dahl", "torsional"), ("lugre", "axial")])
+@pytest.mark.parametrize(
+    ("law", "mode"),
+    [
+        ("dahl", "torsional"), ("lugre", "axial"), ("brittle", "wheel-axial"),
+        slow("brittle", "axial"), slow("brittle", "torsional"),
+    ],
+)  # fmt: skip
 def test_a_drive_is_that_of_the_plain_model(law, mode):
-    assert agree(DRIVE | {"law": law, "mode": mode, "viscous": 10.0 * (law == "lugre")})
+    place = "wheel" if mode == "wheel-axial" else "worm"
+    viscous = 10.0 * (law == "lugre")
+    assert agree(DRIVE | {"law": law, "mode": mode, "place": place, "viscous": viscous})
 
 
 @pytest.mark.slow

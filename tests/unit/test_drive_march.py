@@ -183,16 +183,6 @@ def test_force_and_energy_of_the_mesh_belong_together():
     assert law.approach_at(2000.0) == pytest.approx(8e-6)
 
 
-def test_teeth_in_series_with_asperities_are_as_asperities_that_give_as_much():
-    # Of brittle asperities: springs in series with one limit.
-    brittle = ("friction.exponent=0", "drive.flanks=driving")
-    series, alone = all_solved(
-        [(*brittle, "friction.max_deflection=1 um", "drive.tangential_compliance=1 nm/N"),
-         (*brittle, "friction.max_deflection=1.958357 um", ASPERITIES)]
-    )  # fmt: skip
-    assert series.torque_ratio == pytest.approx(alone.torque_ratio, rel=1e-6)
-
-
 def test_a_window_tells_that_it_is_no_state_that_lasts():
     one = solved("drive.protocol=window", "drive.window=2", *RATTLING)
     assert not one.settled

@@ -4,8 +4,9 @@ The motor is off, the wheel pushes. At rest the worm holds where a share :math:`
 friction is enough. A vibration along the flank of amplitude :math:`u` lets it creep as soon as it
 bends asperities and teeth from there to full friction, :math:`u > s_{eff}(1 - \phi)`; far beyond,
 :math:`u \gg s_{eff}`, friction sides with the load for as much of the cycle as balances it, and the
-flanks creep at :math:`v_a\sin(\pi\phi/2)`. Only asperities that stick until they slip hold at all
-under the smallest vibration (Coulomb, Dahl's exponent 0); those of exponent 1 creep at any.
+flanks creep at :math:`v_a\sin(\pi\phi/2)`. Only what sticks until it slips holds at all under the
+smallest vibration: Coulomb's friction, and Dahl's of exponent 0 if it is shaken along the flank
+alone; asperities of exponent 1 creep at any.
 """
 
 import dataclasses
@@ -177,10 +178,12 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     if locked:
         threshold, remarks = search.threshold(amplitudes, over)
         notes += remarks
-        if _creeps_always(problem.friction):
+        always = _creeps_always(problem.friction)
+        if always or (threshold == 0.0 and problem.friction.model != "coulomb"):
+            where = "" if always else " that slides them across the flank too"
             notes.append(
                 f"friction.exponent is {problem.friction.exponent:g}: such asperities creep at any "
-                "amplitude; exponent 0 holds"
+                f"amplitude{where}; friction.model 'coulomb' holds"
             )
     else:
         notes.append(_DRIVES)
@@ -266,7 +269,7 @@ def _along(problem: DriveProblem, model: ReducedModel) -> float:
 
 
 def _creeps_always(friction: Friction) -> bool:
-    """Return whether asperities creep at any amplitude; brittle ones hold."""
+    """Return whether asperities creep at any amplitude, whichever way they are shaken."""
     return friction.model != "coulomb" and friction.exponent > 0.0
 
 

@@ -1,10 +1,10 @@
 r"""Asperities in series with teeth that bend along the flank, over one step.
 
 The slip at the asperities is what the teeth's bending leaves of the way. Both are solved for
-together, in closed form where the asperities are brittle (exponent 0: of two springs in series and
-one limit), else by Newton's method; friction keeps its stiffness while the load changes
-(`asperity.friction.loaded`). Deflections and ways are in units of the one at full friction, and the
-teeth's compliance is over that of the asperities.
+together, in closed form where friction is Coulomb's (two springs in series with one limit), else by
+Newton's method; friction keeps its stiffness while the load changes (`asperity.friction.loaded`).
+Deflections and ways are in units of the one at full friction, and the teeth's compliance is over
+that of the asperities.
 """
 
 import math
@@ -16,14 +16,15 @@ from asperity.friction.loaded_tangent import update_loaded
 from asperity.kernels.compiled import kernel
 from asperity.kernels.uncounted import uncounted
 
+COULOMB = -1.0  # in place of an exponent: sticks until it slips, and what sticks is elastic
 _ITERATIONS = 60
 _CLOSE = 1e-9
 
 
 @uncounted
 @kernel(inline="always")
-def _brittle(sx, sy, dx, dy, limit):
-    """Deflection of asperities that stick until they slip (`friction.return_mapping`)."""
+def _returned(sx, sy, dx, dy, limit):
+    """Deflection of what sticks until it slips (`friction.return_mapping`)."""
     wx = sx + dx
     wy = sy + dy
     size = math.sqrt(wx * wx + wy * wy)
@@ -218,13 +219,96 @@ def _slipping_back(sx, sy, wx, wy, dx, dy, limit_0, limit_1, above, compliance, 
 
 @uncounted
 @kernel
+def _aside(sx, sy, dx, dy, limit, compliance):
+    r"""Sine and cosine from the way to the slip of `_brittle` asperities short of their limit.
+
+    Slip along :math:`n` bends them along :math:`e`, towards :math:`m n`, and the teeth by the part
+    :math:`b`: the way lies along :math:`n + b e`, between both. With the deflection's part across
+    the way, :math:`c`, and the distance :math:`\rho = |m n - s|` that is
+
+    .. math:: (\rho + b m)\,\sin\theta = b c ,
+
+    with one root below :math:`c/m` but where the slip points along a deflection at its limit.
+    """
+    length = math.sqrt(dx * dx + dy * dy)
+    along = (dx * sx + dy * sy) / length
+    across = (dx * sy - dy * sx) / length
+    c = abs(across)
+    square = sx * sx + sy * sy + limit * limit
+    low = 0.0
+    high = min(c / limit, 1.0)
+    sine = 0.0
+    for _ in range(_ITERATIONS):
+        cosine = math.sqrt(1.0 - sine * sine)
+        rho = math.sqrt(max(square - 2.0 * limit * (along * cosine + c * sine), 0.0))
+        off = sine * (rho + compliance * limit) - compliance * c
+        if abs(off) <= 1e-15 * limit * (1.0 + compliance) or high - low <= 1e-16:
+            break
+        if off < 0.0:
+            low = sine
+        else:
+            high = sine
+        turning = limit * (along * sine / (cosine + TINY) - c) / (rho + TINY)
+        slope = rho + compliance * limit + sine * turning
+        sine = sine - off / slope if slope > 0.0 else high
+        if not low < sine < high:
+            sine = 0.5 * (low + high)
+    cosine = math.sqrt(1.0 - sine * sine)
+    return (sine if across >= 0.0 else -sine), cosine
+
+
+@uncounted
+@kernel
+def _brittle(sx, sy, dx, dy, limit, compliance):
+    """Asperities of exponent 0 on teeth that bend by ``compliance`` of their deflection.
+
+    They bend by all of the slip, straight towards the steady deflection in its direction
+    (`friction.dahl.closed_form`), and there they stay. Where the limit falls below what they are
+    bent by they slip back first. Also returns what is left.
+    """
+    size = math.sqrt(sx * sx + sy * sy)
+    if size > limit:
+        back = limit / size
+        dx += compliance * (1.0 - back) * sx
+        dy += compliance * (1.0 - back) * sy
+        sx *= back
+        sy *= back
+    way = math.sqrt(dx * dx + dy * dy)
+    if way <= TINY:
+        return sx, sy, 0.0
+    nx = dx + compliance * sx
+    ny = dy + compliance * sy
+    size = math.sqrt(nx * nx + ny * ny) + TINY
+    wx = limit * nx / size
+    wy = limit * ny / size
+    if size - compliance * limit >= math.sqrt((wx - sx) ** 2 + (wy - sy) ** 2):
+        return wx, wy, 0.0
+    sine, cosine = 0.0, 1.0
+    if compliance > 0.0:
+        sine, cosine = _aside(sx, sy, dx, dy, limit, compliance)
+    nx = (cosine * dx - sine * dy) / way
+    ny = (cosine * dy + sine * dx) / way
+    ex = limit * nx - sx
+    ey = limit * ny - sy
+    left = math.sqrt(ex * ex + ey * ey) + TINY
+    ex /= left
+    ey /= left
+    tx = nx + compliance * ex
+    ty = ny + compliance * ey
+    slip = min(way * way / (tx * dx + ty * dy), left)
+    off = abs(slip * tx - dx) + abs(slip * ty - dy)
+    return sx + slip * ex, sy + slip * ey, off
+
+
+@uncounted
+@kernel
 def _dahl(sx, sy, dx, dy, limit_0, limit_1, exponent, compliance):
     """Asperities of any exponent on teeth that bend by ``compliance`` of their deflection.
 
-    Where the tangent has a kink, as brittle asperities at their limit, steps are halved.
+    Where the tangent has a kink, as at the limit, steps are halved.
     """
     one = 1.0 / (1.0 + compliance)
-    wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+    wx, wy = _returned(sx, sy, one * dx, one * dy, limit_1)
     last = math.inf
     off = 0.0
     stepx = 0.0
@@ -259,9 +343,11 @@ def deflect(exponent, compliance, sx, sy, dx, dy, limit_0, limit_1):
     off = 0.0
     if limit_1 <= TINY:
         wx, wy = 0.0, 0.0
-    elif exponent == 0.0:
+    elif exponent == COULOMB:
         one = 1.0 / (1.0 + compliance)
-        wx, wy = _brittle(sx, sy, one * dx, one * dy, limit_1)
+        wx, wy = _returned(sx, sy, one * dx, one * dy, limit_1)
+    elif exponent == 0.0:
+        wx, wy, off = _brittle(sx, sy, dx, dy, limit_1, compliance)
     elif exponent == 1.0 and compliance == 0.0:
         wx, wy = relaxed_to_limit(sx, sy, dx, dy, limit_0, limit_1)
     elif exponent == 1.0:

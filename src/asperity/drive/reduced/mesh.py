@@ -47,7 +47,7 @@ class Mesh(NamedTuple):
     limit : float
         Deflection of the asperities at full friction under it.
     exponent : float
-        Dahl's.
+        Dahl's, or `asperity.drive.reduced.in_series.COULOMB`.
     compliance_ratio : float
         What the teeth bend along the flank over what the asperities do.
     curve : FrictionCurve

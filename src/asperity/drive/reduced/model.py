@@ -12,6 +12,7 @@ from asperity.arrays import FloatArray
 from asperity.drive.interface import OUTS, POSES
 from asperity.drive.lugre import check_passive, static_ratio
 from asperity.drive.motion.system import System
+from asperity.drive.reduced.in_series import COULOMB
 from asperity.drive.reduced.law import force_and_energy
 from asperity.drive.reduced.lugre import LuGre
 from asperity.drive.reduced.march import march
@@ -50,7 +51,7 @@ class ReducedModel(MeshModel):
         """Numbers for the kernels."""
         problem, point = self.problem, self.point
         cell, rows = self.law.table(self.normal_force)
-        limit, exponent, compliance_ratio = self.elastic_slip, 0.0, 0.0
+        limit, exponent, compliance_ratio = self.elastic_slip, COULOMB, 0.0
         if problem.friction.model != "coulomb":
             limit = problem.friction.deflection_limit(self.normal_force)
             exponent = problem.friction.exponent
