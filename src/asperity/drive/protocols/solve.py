@@ -14,6 +14,7 @@ from asperity.drive.motion.system import System
 from asperity.drive.point import MeshPoint
 from asperity.drive.problem import DriveProblem
 from asperity.drive.protocols.accuracy import StepError, beside, measure_of, sensitive, step_error
+from asperity.drive.protocols.disturbed import other_state
 from asperity.drive.protocols.equations_of_motion import switched_off, system
 from asperity.drive.protocols.judgement import Judgement, steady_speed
 from asperity.drive.protocols.march import March, Records, bands_of, mean, refined
@@ -74,6 +75,7 @@ def solve_shaken(
     power = rest.torque * problem.worm_speed
     with run.interruptible():
         shown: Records | None = None
+        others: tuple[str, ...] = ()
         if problem.drive.protocol == "window":
             # Of what is no state that lasts, no step makes the error.
             judged, off = _first_cycles(march, window, rest.torque, power), None
@@ -82,6 +84,9 @@ def solve_shaken(
         last = march.rows[-judged.cycles :]
         creep = steady_speed(last["rolled"], last["time"]) if locked else None
         held = _held_after(problem, model, march, run)
+        if judged.settled:
+            wanted = _wanted(problem, rest, model, march)
+            others = other_state(problem, model, march, judged, rest, wanted, run)
         began = float(march.states[0]["time"])
         if run.detailed:
             shown = march.stretches(_SHOWN_CYCLES * _ROWS_A_CYCLE, march.cycle / _ROWS_A_CYCLE)
@@ -91,6 +96,7 @@ def solve_shaken(
         answer,
         creep=creep,
         held_after=held,
+        notes=(*others, *answer.notes),
         bands=None if shown is None else Bands(**bands_of(shown, began)),
     )
 
@@ -106,13 +112,7 @@ def _settled(
     while True:
         measure, scale = _measured(problem, rest, model)
         power = rest.torque * problem.worm_speed
-        driven = bool(march.system.speed) and march.system.rolls
-        judged = march.settle(
-            window=problem.drive.window, measure=measure, scale=scale, power=power,
-            duration=problem.solve.duration,
-            pitch=model.pitch if march.system.speed else None,
-            ratio=model.point.ratio if driven else None,
-        )  # fmt: skip
+        judged = march.settle(**_wanted(problem, rest, model, march))
         off = step_error(march, measure, scale, power) if judged.settled else None
         # Of elastic teeth steps are dear: of them the error is told alone.
         chosen = problem.solve.step is None and model.pitch is None
@@ -154,6 +154,21 @@ def _measured(problem: DriveProblem, rest: Rest, model: MeshModel) -> tuple[str,
     if problem.drive.protocol == "held-wheel":
         return "wheel_torque", problem.load
     return "torque", rest.torque
+
+
+def _wanted(problem: DriveProblem, rest: Rest, model: MeshModel, march: March) -> dict[str, Any]:
+    """Return what a march is to settle to, as `March.settle` takes it."""
+    measure, scale = _measured(problem, rest, model)
+    driven = bool(march.system.speed) and march.system.rolls
+    return {
+        "window": problem.drive.window,
+        "measure": measure,
+        "scale": scale,
+        "power": rest.torque * problem.worm_speed,
+        "duration": problem.solve.duration,
+        "pitch": model.pitch if march.system.speed else None,
+        "ratio": model.point.ratio if driven else None,
+    }
 
 
 def least_creep(problem: DriveProblem, point: MeshPoint) -> float:
