@@ -3,13 +3,16 @@
 import dataclasses
 import functools
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 from apparatus.drives import all_solved, problem, solved
 
+from asperity import web
 from asperity.drive import directions
 from asperity.drive.protocols.saving import Saving, left
+from asperity.drive.result import EQUAL
 from asperity.runs import Run
 
 LINEAR = 'drive.deflection=[["23 N m", "22.9375 urad"], ["366 N m", "365 urad"]]'
@@ -121,6 +124,13 @@ def test_what_is_known_to_less_than_itself_is_told_as_no_saving():
         told = str(dataclasses.replace(one, energy_ratio_error=error).headline()[1])
         assert ("it saves energy" in told) == saves, error
         assert ("it saves no energy" in told) == (not saves), error
+
+
+def test_the_page_s_verdict_has_the_same_bound():
+    script = Path(web.__file__).parent / "static/js/screens/drive.js"
+    text = script.read_text("utf-8")
+    assert f"const least = 1 - Math.max({EQUAL}, answer.energy_ratio_error);" in text
+    assert "after ? after * least > before : ratio && ratio < least" in text
 
 
 def test_an_energy_ratio_of_which_no_error_is_known_is_not_shown_of_a_way_that_settled():
