@@ -5,8 +5,8 @@ friction is enough. A vibration along the flank of amplitude :math:`u` lets it c
 bends asperities and teeth from there to full friction, :math:`u > s_{eff}(1 - \phi)`; far beyond,
 :math:`u \gg s_{eff}`, friction sides with the load for as much of the cycle as balances it, and the
 flanks creep at :math:`v_a\sin(\pi\phi/2)`. Only what sticks until it slips holds at all under the
-smallest vibration: Coulomb's friction, and Dahl's of exponent 0 if it is shaken along the flank
-alone; asperities of exponent 1 creep at any.
+smallest vibration: Coulomb's friction, and Dahl's of exponent 0 where it slips along the flank
+alone; other asperities creep at any.
 """
 
 import dataclasses
@@ -177,14 +177,7 @@ def answer(problem: DriveProblem, run: Run) -> Locking:
     threshold = None
     if locked:
         threshold, remarks = search.threshold(amplitudes, over)
-        notes += remarks
-        always = _creeps_always(problem.friction)
-        if always or (threshold == 0.0 and problem.friction.model != "coulomb"):
-            where = "" if always else " that slides them across the flank too"
-            notes.append(
-                f"friction.exponent is {problem.friction.exponent:g}: such asperities creep at any "
-                f"amplitude{where}; friction.model 'coulomb' holds"
-            )
+        notes += [*remarks, *_yields(problem.friction, threshold, closed or 0.0)]
     else:
         notes.append(_DRIVES)
     limit = math.sin(0.5 * math.pi * min(share, 1.0)) * turn * along * frequency
@@ -269,8 +262,18 @@ def _along(problem: DriveProblem, model: ReducedModel) -> float:
 
 
 def _creeps_always(friction: Friction) -> bool:
-    """Return whether asperities creep at any amplitude, whichever way they are shaken."""
+    """Return whether asperities creep at any amplitude, whichever way they slip."""
     return friction.model != "coulomb" and friction.exponent > 0.0
+
+
+def _yields(friction: Friction, threshold: float | None, closed: float) -> tuple[str, ...]:
+    """Return that asperities yield below their limit, where they do."""
+    said = "such asperities creep at any amplitude"
+    if not _creeps_always(friction):
+        if friction.model == "coulomb" or threshold is None or threshold >= 0.5 * closed:
+            return ()
+        said = "a slip across the flank makes such asperities yield below their limit"
+    return (f"friction.exponent is {friction.exponent:g}: {said}; friction.model 'coulomb' holds",)
 
 
 class _Marched(NamedTuple):
