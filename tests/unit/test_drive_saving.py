@@ -10,9 +10,12 @@ import pytest
 from apparatus.drives import all_solved, problem, solved
 
 from asperity import web
+from asperity.casefile import read_case
+from asperity.commands import case_tables
 from asperity.drive import directions
 from asperity.drive.protocols.saving import Saving, left
 from asperity.drive.result import EQUAL
+from asperity.drive.solve import answer, prepare
 from asperity.runs import Run
 
 LINEAR = 'drive.deflection=[["23 N m", "22.9375 urad"], ["366 N m", "365 urad"]]'
@@ -178,3 +181,18 @@ class TestPerActuator:
             dataclasses.replace(self.SAVED, of_step=math.inf, error=math.inf).would_tell(12, 1e-6)
             == ""
         )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mu", ["1e-6", "0.19"])
+def test_a_vibration_of_nothing_saves_nothing_of_elastic_teeth(mu):
+    """Their torque without vibration is a mean over places, which it does not know exactly."""
+    asked = ("drive.model=teeth", f"friction.mu={mu}", "vibration.velocity_ratio=1e-6")
+    found = answer(prepare(read_case("drive-screw", case_tables(), asked)), Run())
+    assert found.settled
+    assert found.saved_power is None
+    power = found.torque_static * found.problem.worm_speed
+    assert 0.0 < found.saved_power_error < 2e-4 * power
+    assert found.energy_ratio == pytest.approx(1.0, abs=found.saved_power_error / power)
+    if mu == "1e-6":
+        assert found.efficiency_static == pytest.approx(1.0, abs=2e-5)

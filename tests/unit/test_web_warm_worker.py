@@ -3,6 +3,8 @@
 import asyncio
 import sys
 
+import pytest
+
 from asperity.processes import sessions
 from asperity.web import warm_worker
 
@@ -44,8 +46,9 @@ def test_who_has_gone_by_the_time_it_is_his_turn_is_passed_over(tmp_path, monkey
     assert [status for status, _ in answers] == [200, *[499] * 10, 200]
 
 
-def test_one_that_is_stopped_while_somebody_waits_is_not_begun_anew(tmp_path, monkeypatch):
-    """As when a page is ended while it solves: it would wait for ever for the new one to end."""
+@pytest.fixture
+def begun(tmp_path, monkeypatch):
+    """Processes that are up and ready, and answer nothing; they are begun instead of solvers."""
     script = tmp_path / "silent.py"
     script.write_text(
         'import sys\nprint("{\\"up\\": 1}\\n{\\"ready\\": 1}", flush=True)\nsys.stdin.read()\n'
@@ -61,6 +64,16 @@ def test_one_that_is_stopped_while_somebody_waits_is_not_begun_anew(tmp_path, mo
         )
         return begun[-1]
 
+    monkeypatch.setattr(sessions, "begun", silent)
+    yield begun
+    for process in begun:
+        if process.returncode is None:
+            process.kill()
+
+
+def test_one_that_is_stopped_while_somebody_waits_is_not_begun_anew(tmp_path, begun):
+    """As when a page is ended while it solves: it would wait for ever for the new one to end."""
+
     async def main():
         owner = warm_worker.WarmWorker("solver", tmp_path)
         await owner.start()
@@ -75,12 +88,18 @@ def test_one_that_is_stopped_while_somebody_waits_is_not_begun_anew(tmp_path, mo
         await asyncio.wait_for(owner.stop(), 10.0)
         return await asyncio.wait_for(asked, 10.0)
 
-    monkeypatch.setattr(sessions, "begun", silent)
-    try:
-        status, _ = asyncio.run(main())
-    finally:
-        for process in begun:
-            if process.returncode is None:
-                process.kill()
+    status, _ = asyncio.run(main())
     assert status == 500
+
+
+def test_one_that_is_stopped_while_it_begins_leaves_no_process(tmp_path, begun):
+    async def main():
+        owner = warm_worker.WarmWorker("solver", tmp_path)
+        begins = asyncio.create_task(owner.start())
+        await asyncio.sleep(0)
+        await owner.stop()
+        await begins
+        assert not begun or begun[0].returncode is not None
+
+    asyncio.run(main())
     assert len(begun) == 1

@@ -55,13 +55,15 @@ class WarmWorker:
         with contextlib.suppress(OSError):
             self._process = await sessions.begun(*self._begin)
             self._reader = asyncio.create_task(self._read(self._process, self._frames))
+            if self._over.is_set():  # since it was asked to begin
+                await self.stop()
 
     def kill(self) -> None:
         """End the process at once."""
         sessions.end(self._process)
 
     async def stop(self, *, for_good: bool = True) -> None:
-        """End the process, whoever still waits for an answer, and wait until it has."""
+        """End the process, though somebody may wait for its answer, and wait until it has ended."""
         if for_good:
             self._over.set()
         self.kill()
@@ -93,8 +95,7 @@ class WarmWorker:
     async def _warm(self, kernels: bool) -> None:
         if sessions.lives(self._process):
             with contextlib.suppress(TimeoutError):
-                begun = self.ready if kernels else self.up
-                await asyncio.wait_for(begun.wait(), _SLOWEST_START)
+                await asyncio.wait_for((self.ready if kernels else self.up).wait(), _SLOWEST_START)
 
     async def _answer(self, verb: str, body: bytes, seconds: float, gone: Gone) -> Answer:
         process = self._process
@@ -137,8 +138,7 @@ class WarmWorker:
                 else:
                     (self.ready if "ready" in head else self.up).set()
         frames.put_nowait(None)
-        if frames is self._frames:
-            # Nobody waits for one that has ended.
+        if frames is self._frames:  # nobody waits for one that has ended
             self.up.set()
             self.ready.set()
 
