@@ -2,6 +2,7 @@
 
 import math
 
+from asperity.slider.kept_rings import keeps_a_ring
 from asperity.slider.model import Model
 from asperity.slider.ring_on_drive import rings_on_drive
 from asperity.slider.ringing import ringing_time, upward
@@ -46,6 +47,11 @@ def advice(
     if duration is None and rings_on_drive(model):
         return (
             f"{_NONE_FORESEEN}: nothing damps the body's ring on its drive; give "
+            "slider.drive_damping"
+        )
+    if duration is None and keeps_a_ring(model):
+        return (
+            f"{_NONE_FORESEEN}: friction alone damps the body's ring on its drive; give "
             "slider.drive_damping"
         )
     if duration is None:
