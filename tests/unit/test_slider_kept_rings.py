@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from asperity.casefile import read_case
-from asperity.slider import TABLES, Model, kept_rings, solve
+from asperity.slider import TABLES, Model, kept_rings, solve, solve_many
 from asperity.slider.kept_rings import keeps_a_ring
 
 ALL = (
@@ -58,6 +58,23 @@ def test_a_march_with_a_ring_that_friction_alone_damps_is_no_mean_by_chance(name
     assert told == pytest.approx(mean, abs=max(FAR, 2.0 * spread))
     assert answer.notes[-1].endswith("give slider.drive_damping")
     assert answer.notes[-1].startswith("no solve.duration is foreseen")
+
+
+def test_a_periodic_state_that_grows_is_told_where_a_march_from_rest_comes_to():
+    """It was told 0.97892, as the march was that it asks; long marches have 0.98203."""
+    given = 1005.88321873, 1.2673004005, 1.01, 1, "guided", "solve.method=periodic"
+    notes = "\n".join(solve(body(*given), history=False).notes)
+    (told,) = re.findall(r"march from rest settles at a ratio of ([\d.]+\d)", notes)
+    assert float(told) == pytest.approx(0.98203, abs=1e-3)
+
+
+def test_a_lane_of_a_batch_is_told_the_same():
+    given, _ = RINGS["as fast as its drive"]
+    models = [body(*given, f"solve.duration={span} s") for span in (12.8, 12.8)]
+    first, _ = solve_many(models)
+    alone = solve(models[0], history=False)
+    assert first.settled_by.startswith(kept_rings.UNALIKE) == (not first.settled)
+    assert first.notes[-1] == alone.notes[-1]
 
 
 def test_one_whose_mean_still_rises_has_not_settled():
