@@ -21,6 +21,7 @@ def advice(
     instead: str | None = "periodic",
     *,
     slips: bool = False,
+    rings: bool = False,
 ) -> str:
     """Say what duration would do; or, where none is foreseen, what would instead.
 
@@ -34,6 +35,8 @@ def advice(
         The method that looks for a state where none is.
     slips : bool
         Whether it sticks and slips though steady sliding would last as well.
+    rings : bool
+        Whether its cycles are unalike by a ring on the drive that friction alone damps.
     """
     falls = (model.friction.static_mu or 0.0) > model.friction.mu
     falls = falls and model.slider.drive_stiffness is not None
@@ -46,6 +49,11 @@ def advice(
     if duration is None and rings_on_drive(model):
         return (
             f"{_NONE_FORESEEN}: nothing damps the body's ring on its drive; give "
+            "slider.drive_damping"
+        )
+    if duration is None and rings:
+        return (
+            f"{_NONE_FORESEEN}: friction alone damps the body's ring on its drive; give "
             "slider.drive_damping"
         )
     if duration is None:

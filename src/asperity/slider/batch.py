@@ -30,6 +30,7 @@ from asperity.slider.batch_pressed_kernels import march_pressed_batch
 from asperity.slider.fading import quarter_means
 from asperity.slider.integrators import Integrator, integrator
 from asperity.slider.judged_march import judged_answer
+from asperity.slider.kept_rings import UNALIKE
 from asperity.slider.march import beyond_numbers, march, march_once
 from asperity.slider.model import Model, require_models
 from asperity.slider.on_its_way import STILL_GOES
@@ -263,4 +264,5 @@ def _answer(
         return failed
     if answer.settled or not given:
         return answer
-    return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen, model)))
+    rings = answer.settled_by.startswith(UNALIKE)
+    return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen, model, rings=rings)))

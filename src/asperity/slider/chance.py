@@ -20,8 +20,9 @@ import numpy as np
 
 from asperity.results.settled import Standing
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.from_rest import alike_after
+from asperity.slider.from_rest import period_of
 from asperity.slider.integrators import Integrator
+from asperity.slider.kept_rings import UNALIKE, cycles_as_long, keeps_a_ring, off_by_its_ring
 from asperity.slider.march_end import at_the_end, ratios_of, two_phases_on
 from asperity.slider.model import Model
 from asperity.slider.nearby import next_to
@@ -62,15 +63,19 @@ class Wandering(NamedTuple):
         Standard deviation of those of the blocks.
     cycles : int
         In a block.
+    by_ring : bool
+        Whether by a ring on the drive that friction alone damps, which may still fade.
     """
 
     mean: float
     spread: float
     cycles: int
+    by_ring: bool = False
 
     def __str__(self) -> str:
+        begins = f"{UNALIKE}: its" if self.by_ring else "the body goes on wandering: its"
         return (
-            "the body goes on wandering: its cycles do not repeat themselves, and the means of "
+            f"{begins} cycles do not repeat themselves, and the means of "
             f"{_BLOCKS} times {self.cycles} of them, {self.mean:.4g} in all, have a standard "
             f"deviation of {self.spread:.2g}"
         )
@@ -127,7 +132,9 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
     model, table = window.model, window.table
     if not model.vibrates:
         return None
-    if not (_softens(model) or _falls(model)) or model.duration < model.usual_duration:
+    if not (_softens(model) or _falls(model) or keeps_a_ring(model)):
+        return None
+    if model.duration < model.usual_duration:
         return None
     if bending(model) > 0.0 or still_rings(model, model.duration):
         return None
@@ -135,15 +142,17 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
     means = onward(_LOOKED_AT)
     if not _is_rough(means):
         return None
-    cycles, blocks, last = _blocks(onward, means, table, _WINDOWS)
-    if _repeat(last) or _has_come(blocks):
+    ring = keeps_a_ring(model)
+    as_long = cycles_as_long(model, table) // table.cycles if ring else 0
+    cycles, blocks, last = _blocks(onward, means, table, max(_WINDOWS, as_long))
+    if _repeat(last) or (_has_come(blocks) and not ring):
         return None
     if abs(blocks[-1] - blocks[0]) > _STRAIGHT * np.abs(np.diff(blocks)).sum():
         return None
     near = next_to(body, table)
     if near is not None and near.linear:
         return None
-    return Wandering(float(np.mean(blocks)), float(np.std(blocks, ddof=1)), cycles)
+    return Wandering(float(np.mean(blocks)), float(np.std(blocks, ddof=1)), cycles, ring)
 
 
 def _is_rough(means: Sequence[float]) -> bool:
@@ -155,7 +164,7 @@ def _is_rough(means: Sequence[float]) -> bool:
 
 def _repeat(means: Sequence[float]) -> bool:
     """Whether cycles repeat themselves, or differ by nothing that matters."""
-    return float(np.ptp(means)) <= UNSTEADY or _period(means) > 0
+    return float(np.ptp(means)) <= UNSTEADY or period_of(means) > 0
 
 
 def _has_come(blocks: Sequence[float]) -> bool:
@@ -179,13 +188,13 @@ def scatter(
     means : sequence of float
         Ratios of its next cycles where they repeat themselves and are known.
     """
-    if not (period := _period(means)):
+    if not (period := period_of(means)):
         apart, onward = _bends_apart(body.model), _onward(body, table)
         means = onward(_LEAST)
         if apart and np.ptp(means) <= _STEADY:
             return 0.0, ""
         means = [*means, *onward(_LOOKED_AT - _LEAST)]
-        period = _period(means)
+        period = period_of(means)
         # What goes slowly to where it repeats itself each cycle has not settled by chance.
         if apart and (period == 1 or np.ptp(means) <= UNSTEADY):
             return 0.0, ""
@@ -246,14 +255,6 @@ def _blocks(
     means = [*means, *onward(max(_BLOCKS * cycles - len(means), 0))]
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
     return cycles, blocks, means[-_LOOKED_AT:]
-
-
-def _period(means: Sequence[float]) -> int:
-    """Return after how many cycles their means come again; 0 where they do not."""
-    if not means:
-        return 0
-    periods = range(1, _LOOKED_AT // 3 + 1)
-    return next((each for each in periods if alike_after(np.array(means), each)), 0)
 
 
 def _after(period: int) -> str:
@@ -319,7 +320,7 @@ def comes_again(
     if not march_standing(window._replace(change=0.0)).settled:
         return None
     means = ratios_of(at_the_end(body(), table), _LOOKED_AT)
-    period = _period(means)
+    period = period_of(means)
     if period < 2:
         return None
     mean = float(np.mean(means[-period:]))
@@ -365,9 +366,12 @@ def judged(
             f"it sticks and slips: the halves of the next window are up to {off:.2g} of mu F_N off"
         )
         return (standing if off <= FAR else Standing(False, said)), ()
-    if not may_wander(body, table, sums):
+    if may_wander(body, table, sums):
+        off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]), means)
+    elif keeps_a_ring(model) and not means:
+        off, why = off_by_its_ring(body, table, sums)
+    else:
         return standing, ()
-    off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]), means)
     if off <= _NOTHING:
         return standing, ()
     said = f"{why}: the mean of the window is about {off:.2g} of mu F_N from that of all cycles"

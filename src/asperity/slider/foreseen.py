@@ -26,6 +26,7 @@ from asperity.slider.timetable import (
     bends_ever_more,
     drifts_for,
     in_whose_window,
+    longest_march,
     still_grows,
     still_loads,
     still_to_bend,
@@ -80,7 +81,7 @@ def needed(
         least += fades
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
-    return longest if model.duration < longest < math.inf else None
+    return longest if model.duration < longest <= longest_march(model) else None
 
 
 def _with_room(window: WindowMeans) -> list[float]:

@@ -8,6 +8,7 @@ it slides back and forth there or it does not, by where it comes from.
 
 import dataclasses
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -269,6 +270,14 @@ def _loading(model: Model) -> float:
 def alike_after(last: FloatArray, period: int) -> bool:
     """Whether the means of a march's last cycles come again after so many."""
     return bool(np.abs(last[period:] - last[:-period]).max() <= _ALIKE)
+
+
+def period_of(means: Sequence[float], most: int = 12) -> int:
+    """Return after how many cycles their means come again, at most so many; 0 where they do not."""
+    if not means:
+        return 0
+    periods = range(1, most + 1)
+    return next((each for each in periods if alike_after(np.array(means), each)), 0)
 
 
 def _repeating(body: Cycle, last: FloatArray) -> Cycle | None:

@@ -8,6 +8,7 @@ import numpy as np
 from asperity.results.settled import Standing
 from asperity.slider.astray import come_to_its_size, motion_across
 from asperity.slider.chance import judged, standing_by_cycles, wandering
+from asperity.slider.flights import flies_for_long
 from asperity.slider.foreseen import needed
 from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import MarchEnd, end_of_march, rings_unheard
@@ -116,6 +117,8 @@ def judged_answer(
         return answer, come_to_its_size(across, window.model)
     if answer.settled or (is_far and home is not None):
         return answer, home
+    if flies_for_long(body(), table, sums):
+        return answer, None
     return answer, foretold(window, body(), next_cycles, is_far=is_far, slips=slips)
 
 

@@ -5,6 +5,7 @@ import math
 from typing import Protocol, TypeVar
 
 from asperity.slider.advice import advice
+from asperity.slider.kept_rings import UNALIKE
 from asperity.slider.model import Model
 from asperity.slider.result import SlideResult
 from asperity.slider.ringing import FARTHEST, WHEN_SETTLED
@@ -69,7 +70,8 @@ def until_settled(
             continue
         if not answer.settled:
             slips = not model.vibrates and two_states(model) in answer.notes
-            note = advice(foreseen, model, instead, slips=slips)
+            rings = answer.settled_by.startswith(UNALIKE)
+            note = advice(foreseen, model, instead, slips=slips, rings=rings)
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:
             return answer

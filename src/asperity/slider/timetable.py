@@ -109,6 +109,11 @@ class Timetable:
         return self.window_start + first, self.middle, self.middle + third
 
 
+def longest_march(model: Model) -> float:
+    """Return the longest duration in s that a march takes in its steps."""
+    return _MOST_STEPS * model.step / model.substeps
+
+
 class WindowMeans(NamedTuple):
     """What a march has come to in its window; forces over mu F_N."""
 
