@@ -56,7 +56,7 @@ def test_a_march_with_a_ring_that_friction_alone_damps_is_no_mean_by_chance(name
     assert answer.settled_by.startswith(kept_rings.UNALIKE)
     told, spread = map(float, re.findall(r"([\d.]+) in all, .* of ([\d.]+)", answer.settled_by)[0])
     assert told == pytest.approx(mean, abs=max(FAR, 2.0 * spread))
-    assert answer.notes[-1].endswith("give slider.drive_damping")
+    assert answer.notes[-1].endswith("give more slider.drive_damping")
     assert answer.notes[-1].startswith("no solve.duration is foreseen")
 
 

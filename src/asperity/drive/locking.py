@@ -270,7 +270,7 @@ def _yields(friction: Friction, threshold: float | None, closed: float) -> tuple
     """Return that asperities yield below their limit, where they do."""
     said = "such asperities creep at any amplitude"
     if not _creeps_always(friction):
-        if friction.model == "coulomb" or threshold is None or threshold >= 0.5 * closed:
+        if friction.model == "coulomb" or threshold is None or threshold >= 0.05 * closed:
             return ()
         said = "a slip across the flank makes such asperities yield below their limit"
     return (f"friction.exponent is {friction.exponent:g}: {said}; friction.model 'coulomb' holds",)

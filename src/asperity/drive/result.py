@@ -214,8 +214,11 @@ class DriveResult(OfDrive):
 
     @property
     def equal(self) -> float:
-        """What powers may differ by that are the same as far as is known, over them."""
-        return max(EQUAL, self.energy_ratio_error or 0.0)
+        """What powers may differ by that are the same as far as is known, over them.
+
+        All of them, where no error is known.
+        """
+        return max(EQUAL, 1.0 if self.energy_ratio_error is None else self.energy_ratio_error)
 
     def headline(self) -> tuple[str, ...]:
         """Return what vibration does to torque, energy and contact."""

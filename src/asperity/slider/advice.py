@@ -53,8 +53,8 @@ def advice(
         )
     if duration is None and rings:
         return (
-            f"{_NONE_FORESEEN}: friction alone damps the body's ring on its drive; give "
-            "slider.drive_damping"
+            f"{_NONE_FORESEEN}: hardly anything but friction damps the body's ring on its drive; "
+            "give more slider.drive_damping"
         )
     if duration is None:
         other = (

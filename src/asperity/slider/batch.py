@@ -265,4 +265,6 @@ def _answer(
     if answer.settled or not given:
         return answer
     rings = answer.settled_by.startswith(UNALIKE)
-    return dataclasses.replace(answer, notes=(*answer.notes, advice(foreseen, model, rings=rings)))
+    return dataclasses.replace(
+        answer, notes=(*answer.notes, advice(None if rings else foreseen, model, rings=rings))
+    )

@@ -20,7 +20,7 @@ import numpy as np
 
 from asperity.results.settled import Standing
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.from_rest import period_of
+from asperity.slider.from_rest import again_after, period_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.kept_rings import UNALIKE, cycles_as_long, keeps_a_ring, off_by_its_ring
 from asperity.slider.march_end import at_the_end, ratios_of, two_phases_on
@@ -200,7 +200,7 @@ def scatter(
             return 0.0, ""
     if period:
         mean = float(np.mean(means[-period:]))
-        return abs(mean - ratio), f"{_after(period)}, whose mean ratio is {mean:.5g}"
+        return abs(mean - ratio), f"{again_after(period)}, whose mean ratio is {mean:.5g}"
     cycles, blocks, _ = _blocks(onward, means, table)
     uncertain = _STUDENT * float(np.std(blocks, ddof=1)) / math.sqrt(_BLOCKS)
     on = abs(float(np.mean(blocks)) - ratio)
@@ -255,11 +255,6 @@ def _blocks(
     means = [*means, *onward(max(_BLOCKS * cycles - len(means), 0))]
     blocks = [float(np.mean(means[n * cycles : (n + 1) * cycles])) for n in range(_BLOCKS)]
     return cycles, blocks, means[-_LOOKED_AT:]
-
-
-def _after(period: int) -> str:
-    after = "a cycle" if period == 1 else f"{period} cycles"
-    return f"the motion repeats itself after {after}"
 
 
 def standing_by_cycles(
@@ -332,7 +327,9 @@ def comes_again(
     differ = float(np.mean(before[half:]) - np.mean(before[:half]))
     if not abs(window.change - differ) <= UNSTEADY:
         return None
-    shown = f"{_after(period)}, whose mean ratio is {mean:.5g}; the halves of the window have no "
+    shown = (
+        f"{again_after(period)}, whose mean ratio is {mean:.5g}; the halves of the window have no "
+    )
     return Standing(True, f"{shown}whole number of them"), means
 
 

@@ -30,17 +30,18 @@ def longest_flight(body: Integrator, table: Timetable, sums: np.void) -> float:
     loading, state = getattr(body, "q", None), body.state
     if loading is None or not loading.mobility > 0.0:
         return 0.0
-    weight, rise = float(loading.mobility), 0.0
+    weight = float(loading.mobility)
     # The base comes to meet it.
     height = -float(sums["penetration_min"]) - 2.0 * abs(float(loading.base))
+    thrown = 2.0 * weight * max(height, 0.0)
     if not float(state["load"]) > 0.0:
-        rise, height = float(state["rise"]), max(height, -float(state["penetration"]))
-    thrown = math.sqrt(rise * rise + 2.0 * weight * max(height, 0.0))
-    return 2.0 * thrown / weight * table.step
+        above = max(-float(state["penetration"]), 0.0)
+        thrown = max(thrown, float(state["rise"]) ** 2 + 2.0 * weight * above)
+    return 2.0 * math.sqrt(thrown) / weight * table.step
 
 
 def flies_for_long(body: Integrator, table: Timetable, sums: np.void) -> bool:
-    """Whether a usual window has room for few of a body's flights, each of many cycles.
+    """Whether a usual window has room for less than a hundred of a body's flights of many cycles.
 
     It lands as chance has it and is thrown anew: no duration is foreseen by how its means change.
     """

@@ -81,7 +81,8 @@ def needed(
         least += fades
     # What lacks something else has had no more than chance for it in less than the usual duration.
     longest = max(least) if max(least) > model.duration else loaded
-    return longest if model.duration < longest <= longest_march(model) else None
+    # What is told is rounded up.
+    return longest if model.duration < longest <= 0.9 * longest_march(model) else None
 
 
 def _with_room(window: WindowMeans) -> list[float]:

@@ -280,6 +280,12 @@ def period_of(means: Sequence[float], most: int = 12) -> int:
     return next((each for each in periods if alike_after(np.array(means), each)), 0)
 
 
+def again_after(period: int) -> str:
+    """Say after how many cycles the motion repeats itself."""
+    after = "a cycle" if period == 1 else f"{period} cycles"
+    return f"the motion repeats itself after {after}"
+
+
 def _repeating(body: Cycle, last: FloatArray) -> Cycle | None:
     """Return the state next to where a march is, over as many cycles as its last ones repeat."""
     alike = [period for period in _PERIODS if alike_after(last, period)]

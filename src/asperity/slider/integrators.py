@@ -182,7 +182,7 @@ def integrator(model: Model, step: float) -> Integrator:
 
 
 def another_at(body: Integrator, step: float) -> Integrator:
-    """Return one that is where ``body`` is, with steps of so many radians; its sums are empty."""
+    """Return one that is where ``body`` is, with steps of so many s; its sums are empty."""
     other = integrator(body.model, step)
     for name, held in body.kept.items():
         if name != "sums":

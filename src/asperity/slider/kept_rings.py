@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.from_rest import period_of, ratio_of
+from asperity.slider.from_rest import again_after, period_of, ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import at_the_end
 from asperity.slider.model import Model
@@ -29,7 +29,7 @@ _BLOCKS, _STUDENT = 8, 2.36  # of what is marched on; of 7 degrees of freedom, 9
 # the time, past as long again as was marched.
 _TO_COME = 2.0
 
-UNALIKE = "friction alone damps the ring on the drive"
+UNALIKE = "hardly anything but friction damps the ring on the drive"
 """How it begins what is said of cycles that such a ring makes unalike."""
 
 
@@ -101,7 +101,7 @@ def off_by_its_ring(body: Integrator, table: Timetable, sums: np.void) -> tuple[
     ratio = float(sums["drive_force"] / sums["steps"])
     if period := period_of(onward.drive[-_LOOKED_AT:]):
         mean = float(np.mean(onward.drive[-period:]))
-        return abs(mean - ratio), f"the motion repeats itself after {period} cycles"
+        return abs(mean - ratio), again_after(period)
     count = max(cycles_as_long(model, table), len(onward.drive))
     onward.march(there, _BLOCKS * math.ceil(count / _BLOCKS))
     more, mean = len(onward.drive), float(np.mean(onward.drive))

@@ -71,6 +71,7 @@ def until_settled(
         if not answer.settled:
             slips = not model.vibrates and two_states(model) in answer.notes
             rings = answer.settled_by.startswith(UNALIKE)
+            foreseen = None if rings else foreseen
             note = advice(foreseen, model, instead, slips=slips, rings=rings)
             answer = dataclasses.replace(answer, notes=(*answer.notes, note))
         if marched == model.duration:

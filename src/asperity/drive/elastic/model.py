@@ -45,8 +45,9 @@ from asperity.runs import Run
 
 _MILLIMETRES = 1e3
 _PHASES = 8
-# Of a mean torque, the least: where teeth come in and go out it has corners.
+# A pitch, of a mean torque: where teeth come in and go out it has corners.
 _PLACES = 36
+_MOST_PITCHES = 4.0  # whose corners matter one by one
 # Asperities of Coulomb's friction: a deflection far below what the teeth bend.
 _BRITTLE = 2e-8
 # Turn of the worm that slides all asperities through, rad.
@@ -124,7 +125,8 @@ class TeethModel(MeshModel):
         """
         contact = self.contact
         pitches = (last - first) / self.pitch_angle
-        count = 3 * math.ceil(max(_PLACES, _PHASES * pitches) / 3)
+        count = max(_PLACES * min(max(pitches, 1.0), _MOST_PITCHES), _PHASES * pitches)
+        count = 3 * math.ceil(count / 3)
         places = (np.arange(count) + 0.5) / count
         phases = np.asarray(first + (last - first) * places, np.float64)
         touching = touching_angles(contact, phases)
@@ -135,7 +137,8 @@ class TeethModel(MeshModel):
     @property
     def reversed_torque(self) -> float:
         """Of the worm if all friction were turned round, mean over a pitch, N m."""
-        return float(self.sweeps[1].worm_torque.mean())
+        forward, back, _ = self.sweeps
+        return self.worm_torque * float(back.worm_torque.mean() / forward.worm_torque.mean())
 
     @functools.cached_property
     def teeth(self) -> Mesh:

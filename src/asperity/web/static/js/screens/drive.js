@@ -56,7 +56,7 @@ function Ledger({ answer, found }) {
 /** Whether the actuator's power is won back; on demand, whether a smaller motor is. */
 function Worth({ answer, found }) {
   const { system_efficiency: after, efficiency_static: before, energy_ratio: ratio } = answer;
-  const least = 1 - Math.max(0.005, answer.energy_ratio_error);
+  const least = 1 - Math.max(0.005, answer.energy_ratio_error ?? 1);
   const says = after
     ? `with the actuator's electrical power the efficiency is ${digits(100 * after, 3)} %, `
       + `without vibration ${digits(100 * before, 3)} %`
