@@ -90,8 +90,8 @@ def pytest_collection_finish() -> None:
 
 _ALL_SLOW = re.compile(r"^pytestmark = (\[\n\s*)?pytest\.mark\.slow\b", re.MULTILINE)
 
-# A slow test stands in a file or a folder that says so, or has a grid of cases.
-_NAMES_SLOW = re.compile(r"\b(slow|grid)\b")
+# A slow test stands in a file or a folder that says so, has a grid of cases or a few ordinary ones.
+_NAMES_SLOW = re.compile(r"\b(slow|grid|ordinary)\b")
 
 
 def _may_be_slow(path: Path) -> bool:
@@ -113,6 +113,7 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
 def pytest_collection_modifyitems(
     config: pytest.Config, items: list[pytest.Item]
 ) -> Generator[None]:
+    _leave_few_ordinary(items)
     for path in {item.path for item in items if item.get_closest_marker("slow")}:
         if not _may_be_slow(path):
             raise pytest.UsageError(f"{path}: has slow tests, and no word of what makes them slow")
@@ -131,6 +132,20 @@ def pytest_collection_modifyitems(
     if left_out:
         config.hook.pytest_deselected(items=[item for item in items if item in left_out])
         items[:] = [item for item in items if item not in left_out]
+
+
+def _leave_few_ordinary(items: list[pytest.Item]) -> None:
+    """Mark as slow what a test that says how many parameters are ordinary has more than those."""
+    alike = defaultdict(list)
+    for item in items:
+        if item.get_closest_marker("ordinary") and not item.get_closest_marker("slow"):
+            alike[item.nodeid.partition("[")[0]].append(item)
+    for parts in alike.values():
+        (count,) = parts[0].get_closest_marker("ordinary").args
+        kept = {math.floor(n * len(parts) / count) for n in range(count)}
+        for n, item in enumerate(parts):
+            if n not in kept:
+                item.add_marker("slow")
 
 
 def _outside_the_share(items: list[pytest.Item], share: float) -> set[pytest.Item]:

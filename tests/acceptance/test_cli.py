@@ -171,6 +171,7 @@ def test_the_cases_that_ship_are_listed(asperity):
     assert {"table-4.3", "table-4.4", *(f"table-4.1-L{n}" for n in range(1, 7))} <= set(names)
 
 
+@pytest.mark.slow
 def test_a_sweep_prints_one_object_and_writes_what_it_found(asperity, tmp_path):
     code, output, errors = asperity(
         "sweep", "table-4.4", "--set", "solve.method=periodic", "--json", "--out", tmp_path,
@@ -207,6 +208,7 @@ def test_a_sweep_is_readable_as_a_matrix_or_a_list(asperity):
     assert "... and 29 more rows; the files of --out, and --json, hold all" in output
 
 
+@pytest.mark.slow
 def test_a_sweep_in_which_a_point_fails_hands_back_the_others_and_ends_with_3(asperity, tmp_path):
     code, output, errors = asperity(
         "sweep", "table-4.4", *OVERSHOT, "--over", "vibration.velocity_ratio=30,2",
@@ -302,6 +304,7 @@ def test_a_process_of_its_own_answers_what_is_answered_here(asperity, asperity_p
     assert asperity_process(*arguments) == asperity(*arguments)
 
 
+@pytest.mark.slow
 def test_a_mistake_ends_the_process_with_2(asperity_process):
     mistake = ["slide", "table-4.3", "--set", "friction.mu=-1", "--json"]
     code, output, errors = asperity_process(*mistake)

@@ -39,6 +39,7 @@ def outcome(folder):
     return {key: value for key, value in answer.items() if key not in TIMES}
 
 
+@pytest.mark.slow
 def test_a_block_that_flutters_is_told_before_it_is_marched(asperity):
     modes = "--set", "block.modes=16", "--set", "block.damping_ratio=0", "--set", "solve.step=1 us"
     code, output, errors = asperity(*SHORT, *modes, "--json")

@@ -99,6 +99,7 @@ def test_the_heading_says_what_was_found(there, back, rest, told):
     assert found.heading() == told
 
 
+@pytest.mark.slow
 def test_a_state_that_a_body_comes_to_from_rest_alone_is_told(asperity):
     over = "vibration.velocity_ratio=18,20"
     code, output, _ = asperity("branches", "pin-on-disc", "--over", over, "--json")

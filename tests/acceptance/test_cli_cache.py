@@ -262,6 +262,7 @@ def test_a_cache_that_is_in_use_goes_on(cache, filled):
     assert list(kept.get(KEY)["one"]) == [0.0, 1.0, 2.0]
 
 
+@pytest.mark.slow
 def test_a_kernel_that_is_loaded_goes_on_and_keeps_what_it_compiles_next(cache, root, monkeypatch):
     monkeypatch.setenv("ASPERITY_NATIVE", "0")
 

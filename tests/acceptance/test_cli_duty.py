@@ -33,6 +33,7 @@ from = { "*" = "shop" }
 """
 
 
+@pytest.mark.slow
 def test_a_duty_is_begun_checked_and_sized_and_its_proposal_rated(asperity, tmp_path):
     begun = ("new", "duty", "my.toml", "--defaults", "--ratio", "50")
     code, output, errors = asperity(
@@ -97,6 +98,7 @@ def test_a_duty_that_lacks_something_is_refused_by_its_file(asperity, tmp_path, 
     assert errors.count("\n") <= 1
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "life",
     [
@@ -135,6 +137,7 @@ REFUSED = [
 ]  # fmt: skip
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(("settings", "said"), REFUSED, ids=[said for _, said in REFUSED])
 def test_new_and_check_refuse_what_size_refuses_in_its_words(asperity, tmp_path, settings, said):
     code, _, errors = asperity("new", "duty", "plain.toml", "--defaults", cwd=tmp_path)
@@ -275,6 +278,7 @@ def test_a_shelf_that_cannot_be_kept_is_refused(asperity, tmp_path, options, sai
     assert said in errors
 
 
+@pytest.mark.slow
 def test_backlash_of_each_proposal_is_that_of_its_rating(asperity, tmp_path):
     settings = ("--set", "tolerances.centre_distance=js7",
                 "--set", "tolerances.thread=['-40 um', '-70 um']",

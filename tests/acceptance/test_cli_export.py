@@ -50,6 +50,7 @@ def test_the_mean_friction_of_a_body_is_taken_to_c(asperity, tmp_path):
     assert "double asperity_friction(double velocity);" in header
 
 
+@pytest.mark.slow
 def test_over_a_value_the_mean_friction_is_a_map(asperity, tmp_path):
     over = "vibration.velocity_ratio=6,2"
     code, _, errors = asperity(
@@ -152,6 +153,7 @@ def test_what_cannot_be_written_is_said_in_one_line(asperity, tmp_path, argument
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
 
 
+@pytest.mark.slow
 def test_a_drive_that_is_all_but_none_is_one_line(asperity, tmp_path):
     code, output, errors = asperity(
         "export", "table-4.4", "--to", "csv", "--set", "solve.method=periodic",

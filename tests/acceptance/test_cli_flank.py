@@ -57,6 +57,7 @@ def nominal(asperity):
     return one_object(output)
 
 
+@pytest.mark.slow
 def test_json_has_every_number_for_one_flank_and_for_both(nominal):
     assert nominal.keys() >= OF_A_FLANK | OF_THE_GEARSET | {"mesh", "flanks", "notes"}
     assert nominal["flanks"].keys() == {"+1", "-1"}
@@ -292,6 +293,7 @@ def test_a_missing_extra_is_named_before_any_work(asperity, without, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_a_worm_that_misses_the_wheel_is_no_convergence(asperity):
     code, output, errors = asperity(
         "flank", "gearset-3b", "--json", "--set", "mount.centre_distance_error=8 mm"
@@ -301,6 +303,7 @@ def test_a_worm_that_misses_the_wheel_is_no_convergence(asperity):
     assert one_object(output)["reached"] == {"share_of_pitch": 0.0}
 
 
+@pytest.mark.slow
 def test_what_was_reached_may_be_no_number(capsys, monkeypatch):
     def lost(prepared):
         raise ConvergenceError("lost", reached={"backlash_mm": math.nan})

@@ -205,6 +205,7 @@ lubricant = "ISO VG 460 mineral"
 """
 
 
+@pytest.mark.slow
 def test_nothing_is_listed_as_best_that_a_standard_fails_by_which_it_holds(asperity, tmp_path):
     path = tmp_path / "slow.toml"
     path.write_text(SLOW, encoding="utf-8")
@@ -459,6 +460,7 @@ def test_a_file_of_ones_own_that_is_wrong_is_named(asperity, tmp_path, name, why
     assert why in errors
 
 
+@pytest.mark.slow
 def test_one_step_has_the_levers_of_the_constant_load(asperity):
     load = ("rate", "gearset-3", "--set", "operation.life=500 h")
     code, output, errors = asperity(*load, "--json")

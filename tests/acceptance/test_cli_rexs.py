@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+import pytest
+
 EXAMPLE = Path(__file__).parents[1] / "rexs" / "FVA_worm_stage_1-4.rexs"
 
 
@@ -23,6 +25,7 @@ def test_a_gearset_goes_out_and_comes_back(asperity, tmp_path):
     assert "is there already" in errors
 
 
+@pytest.mark.slow
 def test_the_public_example_is_a_case_and_says_what_it_assumes(asperity, tmp_path):
     case = tmp_path / "example.toml"
     code, _, errors = asperity("new", "gear", case, "--from", EXAMPLE)

@@ -57,6 +57,7 @@ def written(asperity, recording, tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_a_reduction_has_the_keys_of_the_contract(reduced):
     assert reduced.keys() >= {"segments", "runout_percent", "noise_Nm", "gaps", "notes"}
     assert [list(one) for one in reduced["segments"]] == [KEYS, KEYS]
@@ -127,6 +128,7 @@ def test_an_accelerometer_tells_the_velocity_of_the_vibration(asperity, tmp_path
             assert float(row["k_v_with"]) == pytest.approx(peak / 5.5, rel=0.02)
 
 
+@pytest.mark.slow
 def test_weighings_give_archards_coefficient_on_the_path_of_the_discs(asperity, recording):
     lost = ("--set", "steel_disc.mass_loss=2 mg", "--set", "bronze_disc.mass_loss=9 mg")
     code, output, errors = asperity("rig", "reduce", recording, *lost, "--json")
@@ -212,6 +214,7 @@ def test_repeats_of_a_cell_are_pooled():
     assert repeats([measured(250.0, 2.0)]) == (None, 0)
 
 
+@pytest.mark.slow
 def test_a_calibration_past_its_last_day_leaves_nothing_good(asperity, recording):
     dated = 'channels.torque_steel={channel="A", points=[["-5 V","-2 N m"],["5 V","2 N m"]], '
     dated += "date=2023-03-01, valid_days=365}"
@@ -278,6 +281,7 @@ def test_a_budget_adds_up_to_the_interval_that_is_told(budgeted):
             assert half == pytest.approx(one["expanded_uncertainty"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_budget_names_what_it_does_not_count(budgeted, asperity, environment, recording):
     told = "\n".join(budgeted["not_counted"])
     assert "the calibration of speed_steel is taken as exact: 2 points" in told
@@ -292,6 +296,7 @@ def test_a_budget_names_what_it_does_not_count(budgeted, asperity, environment, 
     assert "Uncertainty (GUM)" not in plainly
 
 
+@pytest.mark.slow
 def test_a_calibration_of_three_points_widens_a_torque_by_students_factor(asperity, recording):
     points = '[["-5 V","-2.05 N m"],["0 V","0.1 N m"],["5 V","1.95 N m"]]'
     few = f'channels.torque_steel={{channel="A", points={points}}}'
@@ -316,6 +321,7 @@ def test_a_calibration_of_three_points_widens_a_torque_by_students_factor(asperi
     assert (part["type"], part["freedom"]) == ("A", 1.0)
 
 
+@pytest.mark.slow
 def test_a_sheet_s_hysteresis_and_creep_are_in_the_budget(asperity, recording):
     sheet = 'channels.torque_steel={channel="A", points=[["-5 V","-2 N m"],["5 V","2 N m"]], '
     sheet += 'uncertainty="2 mN m", capacity="2 N m", hysteresis="0.2 %", creep="1 mN m"}'
@@ -347,6 +353,7 @@ def test_files_hold_the_budgets(written, budgeted):
     assert math.sqrt(squares) == pytest.approx(torque["standard_uncertainty"])
 
 
+@pytest.mark.slow
 def test_a_sliding_velocity_not_told_apart_from_zero_is_a_flag(asperity, recording):
     # The zero is seen at rest, so that the gain is left: it is not known by some 85 % of 5.4 and
     # 8.4 mm/s of the rim, which slides at 2.5 and 5.5 mm/s.
@@ -360,6 +367,7 @@ def test_a_sliding_velocity_not_told_apart_from_zero_is_a_flag(asperity, recordi
             assert said in one["flags"]
 
 
+@pytest.mark.slow
 def test_a_torque_past_its_range_costs_its_segment_alone(asperity, tmp_path):
     run = phases()
     run[1] = dataclasses.replace(run[1], torque_steel=1e4)
@@ -370,6 +378,7 @@ def test_a_torque_past_its_range_costs_its_segment_alone(asperity, tmp_path):
     assert first["torque_change_percent"] is None
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("places", [(1,), (1, 4)])
 def test_a_current_past_its_range_costs_the_efficiency_of_its_segment_alone(
     asperity, reduced, tmp_path, places
@@ -391,6 +400,7 @@ def test_a_current_past_its_range_costs_the_efficiency_of_its_segment_alone(
             assert ends == pytest.approx([low, high], abs=0.1 * (high - low))
 
 
+@pytest.mark.slow
 def test_windows_of_a_few_blocks_are_reduced_and_another_confidence_is_told(asperity, tmp_path):
     short = run_of(3.0, frequencies=FREQUENCIES, ratios=RATIOS, duration=1.1)
     path = record(tmp_path / "run.nc", short, rate=RATE)
@@ -410,6 +420,7 @@ def test_windows_of_a_few_blocks_are_reduced_and_another_confidence_is_told(aspe
     assert any("speed_settling" in flag for flag in json.loads(output)["segments"][0]["flags"])
 
 
+@pytest.mark.slow
 def test_a_disc_at_rest_and_no_current_leave_what_there_is(asperity, tmp_path):
     run = [dataclasses.replace(one, speed_bronze=0.0, current_steel=0.0) for one in phases()]
     rig = dataclasses.replace(NOISY, speed_noise=0.0, current_noise=0.0)
@@ -423,6 +434,7 @@ def test_a_disc_at_rest_and_no_current_leave_what_there_is(asperity, tmp_path):
     assert one["power_change_ci95_percent"] is not None
 
 
+@pytest.mark.slow
 def test_a_signal_that_is_mapped_to_no_channel_is_refused(asperity, tmp_path):
     with Recorder(tmp_path / "run.nc", [Source("torque_steel", "V", 1e-3)], 1e-3) as made:
         made.append(np.zeros((500, 1), np.int16), 0.5)
@@ -447,6 +459,7 @@ def test_a_recording_is_no_repeat_of_itself(asperity, recording):
     refused(asperity("rig", "reduce", recording, recording), "run-1.nc is given twice")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("missed", [(0,), (1,)])
 def test_a_missed_start_of_the_vibration_costs_its_segment_alone(asperity, tmp_path, missed):
     path = record(tmp_path / "run.nc", phases(missed=missed), rate=RATE)
@@ -456,6 +469,7 @@ def test_a_missed_start_of_the_vibration_costs_its_segment_alone(asperity, tmp_p
     assert found == [FREQUENCIES[1 - missed[0]]]
 
 
+@pytest.mark.slow
 def test_a_run_that_stops_half_way_keeps_what_was_whole(asperity, tmp_path):
     path = record(tmp_path / "run.nc", phases()[:4], rate=RATE)
     code, output, errors = asperity("rig", "reduce", path, "--json")
@@ -463,6 +477,7 @@ def test_a_run_that_stops_half_way_keeps_what_was_whole(asperity, tmp_path):
     assert [one["quality"] for one in json.loads(output)["segments"]] == ["good"]
 
 
+@pytest.mark.slow
 def test_a_triangle_is_told_from_a_sine(asperity, tmp_path):
     path = record(tmp_path / "run.nc", phases(waveform="triangle"), rate=RATE)
     segments = json.loads(asperity("rig", "reduce", path, "--json")[1])["segments"]
@@ -476,6 +491,7 @@ def refused(answer, *parts):
     assert all(part in errors for part in parts), errors
 
 
+@pytest.mark.slow
 def test_what_cannot_be_reduced_is_refused_in_a_line(asperity, recording, tmp_path):
     still = record(tmp_path / "still.nc", phases(missed=(0, 1)), rate=RATE)
     refused(asperity("rig", "reduce", still), "still.nc", "no vibration found")
@@ -615,6 +631,7 @@ def test_a_recording_of_the_name_of_its_answer_is_not_written_over(asperity, rec
         assert mine.read_bytes() == recording.read_bytes()
 
 
+@pytest.mark.slow
 def test_a_run_begins_in_no_folder_that_holds_recordings(asperity, tmp_path):
     (tmp_path / "file-01.nc").write_bytes(b"measured once")
     refused(asperity("rig", "run", "rig-final", "--out", tmp_path), "file-01.nc is there already")
@@ -700,6 +717,7 @@ def test_a_check_lists_what_is_wrong_and_draws_each(asperity, tmp_path):
     assert "good " not in reduced
 
 
+@pytest.mark.slow
 def test_a_check_of_a_sound_recording_finds_nothing(asperity, recording, tmp_path):
     code, output, errors = asperity("rig", "check", recording, "--out", tmp_path, "--json")
     assert code == 0, errors
@@ -707,6 +725,7 @@ def test_a_check_of_a_sound_recording_finds_nothing(asperity, recording, tmp_pat
     assert (tmp_path / "check.png").is_file()
 
 
+@pytest.mark.slow
 def test_an_import_tells_what_is_wrong_with_what_was_heard(asperity, tmp_path):
     path = faulty("torque inverted", 1, tmp_path / "run.nc", **SMALL)
     code, output, errors = asperity("rig", "import", path, "rig-final", "--json")

@@ -9,6 +9,7 @@ from apparatus.rigs import SMALL
 SETTINGS = [part for one in SMALL for part in ("--set", one)]
 
 
+@pytest.mark.slow
 def test_a_plan_is_one_json_object_with_its_files(asperity, tmp_path):
     code, output, errors = asperity(
         "rig", "plan", "rig-final", "--json", "--out", "plan", cwd=tmp_path
@@ -50,6 +51,7 @@ def test_a_run_is_resumed_acknowledged_and_reduced(asperity, tmp_path):
     }
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("given", "said"),
     [

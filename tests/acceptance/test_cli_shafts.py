@@ -120,6 +120,7 @@ def test_static_safety_is_judged_for_rollers_by_more_than_for_balls(run, tmp_pat
     assert own["by"].startswith("worm bearing B")
 
 
+@pytest.mark.slow
 def test_what_is_not_given_of_shafts_is_named_on_the_screen(run, tmp_path):
     assert "not given" not in run("rate", CASE).stdout
     text = run("cases", CASE).stdout.partition("[wheel_shaft]")[0]

@@ -54,6 +54,7 @@ def rated(path):
     return beside_rating(case)(rate_case(case), Run())
 
 
+@pytest.mark.slow
 def test_every_proposal_has_the_verdict_of_its_rating_to_the_last_bit(asperity, duty_file):
     folder = duty_file.parent / "out"
     code, _, errors = asperity("size", str(duty_file), "--uncut", "--out", str(folder))
@@ -154,6 +155,7 @@ def test_what_is_not_given_of_shafts_is_told_with_the_proposals():
     assert said in proposals(values, RATIO).notes
 
 
+@pytest.mark.slow
 def test_a_margin_that_is_asked_for_counts_for_shafts_too():
     values = begun(dynamic_rating="4 kN")
     free = proposals(values, RATIO).found[0]

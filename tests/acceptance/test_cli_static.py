@@ -17,6 +17,7 @@ NORMAL = [
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_static_friction_stands_beside_its_closed_form_and_the_load_it_is_of(asperity, tmp_path):
     folder = tmp_path / "out"
     code, output, errors = asperity("static", "table-4.3", *NORMAL, "--json", "--out", folder)

@@ -36,6 +36,7 @@ def shell(environment, tmp_path):
     return run
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("command", ["cases --json", "cases", "--help", slow("rate gearset-3")])
 @pytest.mark.parametrize(
     ("where", "why"),
@@ -51,6 +52,7 @@ def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command,
     )
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("command", "code", "error"),
     [
@@ -127,6 +129,7 @@ def test_without_standard_error_notes_do_not_spoil_the_answer(shell):
     assert json.loads(output)["name"] == "gearset 3"
 
 
+@pytest.mark.slow
 def test_a_name_is_shown_so_that_a_terminal_does_not_obey_it(shell):
     code, output, errors = shell("asperity slide \"$(printf 'a\\033[2J\\377')\"")
     assert (code, output) == (2, "")

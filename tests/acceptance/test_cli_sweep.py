@@ -68,6 +68,7 @@ def test_a_sweep_interrupted_and_then_killed_loses_nothing_that_was_done(
     assert ratio[124] == pytest.approx(json.loads(output)["ratio"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_damaged_cache_costs_a_line_and_is_replaced(asperity, environment):
     asperity(*SMALL)
     (database,) = Path(environment["ASPERITY_CACHE"], "asperity", "sweep").glob("*.sqlite")

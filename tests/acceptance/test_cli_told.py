@@ -21,6 +21,7 @@ UNITS = {"mm", "um", "deg", "rad", "N", "W", "degC"}
 CLASS = "spectrum.duty_class=EN 15714-2 A"
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("command", "first", "later", "table"),
     [
@@ -65,6 +66,7 @@ def test_teeth_and_starts_that_are_held_are_the_ratio(asperity):
     assert "ratio is missing" in errors
 
 
+@pytest.mark.slow
 def test_cases_side_by_side_are_in_the_units_and_language_that_are_asked_for(asperity):
     cases = ("compare", "gearset-2", "gearset-3")
     code, output, errors = asperity(*cases, "--units", "us", "--language", "de")
@@ -83,6 +85,7 @@ def test_cases_side_by_side_are_in_the_units_and_language_that_are_asked_for(asp
     assert "--units uk: it must be one of" in errors
 
 
+@pytest.mark.slow
 def test_what_a_case_lacks_is_said_in_the_language_that_is_asked_for(asperity, tmp_path):
     code, output, errors = asperity("check", "gearset-3", "--language", "de")
     assert code == 0, errors
@@ -125,6 +128,7 @@ def test_a_setting_that_takes_the_place_of_what_the_file_gives_is_named(tmp_path
     assert tried > 20
 
 
+@pytest.mark.slow
 def test_a_life_that_takes_the_place_of_a_duty_cycle_is_told_once(asperity):
     life = ("--set", "operation.life=25000 h")
     told = "takes the place of operation.duty_cycle, which actuator-shafts gives"
@@ -163,6 +167,7 @@ def test_so_is_a_load_that_an_option_of_size_gives_in_another_form(
     assert ("takes the place" in errors) == gives
 
 
+@pytest.mark.slow
 def test_so_is_an_axis_which_the_report_of_a_grid_shows_as_such(asperity, tmp_path):
     over = "vibration.velocity_amplitude=1,2 mm/s"
     code, _, errors = asperity(
@@ -178,6 +183,7 @@ def test_so_is_an_axis_which_the_report_of_a_grid_shows_as_such(asperity, tmp_pa
     assert row[1:] == ["1,2 mm/s", f"--over {over}"]
 
 
+@pytest.mark.slow
 def test_an_axis_from_a_file_of_points_is_shown_as_such_too(asperity, tmp_path):
     (tmp_path / "points.csv").write_text("friction.mu,vibration.velocity_ratio\n0.1,2\n0.2,3\n")
     points = tmp_path / "points.csv"
@@ -193,6 +199,7 @@ def test_an_axis_from_a_file_of_points_is_shown_as_such_too(asperity, tmp_path):
     assert row[2].endswith("points.csv: the column friction.mu")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cases", [slow(("gearset-3", "gearset-3b")), ("table-4.3", "table-4.4")])
 def test_cases_side_by_side_are_the_same_in_netcdf_and_json(asperity, tmp_path, cases):
     code, _, errors = asperity("compare", *cases, "--out", tmp_path)

@@ -30,6 +30,7 @@ def test_without_tolerances_nothing_is_said_of_them(asperity):
     assert "backlash" not in json.loads(asperity("rate", "gearset-2", "--json")[1])
 
 
+@pytest.mark.slow
 def test_rate_says_the_backlash_new_warm_and_worn(asperity):
     sets = SET, "tolerances.centre_distance=js7", SET, "tolerances.fit=C", SET, TEMPERATURES
     screen = asperity("rate", "gearset-2", *sets)[1]
@@ -54,6 +55,7 @@ def test_what_is_wrong_with_a_tolerance_is_one_line(asperity, setting):
     assert errors.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_two_ways_to_say_a_thickness_are_one_line(asperity):
     for more, said in (
         (("mount.backlash='0.05 mm'", "tolerances.fit=C"), "mount.backlash and tolerances.fit"),

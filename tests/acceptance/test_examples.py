@@ -35,12 +35,14 @@ def test_a_first_slide(example):
     assert example("a_first_slide")["ratio"] == pytest.approx(0.13700, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_every_direction(example):
     names = example("every_direction")
     assert names["ratios"][2, 12] == pytest.approx(0.40459, rel=1e-3)
     assert names["best"].tolist() == [90.0, 0.0, 0.0, 0.0]
 
 
+@pytest.mark.slow
 def test_friction_law_across_the_drive(example):
     names = example("friction_law_across_the_drive")
     assert names["across"]["split"][23] == pytest.approx(0.40459, rel=1e-3)

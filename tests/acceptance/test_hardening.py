@@ -39,6 +39,7 @@ def test_a_link_where_a_folder_is_held_is_refused_and_what_it_leads_to_is_kept(t
     assert not (tmp_path / "nowhere").exists()
 
 
+@pytest.mark.slow
 def test_a_page_refuses_a_folder_that_is_held_by_a_link(asperity_process, tmp_path):
     (tmp_path / "target").write_text("kept\n")
     (tmp_path / ".asperity-page").symlink_to(tmp_path / "target")

@@ -21,6 +21,7 @@ CALLS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["slide", slow("optimise"), slow("flank")])
 def test_a_call_is_left_within_two_seconds(name):
     # Kernels are loaded, as they are from the second cell on.

@@ -26,6 +26,7 @@ def rated(tmp_path_factory):
     return text, Page(text), json.loads((folder / "rate.json").read_text("utf-8"))
 
 
+@pytest.mark.slow
 def test_every_number_of_a_report_is_that_of_the_json_and_shown_rounded(rated):
     _, page, answer = rated
     assert len(page.numbers) > 200
@@ -64,6 +65,7 @@ def test_other_reports_draw_the_gearset_and_say_the_numbers_of_the_json(
     assert all(place.startswith("data:") or place == "gearset.glb" for place in page.asked)
 
 
+@pytest.mark.slow
 def test_a_body_has_a_report_too_with_its_picture_and_what_was_set(asperity, tmp_path):
     set_so = "vibration.direction=37 deg"
     code, _, errors = asperity("slide", "body-shaken-along", "--set", "solve.method=periodic",
@@ -136,6 +138,7 @@ def test_a_rating_shows_how_the_flanks_touch_where_that_is_asked_for(asperity, r
     assert answer == json.loads(asperity("rate", "gearset-3b", "--json")[1])
 
 
+@pytest.mark.slow
 def test_a_pattern_without_a_report_is_refused_in_a_line(asperity):
     assert asperity("rate", "gearset-3b", "--pattern") == (
         2, "", "--pattern: it is shown in the report; name a folder for it with --out\n"

@@ -176,6 +176,7 @@ def check_crate(told, folder):
     return entities
 
 
+@pytest.mark.slow
 def test_a_package_is_what_datacite_asks_for(package):
     told = _json(package / "datacite.json")
     check_datacite(told)
@@ -212,6 +213,7 @@ def test_check_sums_are_those_of_every_file(run, package):
     assert kept.read_bytes() == (run / "run" / "run 1.nc").read_bytes()
 
 
+@pytest.mark.slow
 def test_what_is_packed_can_be_reduced_again(asperity, package):
     # What was set stands in the case beside them.
     given = "--config", package / "case.toml", "--json"

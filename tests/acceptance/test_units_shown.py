@@ -34,6 +34,7 @@ def registry():
     return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
+@pytest.mark.ordinary(15)
 @pytest.mark.parametrize("unit", US)
 def test_factors_are_those_of_pint(unit):
     quantity = registry().Quantity(37.25, GIVEN.get(unit, unit))
@@ -103,6 +104,7 @@ def test_every_number_of_a_rating_is_shown_as_it_is_converted():
     assert changed > 40
 
 
+@pytest.mark.slow
 def test_screen_and_report_are_in_inches_and_json_is_in_si(asperity, tmp_path):
     si = asperity("rate", "gearset-3", "--json")[1]
     assert asperity("rate", "gearset-3", "--json", "--units", "us")[1] == si

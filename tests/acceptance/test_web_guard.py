@@ -234,6 +234,7 @@ def test_a_check_looks_into_no_file_outside_the_folder(page, tmp_path):
     assert not (page.folder / "o.toml").exists()
 
 
+@pytest.mark.slow
 def test_a_folder_is_served_by_one_page(page, asperity_process):
     code, output, errors = asperity_process("page", "--no-browser", "--folder", page.folder)
     assert (code, output) == (2, "")

@@ -110,6 +110,7 @@ CLAIMS = ("1.1", "3.3", "3.5", "3.7", "3.9", "3.14", "3.18")
 SAID = ("id", "text", "section", "theirs", "said", "verdict", "ours", "why")
 
 
+@pytest.mark.slow
 def test_the_claims_that_ship_are_those_of_the_thesis_and_what_making_them_gives(tmp_path):
     from asperity.thesis import run
     from asperity.thesis.reproduce.ledger import ledger

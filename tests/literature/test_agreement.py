@@ -54,6 +54,7 @@ def test_march_and_periodic_state_agree_over_all_speeds_and_directions(case, law
     assert marched == pytest.approx(ratios(case, law, *grid, "periodic"), rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "law"),
     grid(CASES, LAWS, ordinary=[("table-4.3", "split"), ("table-4.4", "vector")]),

@@ -72,6 +72,7 @@ def test_the_mean_contact_pressure_is_load_over_area(sliding):
     assert mean == pytest.approx(sliding.setup.problem.mean_pressure, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_pressure_over_the_face_is_that_of_the_package(tmp_path):
     run = Run(tmp_path, "block.elements=[6,5,4]", "block.element=hex8i", steps=1)
     problem, mean = run.setup.problem, run.setup.problem.mean_pressure

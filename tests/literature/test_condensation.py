@@ -38,6 +38,7 @@ def freedoms(nodes):
     return (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel()
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("element", ["hex8", "hex8i", "hex27"])
 def test_a_tied_body_is_as_flexible_as_its_whole_stiffness_says(element):
     mesh = block(element)
@@ -72,6 +73,7 @@ def test_a_free_body_is_as_flexible_as_all_its_elastic_modes_together():
     assert np.abs(condensed.load_compliance[3:, 3:] - exact).max() < 1e-10 * np.abs(exact).max()
 
 
+@pytest.mark.slow
 def test_a_free_body_under_loads_in_equilibrium_deforms_as_any_statically_held_one_does():
     mesh = block()
     condensed = condense(mesh, STEEL, "bottom", use_cache=False)
@@ -147,6 +149,7 @@ def test_modes_take_their_share_of_the_flexibility_and_leave_the_rest():
     assert np.abs(total - condensed.load_flexibility).max() < 1e-12 * scale
 
 
+@pytest.mark.slow
 def test_smooth_tractions_find_nothing_left_in_the_residual_flexibility():
     mesh = block("hex27", (4, 3, 3))
     surface = contact_surface(mesh, "bottom")
@@ -160,6 +163,7 @@ def test_smooth_tractions_find_nothing_left_in_the_residual_flexibility():
             assert np.abs(left).max() < 1e-8 * np.abs(whole).max()
 
 
+@pytest.mark.slow
 def test_shapes_of_the_whole_body_are_those_of_its_contact_nodes():
     mesh = box((0.04, 0.03, 0.03), (3, 2, 2), 2)
     surface = contact_surface(mesh, "bottom")

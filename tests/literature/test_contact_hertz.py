@@ -173,6 +173,7 @@ def test_a_sphere_on_a_half_space_touches_as_hertz_says(quarter_of_half_space, l
     assert found.radius_of_area == pytest.approx(1.0, abs=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["hard", slow("linear")])
 def test_a_cylinder_on_a_half_plane_touches_as_hertz_says(law):
     found = cylinder_on_half_plane(32, law)

@@ -124,6 +124,7 @@ def loads_of(problem, whole):
     return gravity, problem.nodal_loads
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "settings",
     [

@@ -10,6 +10,7 @@ from asperity.slider.cycle_map import Cycle
 from asperity.slider.periodic import cycle_steps
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "period"),
     [(22, 4), slow(22.8, 8), slow(22.95, 8), slow(23, 8), slow(23.2, 8), slow(23.3, 8)],

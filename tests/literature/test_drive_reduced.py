@@ -50,6 +50,7 @@ def test_one_radius_gives_the_torques_of_the_loaded_teeth():
     assert slope / 0.1 == pytest.approx(0.82, abs=0.02)  # N m/mm
 
 
+@pytest.mark.slow
 def test_a_screw_near_the_resonance_takes_the_power_of_the_model_of_two_freedoms():
     settings = [
         (
@@ -128,6 +129,7 @@ def held():
     return locked("vibration.displacement_amplitude=15 um")
 
 
+@pytest.mark.slow
 def test_a_gearset_that_nothing_shakes_holds_by_the_same_share(held):
     shaken = case(*LOCKING)
     still = dataclasses.replace(
@@ -197,6 +199,7 @@ def test_a_gearset_holds_until_vibration_bends_its_flanks_to_full_friction(held)
     assert (abs(held.creep_over[below]) < 1e-3 * abs(held.creep)).all()
 
 
+@pytest.mark.slow
 def test_far_beyond_it_creeps_by_the_balance_of_friction():
     # A light worm comes to its creep soon.
     answer = locked("vibration.displacement_amplitude=15 um", "drive.worm_inertia=1e-5 kg m**2")
@@ -213,6 +216,7 @@ def test_a_gearset_that_hardly_holds_has_a_threshold_all_the_same():
     assert answer.threshold == pytest.approx(answer.threshold_closed_form, rel=0.1)
 
 
+@pytest.mark.slow
 def test_asperities_of_exponent_1_creep_at_any_amplitude():
     ductile = ("friction.model=dahl", "friction.exponent=1", "drive.tangential_compliance=0 m/N")
     answer = locked("vibration.displacement_amplitude=0.1 um", *ductile)

@@ -74,6 +74,7 @@ def model_of(*settings, phases=PHASES):
     return StaticModel(problem_of(*settings), Run(), phases)
 
 
+@pytest.mark.slow
 def test_one_tooth_takes_the_torque_of_another_implementation():
     model = model_of(*ONE_TOOTH)
     asked = [LoadCase(LOAD, sense) for sense in (1, FRICTIONLESS, REVERSED)]
@@ -148,6 +149,7 @@ def test_surfaces_that_only_just_touch_or_part_are_solved_like_others():
             assert (action.wrench[5] > 0.0) == (behind > 0.0)
 
 
+@pytest.mark.slow
 def test_a_housing_that_gives_is_the_centre_distance_that_it_gives_way_to():
     soft = model_of(*ONE_TOOTH, "shaft.housing=40 kN/mm", phases=1)
     borne = soft.equilibrium.balance(0.0, LOAD)
@@ -209,6 +211,7 @@ def test_a_left_hand_drive_is_the_mirror_image():
     np.testing.assert_array_equal(mirrored.node_face, -right.node_face)
 
 
+@pytest.mark.slow
 def test_a_torque_that_cuts_through_the_teeth_is_refused_in_a_line():
     with pytest.raises(InputError, match=r"operation.output_torque is 100000 N m; it would press"):
         solve_static(problem_of(*ONE_TOOTH, "operation.output_torque=1e5 N m"), Run())

@@ -55,6 +55,7 @@ def test_it_is_passive_and_a_stiffer_steel_gives_less():
     assert thread_flexibility(flank, 2.0 * E, NU) == pytest.approx(0.5 * flexibility, rel=1e-12)
 
 
+@pytest.mark.slow
 def test_the_steel_of_the_threads_stands_beside_the_teeth_s_own_flexibility():
     rigid, elastic = (
         condensed(problem("drive.teeth=1", f"drive.threads={threads}"), Run())

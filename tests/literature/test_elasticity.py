@@ -71,6 +71,7 @@ def test_a_single_element_strains_in_every_motion_but_the_six_rigid_ones(element
     assert values[6] > 1e-4 * values[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("element", ["hex8", "hex27"])
 def test_stiffness_and_mass_are_those_scikit_fem_assembles_itself(element):
     import skfem

@@ -128,6 +128,7 @@ def body(tmp_path):
     return of
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [slow(HALVED), PUMPED])
 def test_the_state_is_shown_to_which_a_body_from_rest_comes(body, case):
     alone = solve_periodic(body(case, "solve.method=periodic"), history=False)
@@ -233,6 +234,7 @@ def test_a_body_that_is_thrown_is_shown_as_it_bounces_from_rest(tmp_path, ratio,
     assert any("repeats itself as well" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_a_march_that_rings_beside_a_state_is_followed_to_where_it_comes():
     """To one of four cycles, at -0.0275; after 284 cycles it is next to one of a cycle."""
     settings = (
@@ -271,6 +273,7 @@ def test_a_cycle_mean_law_says_that_a_body_from_rest_moves_otherwise(
     assert not [note for note in found.notes if "would do" in note]
 
 
+@pytest.mark.slow
 def test_a_cycle_mean_law_is_settled_where_a_body_from_rest_comes_to_its_state(body):
     found = solve(
         body(HALVED, "solve.method=homogenised", "vibration.frequency=27 kHz"), history=False

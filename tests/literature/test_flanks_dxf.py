@@ -34,6 +34,7 @@ def drawn(request, tmp_path_factory):
     return pair.geometry, ezdxf.readfile(folder / name)
 
 
+@pytest.mark.slow
 def test_it_is_sound_and_in_millimetres(drawn):
     _, document = drawn
     audit = document.audit()
@@ -86,6 +87,7 @@ def with_shaft():
     return pair, data, Bodies.of(case, pair)
 
 
+@pytest.mark.slow
 def test_a_drawing_in_german_leaves_nothing_english(with_shaft, tmp_path):
     ezdxf = pytest.importorskip("ezdxf")
     german = catalogue_of("de")
@@ -103,6 +105,7 @@ def test_a_drawing_in_german_leaves_nothing_english(with_shaft, tmp_path):
     assert {one.name for one in data} <= texts
 
 
+@pytest.mark.slow
 def test_the_data_have_the_threads_that_the_shaft_has(with_shaft, tmp_path):
     ezdxf = pytest.importorskip("ezdxf")
     pair, data, bodies = with_shaft
@@ -115,6 +118,7 @@ def test_the_data_have_the_threads_that_the_shaft_has(with_shaft, tmp_path):
         ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_shafts_have_the_dimensions_of_their_sections(with_shaft, tmp_path):
     ezdxf = pytest.importorskip("ezdxf")
     pair, data, bodies = with_shaft

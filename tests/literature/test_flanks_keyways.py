@@ -63,6 +63,7 @@ def test_keys_that_do_not_fit_are_refused():
     require_keys(pair, Blanks(bore="5 mm"))
 
 
+@pytest.mark.slow
 def test_a_study_without_keyways_is_what_it_was():
     assert Blanks().keyways == "none"
     found = study(prepare_gearset(Gearset(**GIVEN), density="coarse"))

@@ -88,6 +88,7 @@ def test_an_ellipse_bears_as_hertz_says():
     assert pressure.max() == pytest.approx(peak, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_flat_punch_with_rounded_edges_bears_as_in_closed_form():
     flat, edge, radius = 2e-4, 2.5e-4, 5e-3
     count = 400

@@ -49,6 +49,7 @@ def found(tmp_path_factory):
     return solve(body(tmp_path_factory.mktemp("lugre")))
 
 
+@pytest.mark.slow
 def test_the_body_breaks_away_when_it_slips(found):
     assert found.breakaway_time == pytest.approx(7.4581, abs=1e-3)
 

@@ -151,6 +151,7 @@ def test_over_an_odd_number_of_teeth_the_balls_stand_askew():
     assert rest.dimension == pytest.approx(expected, rel=1e-14)
 
 
+@pytest.mark.slow
 def test_what_threads_and_teeth_are_thinner_turns_out_in_the_backlash(wheel):
     meshes = {side: transmission(wheel.pair, wheel.flank(side)) for side in (1, -1)}
     free = play(meshes)

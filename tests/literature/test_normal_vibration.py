@@ -390,6 +390,7 @@ def test_an_elliptic_vibration_of_stiff_asperities_nears_the_closed_form(azimuth
         assert closed == pytest.approx(-0.3956, abs=5e-5)
 
 
+@pytest.mark.slow
 def test_the_whole_body_is_solved_to_second_order():
     model = body(6.0, 40.0, azimuth=30.0, lateral="free")
     steps = [256, 384, 512, 768, 1024, 1536, 2560]
@@ -459,6 +460,7 @@ def test_a_body_that_goes_the_other_way_meets_the_vibration_of_the_other_side():
     assert np.abs(law(-speeds) + law(speeds)).max() > 0.1 * 5.5
 
 
+@pytest.mark.slow
 def test_the_cycle_mean_law_follows_the_march_into_its_steady_state():
     model = dataclasses.replace(body(6.0, 30.0), solve=Solve(duration=0.2, step=5e-7, units="SI"))
     fast = solve(model)
@@ -561,6 +563,7 @@ def test_lugre_keeps_what_it_is_told_to():
     assert ratios["lugre", "deflection"] - ratios["lugre", "stiffness"] > 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["linear", slow("hertz")])
 def test_springs_bear_what_the_damping_of_the_contact_bears_too(law):
     answer = solve(

@@ -290,6 +290,7 @@ def test_numbers_from_memory_are_counted_where_they_stand():
     )
 
 
+@pytest.mark.slow
 def test_no_source_from_memory_stands_outside_of_what_is_counted():
     counted = {place.partition(":")[0] for *_, place in trust.LISTED} | set(trust.LIMITS)
     rooms = tuple(room for rooms in trust.FORMULAS.values() for room in rooms)

@@ -88,6 +88,7 @@ def test_what_is_read_back_is_the_same_gearset(name, settings, tmp_path):
             assert back == (pytest.approx(given, rel=1e-12) if isinstance(given, float) else given)
 
 
+@pytest.mark.ordinary(4)
 @pytest.mark.parametrize("settings", [(), *MORE])
 @pytest.mark.parametrize("name", CASES)
 def test_what_is_read_back_rates_the_same(name, settings, tmp_path):
@@ -124,6 +125,7 @@ def schema():
     return xmlschema.XMLSchema(FILES / "rexs-file.xsd")
 
 
+@pytest.mark.ordinary(2)
 @DESCRIPTIONS
 def test_what_is_written_validates_against_the_schema_of_the_format(name, settings, tmp_path):
     pytest.importorskip("xmlschema")
@@ -196,6 +198,7 @@ def test_the_public_example_rates_as_its_numbers_do():
     assert round(iso["F_rm_N"], 2) == 1373.25
 
 
+@pytest.mark.slow
 def test_a_damaged_file_is_one_line_and_never_another_error(tmp_path):
     text = EXAMPLE.read_text()
     wrong = tmp_path / "wrong.rexs"

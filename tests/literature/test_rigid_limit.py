@@ -201,6 +201,7 @@ def test_rigid_friction_of_a_body_with_mass_is_right_at_its_reversals(k):
     assert coarse == pytest.approx(fine, rel=2e-4)
 
 
+@pytest.mark.slow
 def test_friction_of_a_body_with_mass_is_the_limit_of_a_stiff_asperity():
     settings = ("slider.lateral=free", *along(6, 60), "solve.step=0.1 us")
     limit = guided(*settings, "friction.model=coulomb", **MASS).ratio

@@ -94,6 +94,7 @@ def test_a_fillet_goes_from_the_foot_of_its_flank_to_the_middle_of_the_tooth_spa
     assert (np.diff(np.hypot(rows[..., 0], rows[..., 1]), axis=0)[:4] < 0.0).all()
 
 
+@pytest.mark.slow
 def test_three_teeth_feel_the_forces_and_moments_that_the_loaded_contact_gives_them():
     loads = loads_of(static())
     surface, pitch = static().sector.surface, static().sector.pitch

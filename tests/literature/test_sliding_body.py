@@ -156,6 +156,7 @@ def test_the_two_phase_scheme_at_the_step_of_the_published_finite_elements_is_ha
     assert coarse.ratio / 0.03333 - 1.0 == pytest.approx(-0.52, abs=0.005)
 
 
+@pytest.mark.slow
 def test_the_two_phase_scheme_is_of_order_one_in_the_ratio():
     steps = np.array([2.0, 1.0, 0.5, 0.25])
     truth = solved("table-4.4", "solve.method=periodic", "solve.step=0.1 us").ratio

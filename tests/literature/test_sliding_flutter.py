@@ -90,6 +90,7 @@ def test_even_damping_takes_its_rate_off_the_growth():
     assert minimal(1.0, damping=1.1 * enough).growth() is None
 
 
+@pytest.mark.slow
 def test_a_marched_block_flutters_as_fast_as_its_eigenvalues_say():
     """Thrown along the base at 50 mm/s, it slides; its fastest mode is read by its left vector."""
     settings = [

@@ -104,6 +104,7 @@ def test_nothing_unstable_is_said_of_a_state_in_which_a_march_stays(tmp_path, st
     assert not answer.notes
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("law", ["linear", "hertz", "rough"])
 @pytest.mark.parametrize("ratio", [2, 6, 12])
 def test_a_state_of_a_contact_without_damping_is_one_of_many(ratio, law):
@@ -115,6 +116,7 @@ def test_a_state_of_a_contact_without_damping_is_one_of_many(ratio, law):
     assert any("one of many" in note for note in answer.notes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ratio", [6, slow(12)])
 def test_a_march_of_a_contact_without_damping_shows_one_of_many_and_says_so(ratio):
     settings = f"vibration.velocity_ratio={ratio}", "normal.damping_ratio=0"
@@ -177,6 +179,7 @@ def near_resonance(folder, *settings):
     return solve(Model.from_case(read_case(path, TABLES, settings)), history=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", ["split", slow("vector"), slow("unsplit")])
 def test_of_two_states_the_one_is_shown_that_a_march_from_rest_comes_to(tmp_path, law):
     settings = f"friction.law={law}", "friction.transfer=1"
@@ -189,6 +192,7 @@ def test_of_two_states_the_one_is_shown_that_a_march_from_rest_comes_to(tmp_path
     assert any("with the ratio 1, repeats itself as well" in note for note in state.notes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("duration", [slow(0.12), 0.3])
 def test_a_swing_across_less_than_a_push_is_found_where_the_friction_follows_it(tmp_path, duration):
     """Pushes of a thousandth fade to it. Shaken 1e-9 rad askew a march has 0.774337, too."""
@@ -229,6 +233,7 @@ def test_a_march_that_repeats_every_second_cycle_is_not_taken_for_the_state_of_o
     assert any("with the ratio 1.505" in note for note in found[0].notes)
 
 
+@pytest.mark.slow
 def test_nor_where_the_drive_still_rings_when_it_is_looked_at_first():
     """What is left of the ringing after the body is taken up makes the least friction wander."""
     settings = (

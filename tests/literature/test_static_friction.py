@@ -158,6 +158,7 @@ def test_however_little_it_is_shaken_no_pull_is_where_such_asperities_begin_to_c
     assert "by a millionth of their deflection limit a cycle" in note
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "settings",
     [
@@ -183,6 +184,7 @@ def test_a_contact_that_nothing_damps_has_not_settled():
     assert pressed().settled
 
 
+@pytest.mark.slow
 def test_a_heavy_body_creeps_where_the_master_curve_meets_its_pull():
     found = pressed(
         **{

@@ -79,6 +79,7 @@ def test_a_vibration_of_nothing_changes_nothing(law, way):
     assert little.ratio == pytest.approx(nothing.ratio, rel=1e-6)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("exponent", [2, 3, slow(4)])
 @pytest.mark.parametrize("ratio", [0.0, 1e-3])
 def test_asperities_that_fade_by_a_power_of_the_time_make_no_state_one_of_many(ratio, exponent):
@@ -96,6 +97,7 @@ def test_asperities_that_fade_by_a_power_of_the_time_make_no_state_one_of_many(r
     assert "one of many" in ringing.settled_by
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("exponent", [5, slow(7), 10])
 @pytest.mark.parametrize("ratio", [0.0, slow(1e-3), 1e-2])
 def test_nor_do_those_whose_power_is_too_slow_to_be_followed(ratio, exponent):
@@ -112,6 +114,7 @@ def test_nor_do_those_whose_power_is_too_slow_to_be_followed(ratio, exponent):
     assert [note.endswith(f"after about {after:.2g} s") for note in told] == [True] * (after > 10.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "exponent"), grid([5e-4, 2e-3], [2, 5], ordinary=[(5e-4, 2), (2e-3, 5)])
 )
@@ -151,6 +154,7 @@ def test_from_above_and_below_asperities_come_to_their_limit_by_the_power(off, e
     assert left[2] == pytest.approx(math.copysign(by_law, off), rel=1e-3)
 
 
+@pytest.mark.slow
 def test_nor_does_it_settle_what_sticks_and_slips():
     falls = *LAWS["lugre"], "friction.viscous_damping=0 N s/m", "solve.method=periodic"
     for ratio in (0.0, 1e-6):
@@ -167,6 +171,7 @@ def test_springs_slide_steadily_at_their_limit_shaken_by_nothing(law, elevation)
     assert found.ratio == pytest.approx(1.0, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_state_that_leaves_slowly_has_not_settled():
     """Steady sliding on LuGre's falling branch, whose disturbances grow by some 0.3/s."""
     given = (

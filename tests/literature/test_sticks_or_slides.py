@@ -80,6 +80,7 @@ def test_of_two_states_that_last_the_one_from_rest_is_shown_and_the_other_told(m
     assert "which is shown" in note
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("viscous", "method"), [(VISCOUS, "periodic"), (300.0, "march"),
                             slow(VISCOUS, "march"), slow(300.0, "periodic")],

@@ -98,6 +98,7 @@ def test_identical_hob_every_point_touches_when_it_was_cut(flank, side):
     assert np.abs(touches - grid.phase[within]).max() / pair.ratio < 5e-16
 
 
+@pytest.mark.slow
 def test_identical_hob_transmits_evenly_without_play_and_bears_all_over(identical):
     for flank in identical.flanks.values():
         assert flank.transmission.peak_to_peak < 5e-16
@@ -132,12 +133,14 @@ def test_other_flanks_with_an_oversized_hob_do_not_run_evenly_either():
     assert mesh.peak_to_peak > 1e-5
 
 
+@pytest.mark.slow
 def test_oversized_and_tilted_hob_leaves_the_known_ease_off(tilted):
     for flank in tilted.flanks.values():
         assert flank.ease_off.smallest == pytest.approx(-8.0, abs=0.5)
         assert flank.ease_off.largest == pytest.approx(156.0, abs=0.5)
 
 
+@pytest.mark.slow
 def test_blue_dye_shows_a_pattern_near_the_face_edge_and_tilting_the_hob_brings_it_inwards(
     oversize, tilted
 ):

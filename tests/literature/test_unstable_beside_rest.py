@@ -81,6 +81,7 @@ def ratio_alone(settle, judged):
     return float(impulse / (ends[1] - ends[0]) / (MU * LOAD))
 
 
+@pytest.mark.slow
 def test_the_answer_of_an_unstable_state_says_where_a_march_from_rest_settles(soft):
     found = answered(soft)
     assert not found.settled
@@ -117,6 +118,7 @@ def test_so_do_sweeps_and_branches_with_their_pictures(soft, monkeypatch, tmp_pa
     assert ways.ratio_from_rest[0] == pytest.approx(rest[0], abs=1e-3)
 
 
+@pytest.mark.slow
 def test_what_stays_is_not_marched_and_what_does_not_settle_is_said(soft, monkeypatch):
     short = "vibration.frequency=610 Hz", "vibration.velocity_ratio=0.5", "solve.duration=0.1 s"
     wanders = solve(body(soft, *short), history=False)
@@ -150,6 +152,7 @@ def test_a_march_that_has_not_settled_gives_no_ratio_from_rest(soft):
     assert re.search(r"it has 1\.24\d* at vibration\.frequency=20000 Hz.*; see", note)
 
 
+@pytest.mark.slow
 def test_a_march_from_rest_that_comes_to_the_same_ratio_is_not_another(soft):
     heavy = "slider.mass=5 kg", "vibration.frequency=300 Hz"
     found = solve(body(soft, *heavy), history=False)
@@ -236,6 +239,7 @@ def test_what_drops_answers_that_have_not_settled_is_not_marched_for_them(soft, 
     assert prediction.model_ratios(read_case(soft, TABLES, ()), LOAD, [asked]) == [None]
 
 
+@pytest.mark.slow
 def test_a_drive_too_soft_to_be_stretched_is_told_where_another_state_is_not_looked_for(tmp_path):
     """From rest a march of 13 s comes to 0.7360; a body that comes from 0.999 stays there."""
     case = tmp_path / "soft.toml"

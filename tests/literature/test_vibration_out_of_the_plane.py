@@ -77,6 +77,7 @@ def test_near_the_critical_velocity_the_master_curve_ends_as_a_parabola():
     assert cf.master_curve(1.0 - rest) == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.ordinary(5)
 @pytest.mark.parametrize("swing", [0.1, 0.5, 0.9])
 @pytest.mark.parametrize("velocity", [0.05, 0.3, 0.7, 0.95, 1.0, 1.3])
 def test_a_flat_contact_is_on_the_master_curve_at_any_swing(velocity, swing):
@@ -108,6 +109,7 @@ def test_other_contacts_have_their_reference_values(profile, swing, velocity, ex
     assert cf.normal_ratio(velocity, swing, profile) == pytest.approx(expected, abs=tolerance)
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize("profile", ["flat", "hertz", "rough"])
 @pytest.mark.parametrize(("velocity", "swing"), [(0.05, 0.5), (0.4, 1.5), (0.9, 0.8), (1.2, 2.0)])
 def test_springs_dragged_under_a_swinging_load_have_the_ratio_of_the_closed_form(

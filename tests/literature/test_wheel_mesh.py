@@ -53,6 +53,7 @@ def test_named_densities_have_the_thesis_s_ratios_of_element_size(wheel):
     assert mesh.element_size(wheel, "fine") == pytest.approx(0.5 * coarse)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("density", "order"), [("coarse", 1), slow("intermediate", 1), slow("fine", 1), ("coarse", 2)]
 )
@@ -63,6 +64,7 @@ def test_every_density_is_valid_and_its_skin_closed(wheel, density, order):
     assert is_watertight(made)
 
 
+@pytest.mark.slow
 def test_counts_say_beforehand_what_the_mesh_has(wheel):
     number = mesh.counts(wheel, mesh.element_size(wheel, "coarse"))
     for order in (1, 2):
@@ -106,6 +108,7 @@ def test_cut_faces_are_one_pitch_apart(wheel, coarse):
     assert np.abs(low - high).max() < 1e-10
 
 
+@pytest.mark.slow
 def test_several_teeth_share_their_cut_faces(wheel, coarse):
     one = coarse
     three = mesh.tooth(wheel, "coarse", teeth=3)
@@ -132,6 +135,7 @@ def test_left_hand_is_the_mirror_image(coarse, left):
     assert left_mesh.jacobians().min() > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("order", "expected"), [(1, 2.0), slow(2, 4.0)])
 def test_volume_of_a_tooth_converges_with_the_order_of_the_elements(wheel, order, expected):
     least = np.array(mesh.counts(wheel, 2.0))

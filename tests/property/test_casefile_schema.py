@@ -7,6 +7,7 @@ comparison, and only those.
 import functools
 import re
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -135,6 +136,7 @@ def tables(draw):
     return name, changed
 
 
+@pytest.mark.slow
 @given(tables())
 def test_what_one_accepts_the_other_does(case):
     name, entries = case

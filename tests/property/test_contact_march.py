@@ -212,6 +212,7 @@ def test_a_block_at_rest_that_is_let_go_stays_where_it_is():
     assert stepper.state.coordinates.place == pytest.approx(place, abs=1e-3 * abs(place[2]))
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(
     seed=st.integers(0, 2**32 - 1),

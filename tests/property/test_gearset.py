@@ -31,6 +31,7 @@ def test_centre_distance_and_profile_shift_give_each_other_back(m, q, z2, x2):
     assert relations.diameter_factor(a, m, z2, x2) == pytest.approx(q, rel=1e-11)
 
 
+@pytest.mark.slow
 @hypothesis.given(m=modules, q=factors, z2=teeth, x2=shifts)
 def test_any_three_numbers_complete_to_the_same_gearset(m, q, z2, x2):
     a = relations.centre_distance(m, q, z2, x2)
@@ -122,6 +123,7 @@ def test_the_identities_of_the_geometry_hold(z1, m, q, z2, x2, alpha, rule):
     assert g.worm_face_width > 0.0
 
 
+@pytest.mark.slow
 @hypothesis.given(z1=starts, m=modules, q=factors, z2=teeth, scale=st.floats(0.01, 100.0))
 def test_similar_gearsets_have_similar_lengths_and_equal_angles(z1, m, q, z2, scale):
     one, other = (
@@ -133,6 +135,7 @@ def test_similar_gearsets_have_similar_lengths_and_equal_angles(z1, m, q, z2, sc
         assert other.to_json()[key] == pytest.approx(value * factor, rel=1e-10)
 
 
+@pytest.mark.slow
 @hypothesis.given(
     module=st.decimals("0.5", "20", places=4),
     q=factors,

@@ -94,6 +94,7 @@ def test_wheel_cannot_drive_exactly_where_the_lead_is_within_the_friction_angle(
         assert (efficiency <= 0.0) == (lead <= np.arctan(friction))
 
 
+@pytest.mark.slow
 @given(numbers, options)
 @settings(max_examples=50)
 def test_centre_distance_and_profile_shift_lead_to_the_same_answer(gearset, words):
@@ -144,6 +145,7 @@ def test_at_its_limits_the_film_parameter_is_zero(gearset, edition, flank):
         assert sides[0] != sides[1], name
 
 
+@pytest.mark.slow
 @given(numbers, options)
 @settings(max_examples=50)
 def test_more_roughness_or_base_friction_never_helps(gearset, words):

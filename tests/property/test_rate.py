@@ -91,6 +91,7 @@ def test_input_is_output_and_losses(case):
     assert shaft == pytest.approx(iso["input_power_W"], rel=1e-12)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(tables())
 def test_a_safety_judged_alone_is_that_of_the_whole_rating(case):
@@ -105,6 +106,7 @@ def test_a_safety_judged_alone_is_that_of_the_whole_rating(case):
                 judge(gearset, operation)
 
 
+@pytest.mark.slow
 @given(tables())
 def test_efficiency_falls_with_friction(case):
     gearset, operation, options = case
@@ -214,6 +216,7 @@ def test_units_of_the_input_change_nothing(case):
             assert changed[key] == pytest.approx(value, rel=1e-11, abs=1e-11)
 
 
+@pytest.mark.slow
 @given(tables())
 def test_nothing_in_a_rating_is_missing_without_a_note(case):
     rated = rate(*case)

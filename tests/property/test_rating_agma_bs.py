@@ -90,6 +90,7 @@ def test_power_of_the_worm_is_that_of_the_wheel_and_of_friction(w, f, lead, phi,
     assert agma.thermal.friction_power(v, lost / v) == pytest.approx(lost, rel=1e-12)
 
 
+@pytest.mark.slow
 @given(frictions, frictions, leads, pressures)
 def test_efficiency_falls_with_friction(f1, f2, lead, phi):
     assume(f2 - f1 > 1e-9)

@@ -97,6 +97,7 @@ def made(slider, friction, vibration, folder, **entries):
 bodies = st.one_of(sliders(rigid=True), sliders(rigid=False))
 
 
+@pytest.mark.slow
 @given(bodies, frictions(), vibrations())
 @settings(max_examples=50)
 def test_the_power_ledger_of_any_body_closes(samples, slider, friction, vibration):
@@ -115,6 +116,7 @@ def test_the_power_ledger_of_any_body_closes(samples, slider, friction, vibratio
         assert ledger.untransferred == 0.0
 
 
+@pytest.mark.slow
 @given(bodies, frictions(("coulomb", "dahl")), vibrations())
 @settings(max_examples=50)
 def test_friction_stays_within_its_limit_under_every_law_and_exponent(
@@ -129,6 +131,7 @@ def test_friction_stays_within_its_limit_under_every_law_and_exponent(
         np.testing.assert_allclose(np.hypot(*history.deflection.T) / limit, force, 0.0, 1e-12)
 
 
+@pytest.mark.slow
 @given(bodies, frictions(), vibrations())
 @settings(max_examples=50)
 def test_friction_takes_power_out_of_the_motion(samples, slider, friction, vibration):

@@ -79,6 +79,7 @@ def test_a_mean_that_still_goes_further_than_a_thousandth_of_its_ratio_says_wher
     assert then.ratio > late.ratio * (1.0 + 0.4 * BAR)
 
 
+@pytest.mark.slow
 def test_lanes_say_where_their_means_go_and_go_on_as_a_march_does():
     undamped = body(1600.0, 1e-3, 200.0, 120.0, 4.0, 2.0, 0.4, 0.4, 616.0, 0.0)
     short = lasting(undamped, 0.8)

@@ -61,6 +61,7 @@ def bad_step(pairs):
     return f"{{ {', '.join(said)} }}"
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(given=tables())
 def test_whatever_the_tables_hold_there_is_an_answer_or_one_line(given):
@@ -104,6 +105,7 @@ def test_the_campaign_draws_spectra_that_are_rated_as_well_as_refused():
     assert seen["rated"] > 20
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(
     bins=st.lists(

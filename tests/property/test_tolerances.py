@@ -175,6 +175,7 @@ def test_a_rating_says_that_a_gearset_may_jam_where_its_worst_assembly_does():
     assert "MAY JAM" in rated.brief()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_fit_leaves_its_least_backlash_by_the_exact_flanks(name):
     # Hob and mounting take more of it than the formula knows.

@@ -66,6 +66,7 @@ def test_on_a_worms_own_surface_the_distance_is_zero(geometry, kind, change):
     assert np.linalg.norm(found.gradient, axis=-1) == pytest.approx(1.0, abs=1e-14)
 
 
+@pytest.mark.slow
 @hypothesis.given(geometry=geometries, kind=st.sampled_from(TYPES), hob=hobs)
 def test_a_hobs_generating_curve_rises_from_root_to_tip_and_ends_in_the_middle(geometry, kind, hob):
     tool = made(Helicoid.hob, geometry, kind, hob)
@@ -78,6 +79,7 @@ def test_a_hobs_generating_curve_rises_from_root_to_tip_and_ends_in_the_middle(g
     assert tool.tip_rounding > 0.0
 
 
+@pytest.mark.slow
 @hypothesis.given(geometry=geometries, size=st.floats(0.5, 20.0), kind=st.sampled_from(TYPES[:3]))
 def test_a_gearset_of_another_size_has_the_same_flanks(geometry, size, kind):
     """Lengths scale, slopes stay and curvatures are divided."""

@@ -34,6 +34,7 @@ print(repr(value))
 """
 
 
+@pytest.mark.slow
 def test_a_bar_is_not_shown_over_a_question_which_keeps_its_brackets():
     child, end = pty.fork()
     if not child:

@@ -116,6 +116,7 @@ def test_bodies_side_by_side_answer_as_each_alone(law, applied_to):
     assert_all_same(models)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("count", [1, 2, 3, slow(WIDTH - 1), WIDTH, slow(WIDTH + 1), 2 * WIDTH + 5])
 def test_any_number_of_bodies_may_march(count):
     directions = np.linspace(0.0, math.pi, count)
@@ -210,6 +211,7 @@ def test_a_body_that_cannot_be_solved_leaves_its_error_in_its_place():
     assert_same(answers[2], solve(models[2], history=False))
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", LAWS)
 def test_the_mirror_image_of_a_direction_is_exact_in_a_batch(law):
     directions = np.radians(np.arange(0.0, 181.0, 15.0))
@@ -400,6 +402,7 @@ def test_cycles_that_follow_pressed_lanes_are_as_those_of_each_alone(next_cycles
     assert len(next_cycles) == 2
 
 
+@pytest.mark.slow
 def test_lanes_that_are_marched_anew_are_told_no_duration_beforehand(monkeypatch):
     """They lack something: with a duration of their own they are told which would do."""
     asked, anew = [], []

@@ -30,6 +30,7 @@ def answers(*settings):
     ]
 
 
+@pytest.mark.slow
 def test_a_body_rings_on_its_drive_by_the_law_no_more_than_it_does_shaken():
     by_the_law, state = answers()
     assert state.settled

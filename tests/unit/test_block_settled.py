@@ -27,6 +27,7 @@ def found():
     return settle(BlockProblem.from_case(case(SETTLED, "vibration.velocity_ratio=2")))
 
 
+@pytest.mark.slow
 def test_a_block_settles_to_what_its_answer_says_and_how_surely(found):
     told = found.to_json()
     assert told["ratio"] == pytest.approx(0.5619, abs=2e-3 * 0.5619)
@@ -68,6 +69,7 @@ NOTHING = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_vibration_of_nothing_changes_nothing_of_a_block():
     settled_block, marched = (
         solver(BlockProblem.from_case(read_case("block-longitudinal", case_tables(), settings)))

@@ -48,6 +48,7 @@ def test_which_numbers_of_modes_flutter_without_damping(modes, rate, kilohertz):
         assert flutter.stepped.rate < flutter.growth.rate
 
 
+@pytest.mark.slow
 def test_the_damping_that_is_named_holds_and_hardly_less_does_not():
     flutter = Stability(problem("block.modes=60", of=SIXTY)).flutter()
     assert flutter.holding == pytest.approx(0.0073, abs=0.0002)

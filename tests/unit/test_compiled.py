@@ -95,12 +95,14 @@ def test_a_second_process_finds_the_kernel_in_the_cache(run_process, run, tmp_pa
     assert run_process()[:3] == run() == [30.0, 1, folder]
 
 
+@pytest.mark.slow
 def test_a_kernel_that_is_only_loaded_loads_nothing_that_compiling_needs(run_process, run):
     run()
     *answer, compiling = run_process()
     assert (answer[:2], compiling) == ([30.0, 1], [])
 
 
+@pytest.mark.slow
 def test_a_change_in_a_called_module_gives_the_new_answer(run, package):
     run()
     inner = package / "inner.py"
@@ -117,6 +119,7 @@ def one_byte_changed(content):
     return content[:middle] + bytes([content[middle] ^ 0xFF]) + content[middle + 1 :]
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("suffix", "damage"),
     [
@@ -185,6 +188,7 @@ def test_a_kernel_keeps_its_options_docstring_and_numbas_settings():
     assert np.isinf(inverse(0.0))
 
 
+@pytest.mark.slow
 def test_declaring_a_kernel_loads_no_compiler_and_calling_one_does():
     code = (
         "import sys\nimport asperity.friction.dahl, asperity.slider.kernels\n"
@@ -199,6 +203,7 @@ def test_a_kernel_that_is_sent_elsewhere_is_found_there_by_its_name():
     assert sent is update
 
 
+@pytest.mark.slow
 def test_machine_code_that_others_could_have_written_is_not_run(run, tmp_path, caplog):
     cache = tmp_path / "cache"
     _, _, folder = run()

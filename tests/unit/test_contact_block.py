@@ -76,6 +76,7 @@ def test_at_rest_the_pressure_is_symmetric_about_both_axes(normal):
     assert state.contact.active == state.contact.pressure.size
 
 
+@pytest.mark.slow
 def test_a_block_pulled_at_half_its_height_leans_on_its_leading_edge():
     block = problem(*STIFF, "vibration.velocity_ratio=0", "solve.duration=8 ms")
     march = BlockMarch(block)
@@ -136,6 +137,7 @@ CLOSING = {
 LIKE_OTHERS = {"coupled", "square wave", "triangle wave", "dashpot", "guided", "body"}
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("name", [slow(each) if each in LIKE_OTHERS else each for each in CLOSING])
 def test_the_power_ledger_closes(name):
     result = solve_block(problem(*CLOSING[name]), history=False)
@@ -222,6 +224,7 @@ def test_with_a_fine_step_the_block_is_the_sliding_body():
     assert result.ledger.residual < 1e-8
 
 
+@pytest.mark.slow
 def test_the_time_of_an_increment_is_its_own_also_after_an_interruption(monkeypatch, tmp_path):
     clock = itertools.count()
     fake = types.SimpleNamespace(perf_counter=lambda: float(next(clock)))
@@ -244,6 +247,7 @@ def test_the_powers_are_those_of_the_sliding_body():
         assert getattr(powers, term) == pytest.approx(getattr(slid, term), rel=0.03)
 
 
+@pytest.mark.slow
 def test_the_time_integration_takes_little_and_less_with_a_finer_step():
     taken = [
         solve_block(problem(f"solve.step={step} us"), history=False).ledger for step in (5, 2.5)
@@ -273,6 +277,7 @@ def test_a_guided_block_neither_shifts_sideways_nor_turns():
     assert np.abs(result.history.friction[:, 1]).max() > 1.0
 
 
+@pytest.mark.slow
 def test_vibrating_the_body_or_the_base_gives_the_same_ratio():
     turned = ("friction.law=vector", "friction.transfer=1", "vibration.direction=45 deg", *STIFF)
     base = solve_block(problem(*turned, "solve.duration=4 ms"), history=False)
@@ -378,6 +383,7 @@ def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path)
         assert np.array_equal(frame.traction, other.traction)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
 def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_one(
     monkeypatch, error
@@ -482,6 +488,7 @@ BENT = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_shaken_block_goes_to_and_fro_over_the_bend_between_two_stages():
     block = problem(*BENT, "vibration.direction=45 deg")
     law = block.normal

@@ -74,6 +74,7 @@ def decks(settings):
     return [Deck(files(setup)["block.inp"]) for files in (abaqus_files, calculix_files)]
 
 
+@pytest.mark.ordinary(4)
 def test_the_same_case_gives_the_same_files(settings):
     assert abaqus_files(setup_of(*settings)) == abaqus_files(setup_of(*settings))
     assert calculix_files(setup_of(*settings)) == calculix_files(setup_of(*settings))

@@ -54,6 +54,7 @@ def test_what_was_condensed_once_is_read_back_the_same(store):
     assert_same(first, second)
 
 
+@pytest.mark.slow
 def test_another_body_is_another_entry(store):
     mesh = box(SIZE, (2, 1, 1))
     moved = replace(mesh, points=mesh.points * [1.0, 1.0, 1.001])
@@ -98,6 +99,7 @@ def test_a_mesh_in_millimetres_is_the_same_body():
     assert np.abs(difference).max() < 1e-12 * np.abs(metres.flexibility).max()
 
 
+@pytest.mark.slow
 def test_every_solver_gives_the_same_body_and_says_its_name():
     mesh = box(SIZE, (3, 2, 2), 2)
     chosen = installed_solver()

@@ -133,6 +133,7 @@ def test_a_wrong_energy_of_asperities_or_overclosure_opens_the_balance(monkeypat
         assert balance(stepper, before).residual > 3.0 * CLOSED
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "law",
     [
@@ -159,6 +160,7 @@ def test_friction_is_what_it_is_whatever_is_said_to_be_stored(monkeypatch):
     assert balance(stepper, before).friction == friction
 
 
+@pytest.mark.slow
 def test_what_the_steps_take_is_small_and_goes_with_them():
     shares = []
     for steps in (100, 200, 400):

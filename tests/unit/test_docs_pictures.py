@@ -16,6 +16,7 @@ def labels(axes):
     return [text.get_text() for text in axes.get_legend().get_texts()]
 
 
+@pytest.mark.slow
 def test_all_swings_fall_on_one_curve():
     velocity = np.linspace(0.0, 1.0, 11)
     reduction = (1.0 - velocity) ** 2

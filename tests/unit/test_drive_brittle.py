@@ -70,6 +70,7 @@ def test_on_a_line_teeth_and_asperities_are_two_springs_with_one_limit():
         assert bent[0] == pytest.approx(left, abs=1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("mode", "ratio", "compliance"),
     [
@@ -91,6 +92,7 @@ def test_a_drive_of_exponent_0_is_the_limit_of_others(mode, ratio, compliance):
     assert max(one.residual, other.residual) < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("model", "holds"), [("dahl", False), ("coulomb", True)])
 def test_exponent_0_creeps_where_it_is_shaken_across_too_and_what_holds_is_told(model, holds):
     given = ("vibration.mode=axial", "vibration.displacement_amplitude=4 um", "solve.duration=6 ms")

@@ -57,6 +57,7 @@ def test_begun_elsewhere_amplitudes_stay_and_phases_turn_by_their_order():
     np.testing.assert_allclose(turned, 1.0, atol=1e-12)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("settings", [(), slow(UNEVEN), ("gearset.hand=left", *UNEVEN)])
 def test_the_error_without_load_is_that_of_the_flanks_alone(settings):
     wheel = wheel_of(*settings)
@@ -66,6 +67,7 @@ def test_the_error_without_load_is_that_of_the_flanks_alone(settings):
         assert np.ptp(flank.error) > 1e-4
 
 
+@pytest.mark.slow
 def test_what_the_mesh_makes_by_itself_is_told_beside_the_orders():
     wheel = wheel_of(*UNEVEN)
     angle = np.arange(8) * (2.0 * math.pi / 60.0 * 15.0 / 8)

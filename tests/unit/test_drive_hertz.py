@@ -1,5 +1,6 @@
 """The Hertzian pressure of a drive's contact lines is the number that `flank` has."""
 
+import pytest
 from apparatus.drives import case, problem
 
 from asperity.drive.static.pressure import hertz_pressure
@@ -13,6 +14,7 @@ SETTINGS = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_flank_and_drive_print_one_hertzian_pressure():
     found = flank.answer(flank.prepare(case(*SETTINGS), density="coarse"), Run()).to_json()
     worst = max(row["hertz_pressure_max_MPa"] for row in found["flanks"]["+1"]["loaded"])

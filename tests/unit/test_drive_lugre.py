@@ -161,6 +161,7 @@ def test_without_vibration_to_speak_of_it_runs_at_the_friction_of_its_speed():
     assert one.torque_static == pytest.approx(model.point.worm_torque(366.0, mu), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_a_fast_screw_has_the_mean_of_its_kinetic_friction_and_all_of_the_viscous():
     # Where static friction is lost at once and comes back for a negligible time.
     kinetic, viscous = all_solved(

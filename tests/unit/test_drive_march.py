@@ -371,6 +371,7 @@ CHOSEN_STEP = (
 
 
 # Checkpoints of it: within the first block, one in a later one, and at the very last.
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("protocol", "settings"),
     [("steady", GIVEN_STEP), ("on-demand", GIVEN_STEP), slow("steady", CHOSEN_STEP)],

@@ -83,6 +83,7 @@ def test_a_drive_that_shakes_by_itself_is_what_its_ratios_refer_to(way, step):
     )
 
 
+@pytest.mark.slow
 def test_a_drive_that_shakes_by_itself_for_a_short_while_and_in_a_step_that_is_given():
     short = "vibration.frequency=4 kHz", "solve.step=0.5 us", "solve.duration=20 ms"
     one = nothing("falling", "screw", "rigid", *SLOW, *short)

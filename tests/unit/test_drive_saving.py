@@ -52,6 +52,7 @@ class TestWeak:
                     assert abs(told - other.saved_power) <= error
         assert finer.saved_power_error < 0.5 * finer.saved_power
 
+    @pytest.mark.slow
     @pytest.mark.parametrize("way", WAYS)
     def test_saving_does_not_change_with_what_still_rings(self, way):
         asked = weak(*way, "solve.step=0.1 us")
@@ -87,6 +88,7 @@ def test_nothing_is_saved_by_nothing_and_said_so():
     assert "of the motor's power no saving can be told" in str(one.headline()[1])
 
 
+@pytest.mark.slow
 def test_what_is_advised_tells_it():
     asked = weak("torsional", "worm", amplitude="1 um")
     one = solved(*asked)

@@ -28,6 +28,7 @@ FAST = (
 SMOOTH = "vibration.mode=wheel-axial", "vibration.frequency=20 kHz", "vibration.velocity_ratio=1.5"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("way", [slow(FAST), slow(SMOOTH), ("vibration.velocity_ratio=1.5",)])
 def test_what_the_step_makes_wrong_is_what_steps_a_tenth_as_long_make_right(way):
     coarse, fine = solved(*way, "solve.step=0.3 us"), solved(*way, "solve.step=0.03 us")
@@ -86,6 +87,7 @@ def test_a_finer_step_changes_no_second_digit_of_a_random_drive(part):
             assert one.torque_ratio == pytest.approx(finer.torque_ratio, rel=5e-3), drive
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("wave", "corners"),
     [

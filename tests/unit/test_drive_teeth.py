@@ -450,6 +450,7 @@ def test_a_small_matrix_is_inverted_and_one_without_inverse_refused():
     assert not invert(np.full(4, np.nan), 2, order)
 
 
+@pytest.mark.slow
 def test_a_worm_meets_teeth_where_the_next_set_of_them_begins(tmp_path):
     """Half a pitch from a tooth the next set began in the middle of the search."""
     case = tmp_path / "gear.toml"

@@ -52,6 +52,7 @@ def rises_by_3_84(exact, place, value):
     return inner < RISE < outer
 
 
+@pytest.mark.slow
 def test_the_ends_that_are_expected_are_those_of_the_exact_profile():
     exact = Exact(1e-3 * SPEEDS, FORCES, np.full(8, DEVIATION), START)
     for place, key in enumerate(KEYS):
@@ -71,6 +72,7 @@ def meets(result):
                 assert found == pytest.approx(expected, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_four_parameters_of_steady_sliding_have_the_intervals_of_the_exact_profile(
     tmp_path, monkeypatch
 ):

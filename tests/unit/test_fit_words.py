@@ -77,6 +77,7 @@ def test_two_rows_on_one_side_do_not_hide_each_other():
         assert math.exp(found.point[0]) == pytest.approx(2.0, rel=5e-3)
 
 
+@pytest.mark.slow
 def test_noise_alone_is_no_outlier_and_hardly_ever_called_one():
     named = 0
     x = np.linspace(1.0, 2.0, 12)
@@ -172,6 +173,7 @@ def test_parameters_that_go_together_stand_on_the_terminal(tmp_path, monkeypatch
     assert "goes with" not in rendered(apart.tables(), 80)
 
 
+@pytest.mark.slow
 def test_what_has_not_settled_is_no_prediction_and_its_row_is_named(tmp_path, monkeypatch):
     whole = forward.solve_many
 

@@ -127,6 +127,7 @@ def test_transmission_error_does_not_depend_on_the_places_it_is_looked_for_at():
     assert fine.peak_to_peak >= np.ptp(fine.error)
 
 
+@pytest.mark.slow
 def test_pattern_never_reaches_into_the_worm(tilted):
     for flank in tilted.flanks.values():
         assert flank.pattern.gap.min() > -1e-9
@@ -264,6 +265,7 @@ def test_worm_out_of_reach_is_said(tilted):
         transmission(pair, Wheel.cut(pair).flank(1), samples=8)
 
 
+@pytest.mark.slow
 def test_answers_have_the_keys_of_the_command_and_survive_a_file(tilted, tmp_path):
     answer = tilted.to_json()
     for key in (

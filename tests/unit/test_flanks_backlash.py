@@ -98,6 +98,7 @@ def test_threads_that_give_a_backlash_leave_it_between_the_places_too():
     assert beside == pytest.approx(0.15, abs=2e-7)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("shift", [0.0, 0.1, 0.37, 0.5, 0.93])
 def test_the_least_between_places_is_found_wherever_it_lies(shift):
     step = 2.0 * math.pi / SAMPLES
@@ -118,6 +119,7 @@ def test_what_is_the_same_everywhere_is_looked_at_nowhere_else():
     assert least_between(np.full(SAMPLES, 0.3), 0.1, None) == 0.3
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("thinner", [0.0, 0.3])
 def test_a_thinner_thread_turns_further_by_as_much_wherever_it_touches(thinner):
     """Turned by the angle that it is thinner, a helicoid's flank is where it was."""

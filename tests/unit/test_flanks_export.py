@@ -187,6 +187,7 @@ def test_a_part_that_does_not_close_costs_no_other_and_a_remedy_is_told(
     )
 
 
+@pytest.mark.slow
 def test_the_gearset_to_mail_is_small_and_turns_by_its_ratio(wheel, tmp_path):
     import trimesh
 
@@ -242,6 +243,7 @@ def test_bodies_go_into_stl_and_glb(wheel, tmp_path):
     assert set(scene.geometry) == {"worm", "wheel"}
 
 
+@pytest.mark.slow
 def test_step_names_the_body_and_prints_nothing(tmp_path, capfd):
     path = tmp_path / "block.step"
     write_step(path, block())
@@ -324,6 +326,7 @@ def test_a_mesh_is_drawn(wheel, tmp_path):
     assert 0.1 < share < 0.9
 
 
+@pytest.mark.slow
 def test_importing_the_package_imports_no_extra():
     code = (
         "import sys, asperity.mesh.vtu\n"

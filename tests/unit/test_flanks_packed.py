@@ -95,6 +95,7 @@ def test_contact_lines_lie_on_worm_and_wheel_turned_by_their_ratio(hand):
             assert wheel < NEAR
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("side", TURNED)
 def test_no_contact_line_turns_back_where_the_flank_of_the_worm_ends(side):
     header, arrays = opened(made("right")[1])
@@ -107,6 +108,7 @@ def test_no_contact_line_turns_back_where_the_flank_of_the_worm_ends(side):
             assert np.abs(np.diff(pieces)).sum() <= np.ptp(pieces) + 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hand", ["right", slow("left")])
 def test_turned_the_other_way_neither_meets_the_lines(hand):
     worm = [distances(hand, "+1", n, worm_sign=-1.0)[0] for n in (14, 20)]
@@ -127,6 +129,7 @@ def test_a_left_handed_pair_is_drawn_as_the_mirror_image():
             np.testing.assert_allclose(*both, rtol=1e-4, atol=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hand", ["right", "left"])
 def test_flanks_are_seen_from_outside_the_tooth(hand):
     answer, content = made(hand)
@@ -138,6 +141,7 @@ def test_flanks_are_seen_from_outside_the_tooth(hand):
         assert np.cross(b - a, c - a)[0] @ outside > 0
 
 
+@pytest.mark.slow
 def test_the_map_of_line_load_is_the_load_when_the_line_passes():
     answer, _ = made("right")
     for flank in answer.analysis.flanks.values():

@@ -119,6 +119,7 @@ def test_rounding_is_not_blown_up_to_a_transmission_error():
     assert said.endswith(" µrad: the wheel turns evenly")
 
 
+@pytest.mark.slow
 def test_vibration_has_a_panel_for_each_direction_and_part_on_one_scale():
     directions, parts = (
         ["axial", "torsional", "wheel_axial", "screw"],

@@ -57,6 +57,7 @@ def test_a_gearset_that_cannot_be_is_a_gap_with_its_reason(swept):
     assert "the profile shift is -1.13" in str(swept.failure)
 
 
+@pytest.mark.slow
 def test_its_file_and_json_have_every_variable_and_its_picture_is_a_map(swept, tmp_path):
     found = json.loads(json.dumps(swept.to_json()))
     assert found["margin"][2] == [None, None]

@@ -260,6 +260,7 @@ poisson_ratio = 0.27
 """
 
 
+@pytest.mark.slow
 def test_austempered_iron_is_rated_by_its_owner_s_strengths_where_the_standards_have_none(
     tmp_path, monkeypatch
 ):

@@ -35,6 +35,7 @@ def made(flank, rule, starts, diameter_factor, pressure_angle):
     return True
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("flank", CLOSED_FORMS)
 def test_the_flanks_refuse_what_the_closed_form_says_is_pointed_and_nothing_else(flank):
     rng = np.random.default_rng(10828)

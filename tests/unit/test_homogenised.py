@@ -110,6 +110,7 @@ def test_what_a_heavy_body_takes_to_go_faster_is_in_its_balance():
     assert answer.ledger.residual < 2e-4
 
 
+@pytest.mark.slow
 def test_of_a_pressed_body_that_still_gets_faster_no_state_s_multiplier_is_told(monkeypatch):
     # A coarse law does, and one for both.
     for name, few in {"_POINTS_BELOW": 8, "_POINTS_ABOVE": 8, "_LOWEST": 3e-3}.items():
@@ -147,6 +148,7 @@ def test_one_velocity_has_the_force_that_it_has_among_others(law):
         law(math.nan)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("times", "force"), [(0.5, 3.14), (6.0, None)])
 def test_a_body_that_friction_could_carry_along_is_told_to_have_another_state(times, force):
     # Its inertia is 2 pi 4000/s 0.5 kg v_a; friction has 5.5 N at most.
@@ -156,6 +158,7 @@ def test_a_body_that_friction_could_carry_along_is_told_to_have_another_state(ti
     assert all("5.5 N at its limit" in note and f"takes {force} N" in note for note in told)
 
 
+@pytest.mark.slow
 def test_the_law_of_a_sampled_wave_turns_with_the_base(tmp_path):
     # F(-v) is -F(v) under a vibration turned by half a turn; this wave shows the difference.
     turn = np.linspace(0.0, 2.0 * math.pi, 61)
@@ -360,6 +363,7 @@ def test_a_law_stands_where_what_a_body_from_rest_comes_to_is_not_found(monkeypa
     assert "comes to was not found: the powers do not balance" in found.settled_by
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("case", "direction", "law_name"), grid(CASES, [45, -45, 135], LAWS))
 def test_a_guided_body_shaken_askew_feels_a_mean_force_across(case, direction, law_name):
     settings = [
@@ -628,6 +632,7 @@ def test_a_pressed_body_that_nothing_shakes_bears_its_load_and_wears_by_its_way(
         assert told["normal_mean"] == pytest.approx(55.0, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_a_ramp_is_left_out_and_the_answer_says_so():
     ramped, at_once = (
         solve(body("table-4.3", "solve.method=homogenised", *settings), history=False)

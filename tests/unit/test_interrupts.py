@@ -86,6 +86,7 @@ NAMES = {"SIGINT": "interrupted", "SIGTERM": "terminated", "SIGHUP": "ended with
          "SIGQUIT": "quit"}  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="needs signals")
 @pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", slow("SIGHUP"), slow("SIGQUIT")])
 def test_what_ends_a_run_before_it_listens_is_told_and_nothing_ends_it_after(name):

@@ -96,6 +96,7 @@ CASES = [
 FEW_CASES = [case if case in CASES[3:] else slow(case) for case in CASES]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", FEW_CASES, ids=" ".join)
 def test_the_german_screen_and_report_of_a_rating_leave_nothing_english(given):
     case, result = answer_of(*given)
@@ -135,6 +136,7 @@ def test_the_shipped_duties_are_looked_at():
     assert {case for case, *_ in DUTIES} >= {"actuator-duty", "actuator-shafts"}
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "given", [slow(one) if one[1] == "rexs" or not one[2] else one for one in DUTIES], ids=str
 )
@@ -175,6 +177,7 @@ WORDY = [
 ]  # fmt: skip
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("given", WORDY, ids=lambda given: given[-1])
 def test_all_that_a_rating_tells_in_full_leaves_nothing_english(given):
     _, result = answer_of(*given)

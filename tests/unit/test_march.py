@@ -92,6 +92,7 @@ def test_the_residual_is_the_change_from_half_to_half_of_the_window():
     assert settled.residual < 1e-6
 
 
+@pytest.mark.slow
 def test_the_breakaway_is_the_first_time_at_full_force():
     answer = solved("table-4.3", "solve.duration=0.2 s", history=True)
     history = answer.history
@@ -113,6 +114,7 @@ def test_vibration_from_the_first_moment_ends_in_the_same_state(law):
     assert early.ratio == pytest.approx(late.ratio, rel=1e-3)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("model", "case"), grid(["dahl", "coulomb", "lugre"], ["table-4.3", "table-4.4"])
 )
@@ -195,6 +197,7 @@ def test_more_of_the_lateral_vibration_means_more_power_and_less_drive_force():
     assert answers[0].ratio == pytest.approx(1.0, abs=2e-2)
 
 
+@pytest.mark.slow
 def test_the_untransferred_share_is_named_and_does_no_work():
     # Transverse, friction works on eta of the base's motion; on the rest it would do (1-eta)/eta.
     part = solved("table-4.4").ledger
@@ -330,6 +333,7 @@ def aliased(*settings):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_the_means_of_the_history_are_the_means_of_the_result():
     answer = aliased()
     history = answer.history
@@ -343,6 +347,7 @@ def test_the_means_of_the_history_are_the_means_of_the_result():
         assert found == pytest.approx(mean, abs=1e-5 * answer.static_drive_force)
 
 
+@pytest.mark.slow
 def test_the_history_shows_what_a_stretch_swings_through():
     answer = aliased()
     history = answer.history

@@ -20,6 +20,7 @@ def shoelace(points):
     return 0.5 * float((points[:, 0] * following[:, 1] - points[:, 1] * following[:, 0]).sum())
 
 
+@pytest.mark.slow
 @given(
     radii=st.lists(st.floats(0.3, 3.0), min_size=5, max_size=40),
     clockwise=st.booleans(),

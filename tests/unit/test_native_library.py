@@ -398,6 +398,7 @@ library._make(Path(sys.argv[1]), listed().entries[:2], 1)
 """
 
 
+@pytest.mark.slow
 def test_a_process_of_a_build_looks_on_while_others_are_at_what_is_left(tmp_path):
     """One that began anew each time would never see that they have stood still."""
     done = subprocess.Popen(

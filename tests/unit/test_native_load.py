@@ -287,6 +287,7 @@ def test_a_kernel_that_no_library_has_goes_to_numba(here, made, monkeypatch):
     assert here._native is compiled._not_here
 
 
+@pytest.mark.slow
 def test_kernels_called_from_a_library_do_not_load_numba(made):
     code = (
         "import sys\nfrom pathlib import Path\nfrom asperity.kernels.native import load\n"
@@ -297,6 +298,7 @@ def test_kernels_called_from_a_library_do_not_load_numba(made):
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+@pytest.mark.slow
 def test_a_compiled_kernel_calls_one_that_the_library_has(here):
     outer = kernel(lambda x: 10.0 * here(x))
     # Numba compiles both from their sources.

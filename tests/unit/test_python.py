@@ -38,6 +38,7 @@ def refusal(call, *arguments, **keywords):
     return str(raised.value)
 
 
+@pytest.mark.slow
 def test_the_names_at_the_top_are_imported_when_they_are_used():
     code = """
         import sys, asperity
@@ -52,6 +53,7 @@ def test_the_names_at_the_top_are_imported_when_they_are_used():
         _ = asperity.nothing
 
 
+@pytest.mark.slow
 def test_a_gearset_is_rated_by_name_by_case_or_by_its_tables_in_any_order():
     by_name = asperity.rate("gearset-3").to_json()
     assert asperity.rate(asperity.read("gearset-3")).to_json() == by_name
@@ -115,6 +117,7 @@ def test_a_law_of_many_velocities_is_that_of_each_and_says_what_it_holds():
     assert len(said) < 200
 
 
+@pytest.mark.slow
 def test_bodies_are_solved_by_the_dozen_whatever_the_method():
     models = [
         asperity.Model(BODY, CONTACT, SHAKEN.model_copy(update={"velocity_ratio": k}), PERIODIC)
@@ -180,6 +183,7 @@ def lines_of(text):
     return sum(max(1, -(-len(line) // 80)) for line in text.splitlines())
 
 
+@pytest.mark.slow
 def test_whatever_is_shown_takes_at_most_fifteen_lines():
     rated = asperity.rate("gearset-2")
     model = asperity.Model(BODY, CONTACT, SHAKEN, PERIODIC)

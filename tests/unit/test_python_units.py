@@ -51,6 +51,7 @@ def same(*tables):
     assert len({table.model_dump_json() for table in tables}) == 1
 
 
+@pytest.mark.slow
 def test_text_pint_and_a_number_with_its_unit_give_the_same_bits():
     u = pint.UnitRegistry()
     for size in (74.93, 100.0, 0.1, 1 / 3):
@@ -92,6 +93,7 @@ def test_units_that_are_none_or_do_not_fit_are_refused(units, said):
     assert refusal(Gearset, **given, units=units).startswith(said)
 
 
+@pytest.mark.slow
 def test_a_quantity_of_pint_of_another_kind_is_refused():
     u = pint.UnitRegistry()
     assert "it must be a length such as" in refusal(

@@ -107,6 +107,7 @@ def every_equation():
                         seen.add(entry.symbol)
 
 
+@pytest.mark.slow
 def test_every_equation_is_written_in_symbols_that_stand_before_it():
     for standard, entry, seen in every_equation():
         unknown = set(words(entry.equation)) - seen - FUNCTIONS - PLAIN

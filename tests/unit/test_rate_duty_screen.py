@@ -164,6 +164,7 @@ def test_a_duty_cycle_has_the_lines_of_the_spectrum_that_is_the_same():
     assert len(short.tables()) == len(whole.tables())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("duty", ["S3 15 %", "S2 15 min"])
 def test_a_duty_that_cannot_count_is_told_with_the_verdict(duty):
     told = f"{duty} does not count yet, temperature is judged as of S1: give [housing] with"

@@ -191,12 +191,14 @@ def test_a_file_does_not_say_what_is_imported(pull, tmp_path):
         read(write_dataset(dataset, tmp_path / "foreign.nc"))
 
 
+@pytest.mark.slow
 def test_everything_is_written_to_a_folder(timed, tmp_path):
     assert timed.write(tmp_path) == ["result.json", "result.nc", "result.png"]
     assert json.loads((tmp_path / "result.json").read_text()) == timed.to_json()
     assert {path.name for path in tmp_path.iterdir()} == {"result.json", "result.nc", "result.png"}
 
 
+@pytest.mark.slow
 def test_pictures_are_written_as_asked_the_same_bytes_each_time(timed, tmp_path):
     contents = []
     for folder in (tmp_path / "once", tmp_path / "again"):

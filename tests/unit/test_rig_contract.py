@@ -96,6 +96,7 @@ def supply(request, rig):
             yield Made(PyMeasureSupply(device.ch_1, "supply of steel"))
 
 
+@pytest.mark.ordinary(1)
 def test_a_scope_hands_out_every_sample_of_every_input_once(scope):
     made = scope.instrument
     assert isinstance(made, protocols.Scope)
@@ -216,6 +217,7 @@ def test_the_whole_procedure_runs_on_makers_drivers(fault, tmp_path, monkeypatch
     assert rigs.journal(tmp_path)[-1]["still_on"]
 
 
+@pytest.mark.slow
 def test_a_person_may_take_time_while_the_recording_goes_on(tmp_path):
     # Somebody who does what is asked at the simulated rig, two seconds of whose time it takes.
     import time

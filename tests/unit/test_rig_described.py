@@ -429,6 +429,7 @@ def guarded(plugged):
         one.close()
 
 
+@pytest.mark.slow
 def test_a_guardian_switches_described_instruments_and_reads_them_back(guarded):
     guard, (two, one, drive) = guarded()
     begun = guard.begun()
@@ -458,6 +459,7 @@ def test_a_guardian_switches_described_instruments_and_reads_them_back(guarded):
     assert not any(fake.outputs[1].on for fake in (two, one, drive))
 
 
+@pytest.mark.slow
 def test_a_described_supply_that_stays_on_is_named(guarded):
     # What is welded is waited for until the deadline.
     guard, (two, _, _) = guarded('guardian.deadline="4 s"')

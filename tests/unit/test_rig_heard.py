@@ -103,6 +103,7 @@ def seed_of(name):
     return zlib.crc32(name.encode()) % 100_000
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("name", [slow(name) if name in ALIKE else name for name in TOLD])
 def test_a_fault_is_told_and_spoils(tmp_path, name):
     flags = spoiled(name, seed_of(name), tmp_path / "run.nc", **SMALL)
@@ -135,6 +136,7 @@ def flagged(path):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 4])
 def test_a_sound_recording_is_good(tmp_path, seed):
     assert flagged(sound(seed, tmp_path / "run.nc", **SMALL)) == []
@@ -156,6 +158,7 @@ def flagged_of_export(seed, folder, **settings):
     return flagged(folder / "run.nc")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [3, 4])
 def test_a_sound_export_is_good_though_its_encoders_show_a_trial_run(tmp_path, seed):
     assert flagged_of_export(seed, tmp_path, **SMALL | {"first": 1.0, "rate": 5e3}) == []
@@ -201,6 +204,7 @@ def covered(seeds, size, path):
     return held, over
 
 
+@pytest.mark.slow
 def test_a_zero_that_is_off_and_drifts_is_taken_off(tmp_path):
     held, over = covered(range(3), 0.02, tmp_path / "run.nc")
     # 27 intervals of three files: 0.95 with a deviation of about 0.06.
@@ -221,6 +225,7 @@ def test_intervals_hold_the_truth_whatever_the_zero(tmp_path, size):
         assert 0.93 - chance <= np.mean(one) <= 0.97 + chance, name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [339, 447])
 def test_a_speed_whose_zero_is_far_off_hides_no_rest(tmp_path, seed):
     # At 339 it shows a quarter of its level at rest, at 447 it never falls below what turns.
@@ -234,6 +239,7 @@ def test_a_speed_whose_zero_is_far_off_hides_no_rest(tmp_path, seed):
         assert segment.before.first * heard.blocks.length >= start
 
 
+@pytest.mark.slow
 def test_a_zero_that_is_not_taken_off_is_in_the_interval(tmp_path):
     given = with_zeros(239, 0.02)
     one = reducible(recorded(made(given), tmp_path / "run.nc"), *ASKED)
@@ -248,6 +254,7 @@ def test_a_zero_that_is_not_taken_off_is_in_the_interval(tmp_path):
         assert most.correlation == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_a_picture_of_a_finding_shows_all_that_it_rests_on(tmp_path):
     given = with_zeros(1, 0.02)
     one = reducible(recorded(made(given), tmp_path / "run.nc"), *ASKED)
@@ -288,6 +295,7 @@ def test_one_stretch_at_rest_gives_a_zero_that_stays():
     assert once.covariance_at(np.array([0.0, 100.0])) == pytest.approx(np.full((2, 2), 1e-6))
 
 
+@pytest.mark.slow
 def test_a_zero_takes_the_place_of_the_offset_of_its_calibration(tmp_path):
     given = with_zeros(1, 0.0)
     path = recorded(made(given), tmp_path / "run.nc")
@@ -304,6 +312,7 @@ def test_a_zero_takes_the_place_of_the_offset_of_its_calibration(tmp_path):
     assert widths[1] == pytest.approx(widths[0], rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_check_tells_of_segments_that_are_refused(tmp_path):
     name = "samples missing in the torque"
     path = faulty(name, seed_of(name), tmp_path / "run.nc", **SMALL)
@@ -313,6 +322,7 @@ def test_a_check_tells_of_segments_that_are_refused(tmp_path):
     assert sum("is refused: torque_steel has samples missing" in one for one in checked.notes) == 3
 
 
+@pytest.mark.slow
 def test_an_accelerometer_is_heard_at_the_drive_s_frequency_alone(tmp_path):
     one = reducible(faulty("accelerometer hears an overtone", 1, tmp_path / "run.nc", **SMALL))
     _, segments = reduce_recording(one)
@@ -321,6 +331,7 @@ def test_an_accelerometer_is_heard_at_the_drive_s_frequency_alone(tmp_path):
         assert segment.velocity_amplitude == pytest.approx(peak, rel=0.01)
 
 
+@pytest.mark.slow
 def test_no_fault_is_made_up_where_a_recording_holds_no_rest(tmp_path):
     run = made(dataclasses.replace(sound_settings(3), **SMALL))
     start, _, end = run.spans[0]

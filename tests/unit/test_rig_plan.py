@@ -32,6 +32,7 @@ def test_table_6_10_has_90_cells_twice_in_30_files():
     assert [one["steel_supply_V"] for one in files[:6]] == [1.0, 1.0, 3.0, 3.0, 5.5, 5.5]
 
 
+@pytest.mark.slow
 def test_randomised_in_blocks_every_repeat_has_every_cell_once():
     plan = planned("plan.order=randomised", "plan.seed=4")
     assert plan.cell_count == 180
@@ -58,6 +59,7 @@ def test_a_plan_says_what_it_will_not_resolve():
     assert "cannot be told" in " ".join(planned("plan.repeats=1").notes)
 
 
+@pytest.mark.slow
 def test_a_plan_says_which_windows_its_reduction_refuses_and_what_is_interpolated():
     told = planned('plan.before="4 s"', 'plan.frequencies=["250 Hz", "600 Hz"]').notes
     assert any("plan.before is 4 s, which should be 4.2 s or more" in note for note in told)

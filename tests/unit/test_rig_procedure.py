@@ -54,6 +54,7 @@ def lasting(undisturbed, tmp_path_factory):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("what", ["a count", "its end"])
 def test_a_recording_that_is_not_what_was_recorded_is_not_gone_on_with(undisturbed, tmp_path, what):
     folder = tmp_path / "run"
@@ -182,6 +183,7 @@ def replayed(case, undisturbed, folder):
     return study.answer(problem, Run(folder=folder, stem="rig-run"))
 
 
+@pytest.mark.slow
 def test_a_run_played_back_is_watched_again_and_gives_its_cells(undisturbed, tmp_path):
     answer = replayed(rigs.small_case(), undisturbed, tmp_path / "again")
     assert answer.failure is None
@@ -226,6 +228,7 @@ def test_what_a_run_records_is_what_its_journal_says(undisturbed):
         assert zlib.crc32(np.ascontiguousarray(raw[first : first + count]), crc) == cell["crc32"]
 
 
+@pytest.mark.slow
 def test_an_encoder_that_lags_costs_no_segment_and_leans_on_no_speed(tmp_path):
     # Counted for a second, a start is shown up to that much later, and a change for longer.
     times = 'plan.before="4.5 s"', 'plan.shaken="4.5 s"', "twin.runout_steel=0", "twin.drift=0"
@@ -266,6 +269,7 @@ def killed_and_resumed(case, folder, draw):
     return kills
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_runs_that_are_killed_go_on_to_the_same_cells(undisturbed, lasting, tmp_path):
     folder, _ = undisturbed
@@ -302,6 +306,7 @@ FAULTS = {
 }
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("name", FAULTS)
 def test_what_goes_wrong_is_named_and_everything_is_off_within_a_block(name, tmp_path):
     change, kind = FAULTS[name]
@@ -367,6 +372,7 @@ class LoadCase:
         return asked
 
 
+@pytest.mark.slow
 def test_nobody_is_sent_to_a_rig_that_is_on(tmp_path):
     case = rigs.small_case()
     bench, rig = rigs.made_bench(case)
@@ -377,6 +383,7 @@ def test_nobody_is_sent_to_a_rig_that_is_on(tmp_path):
     assert not any(on for _, on in person.found)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("disc", ["steel", "bronze"])
 def test_what_is_not_read_back_to_be_off_keeps_a_person_from_the_rig(disc, tmp_path):
     # No sample tells of it, since nothing is recorded between the cell and the person.
@@ -396,6 +403,7 @@ def test_what_is_not_read_back_to_be_off_keeps_a_person_from_the_rig(disc, tmp_p
     assert rigs.journal(tmp_path)[-1]["still_on"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("begins_again", "state", "ear"),
     grid([False, True], [None, False], [True, False], ordinary=3),
@@ -435,6 +443,7 @@ def test_a_person_is_sent_where_the_drive_is_heard_to_be_still_whatever_it_says(
     assert not any(on - {"amplifier"} for _, on in person.found)
 
 
+@pytest.mark.slow
 def test_a_person_is_not_sent_where_nobody_hears_the_drive(tmp_path):
     case = rigs.small_case('plan.idle="0 s"', 'plan.frequencies=["750 Hz"]')
     bench, rig = rigs.made_bench(case)
@@ -453,6 +462,7 @@ def test_a_person_is_not_sent_where_nobody_hears_the_drive(tmp_path):
     assert not any("Remove" in text for text, _ in person.found)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("pair", "kind"),
     [
@@ -474,6 +484,7 @@ def test_exchanged_cables_are_found_before_the_first_recording(pair, kind, tmp_p
     assert not rig.on & {"steel", "bronze", "vibration"}
 
 
+@pytest.mark.slow
 def test_a_latched_run_waits_for_a_person(undisturbed, tmp_path):
     case = rigs.small_case()
     bench, rig = rigs.made_bench(case)
@@ -494,6 +505,7 @@ def test_a_latched_run_waits_for_a_person(undisturbed, tmp_path):
         rigs.run(case, tmp_path, resume=True, acknowledge="again")
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_full_disk_latches_with_everything_off(undisturbed, tmp_path):
     case = rigs.small_case()

@@ -217,6 +217,7 @@ def test_run_out_is_in_the_torque_and_turns_with_the_discs():
     assert 0.06 < (torque.max() - torque.min()) / torque.mean() < 0.1
 
 
+@pytest.mark.slow
 def test_a_disc_on_its_shaft_follows_vibration_along_the_sliding():
     # A hypothesis about the 78 % of the thesis, not a fit: near resonance the disc moves along.
     rotor = 'twin.rotor_inertia="1e-4 kg m2"', 'twin.rotor_frequency="600 Hz"'

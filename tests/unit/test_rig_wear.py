@@ -168,6 +168,7 @@ def test_what_is_not_known_of_the_vibration_widens_the_rate_by_path_alone():
     assert unsure.wear_rate_by_distance.deviation == sure.wear_rate_by_distance.deviation
 
 
+@pytest.mark.slow
 def test_intervals_of_random_weighings_hold_the_truth_as_often_as_they_say():
     rng = np.random.default_rng(3)
     ways, loss, sd = np.array([5.0, 8.0, 4.0, 9.0]), 0.3, 0.4

@@ -18,6 +18,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="nothing else has SIGTERM")
 def test_told_to_end_it_leaves_nothing_that_python_would_warn_of(tmp_path):
     script = tmp_path / "asleep.py"

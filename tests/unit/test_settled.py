@@ -132,6 +132,7 @@ SLOW = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_without_a_duration_a_march_goes_on_until_it_has_settled():
     model = body(*SLOW)
     case = dict.fromkeys(("solve.duration",))

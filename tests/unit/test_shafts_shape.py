@@ -159,6 +159,7 @@ def test_the_drawing_is_to_scale(shape):
                     assert at in corners
 
 
+@pytest.mark.slow
 def test_dxf_has_the_lines_that_the_report_has():
     pytest.importorskip("ezdxf")
     s, paper, sheet = 0.5, Paper(), Sheet(0.5)
@@ -240,6 +241,7 @@ def test_threads_in_front_lean_by_the_lead_to_the_side_of_the_hand():
         )
 
 
+@pytest.mark.slow
 def test_the_report_of_a_rating_shows_shafts_bearings_and_what_they_come_to():
     from asperity.runs import Run
     from asperity.shafts.study import beside_rating
@@ -254,6 +256,7 @@ def test_the_report_of_a_rating_shows_shafts_bearings_and_what_they_come_to():
     assert "without hub" in rate_case(CASE).to_html()
 
 
+@pytest.mark.slow
 def test_a_shaft_too_thick_for_its_wheel_is_rated_and_makes_no_solid():
     from asperity.runs import Run
     from asperity.shafts.study import beside_rating

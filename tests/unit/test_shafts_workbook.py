@@ -70,6 +70,7 @@ def held(sheets, found, most=1e-11):
     return count
 
 
+@pytest.mark.slow
 def test_calculated_anew_it_is_the_answer(tmp_path):
     found = solved()
     sheets = workbook(found, tmp_path)
@@ -91,6 +92,7 @@ def beside_the_rating(folder, *settings):
     return solved(*settings), Workbook(file)
 
 
+@pytest.mark.slow
 def test_the_workbook_of_a_rating_has_them_on_the_same_inputs(tmp_path):
     found, sheets = beside_the_rating(tmp_path)
     assert held(sheets, found) > 80
@@ -136,6 +138,7 @@ def test_a_rated_torque_above_every_part_is_a_load_of_the_sheet(tmp_path):
     check_at_rest(sheets, found, solved("operation.output_torque='440 N m'"))
 
 
+@pytest.mark.slow
 def test_the_application_factor_is_a_cell_of_the_sheet(tmp_path):
     found, sheets = beside_the_rating(tmp_path, "operation.application_factor=1.5")
     assert held(sheets, found) > 80
@@ -143,6 +146,7 @@ def test_the_application_factor_is_a_cell_of_the_sheet(tmp_path):
     check_at_rest(sheets, found, solved("operation.application_factor=1.8"))
 
 
+@pytest.mark.slow
 def test_a_mesh_that_is_moved_in_the_sheet_is_moved_in_the_case(tmp_path):
     # Away from the middle, where no two cases are alike.
     found, moved = solved("worm_shaft.mesh=110 mm"), solved("worm_shaft.mesh=114 mm")
@@ -158,6 +162,7 @@ def test_a_mesh_that_is_moved_in_the_sheet_is_moved_in_the_case(tmp_path):
     assert held(sheets, moved) > 80
 
 
+@pytest.mark.slow
 def test_a_reliability_that_is_asked_in_the_sheet_is_that_of_the_case(tmp_path):
     sheets = workbook(solved(), tmp_path)
     sheets.change("bearings.a_1", 0.64)

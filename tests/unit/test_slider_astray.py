@@ -51,6 +51,7 @@ def test_a_body_goes_where_one_shaken_a_little_askew_goes(marched):
     assert marched.model.askew == 0.0
 
 
+@pytest.mark.slow
 def test_a_body_goes_where_plain_steps_go(marched):
     plain = solved(body(), 109, 80)
     assert abs(marched.ratio - plain.ratio) < 1e-4 + plain.error
@@ -113,6 +114,7 @@ def test_a_way_that_is_nearly_straight_is_looked_at_too(direction):
     assert not answer.settled or answer.ratio == pytest.approx(0.16604, rel=2e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "duration", [0.02, slow(0.0215), slow(0.0235), 0.02434, slow(0.026), 0.03, 0.2]
 )
@@ -149,6 +151,7 @@ def test_an_unstable_periodic_state_names_where_a_body_from_rest_goes(duration):
     assert found.ratio_from_rest == pytest.approx(0.1638, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_many_bodies_go_as_one_does(marched):
     many = solve_many([body()] * 5)
     assert {each.ratio for each in many} == {marched.ratio}

@@ -72,6 +72,7 @@ def test_a_body_that_lands_in_five_cycles_is_told_by_their_mean():
     assert judged(lacks, march._body, march.table, march.sums) == (lacks, ())
 
 
+@pytest.mark.slow
 def test_windows_of_a_body_that_never_repeats_itself_differ():
     march = at_the_end("0.4 s", "vibration.velocity_ratio=30", "vibration.elevation=90 deg")
     far, why = scatter(march._body, march.table, 5.0)
@@ -208,6 +209,7 @@ def wanderer(body, duration, *settings):
     return solve(Model.from_case(case.replace_values({"solve.step": None})), history=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "duration", "mean"),
     [
@@ -284,6 +286,7 @@ def test_one_that_wanders_is_told_the_usual_duration_before_it_has_had_that():
     assert "a solve.duration of 0.82 s would do" in answer.notes[-1]
 
 
+@pytest.mark.slow
 def test_rough_cycles_whose_means_still_go_somewhere_are_told_a_duration():
     """It goes from 0.855 to 0.882, where it repeats itself."""
     answer = wanderer("goes somewhere", "1.4 s")
@@ -302,6 +305,7 @@ STICKS = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("duration", ["0.8 s", slow("0.81 s")])
 def test_slips_that_do_not_repeat_themselves_have_not_settled_by_chance(duration):
     """Of windows that settled by their halves the means were 5.5e-3 apart."""
@@ -312,6 +316,7 @@ def test_slips_that_do_not_repeat_themselves_have_not_settled_by_chance(duration
     assert any("no solve.duration is foreseen" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_nor_have_those_of_a_body_with_a_thousand_times_the_forces():
     heavy = (
         "slider.normal_force=31.089146 kN", "slider.drive_stiffness=522377830 N/m",

@@ -60,6 +60,7 @@ def test_a_long_work_is_announced_before_it_begins(monkeypatch):
 sizes = st.sampled_from([0.0, 5e-324, 1e-300, 1e-160, 1e-9, 1.0, 1e9, 1e160, 1e300])
 
 
+@pytest.mark.slow
 @given(st.lists(sizes, min_size=12, max_size=12), st.sampled_from(["march", "periodic"]),
        st.sampled_from(["coulomb", "dahl", "lugre"]))  # fmt: skip
 def test_no_size_of_a_number_ends_in_anything_but_a_refusal(numbers, method, law):

@@ -46,6 +46,7 @@ def test_a_flight_lasts_as_long_as_a_thrown_mass_is_up():
     assert longest_flight(SimpleNamespace(state={}), SimpleNamespace(step=1.0), {}) == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ratio", "duration"),
     [(1e5, "10 ms"), (1e5, "20 ms"), (1e5, "0.1 s"), slow(1e5, "0.4 s"), slow(1e4, "0.4 s")],

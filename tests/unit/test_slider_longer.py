@@ -283,6 +283,7 @@ def test_a_drive_that_is_stretched_by_a_body_at_rest_is_not_foreseen_to_be_so_fo
     assert solve(lasting(early, does), history=False).settled
 
 
+@pytest.mark.slow
 def test_asperities_with_a_tail_are_foreseen_as_long_as_their_law_takes():
     """While the drive is being stretched the means change by more than a tail would."""
     tail = "friction.exponent=2", "slider.drive_damping=400 N s/m", "vibration.start=0 s"

@@ -234,6 +234,7 @@ FALLS = (
 )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_shaken_body_that_sticks_and_slips_is_sent_to_no_other_method_but_told_what_helps():
     body = lasting(model_of(*FALLS), 1.2)
     found = solve(body, history=False)
@@ -262,6 +263,7 @@ def test_steady_sliding_is_stable_with_the_damping_told_and_not_with_less():
     assert told in advice(None, body)
 
 
+@pytest.mark.slow
 def test_a_still_body_that_sticks_beside_stable_sliding_is_told_no_duration_again_and_again():
     """It was told 4.6 s after 2.9 s, 8 s after 6 s, 22 s after 20 s; the damping is that told."""
     body = model_of(
@@ -366,6 +368,7 @@ def test_asperities_near_their_limit_have_settled_where_no_more_than_2e_3_is_lef
     assert found.settled
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("duration", [0.1164, 0.257, 0.3])
 def test_a_march_far_from_its_state_is_told_no_duration_by_modes_that_are_not_its_way(duration):
     """It is settled after 3 s; by the state next to its end it was told 120, 700 and 1200 s.

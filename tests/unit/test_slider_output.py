@@ -16,6 +16,7 @@ def marched():
     return solved("table-4.4")
 
 
+@pytest.mark.slow
 def test_the_dataset_of_a_result_survives_being_stored(marched, tmp_path):
     dataset = marched.to_dataset()
     write_dataset(dataset, tmp_path / "slide.nc")

@@ -50,6 +50,7 @@ def test_next_to_no_damping_is_as_none(damping):
     assert ("solve.duration" in note) == (damping > 0.0)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("method", ["march", "periodic"])
 def test_no_method_sends_to_another_over_a_contact_that_rings_for_ever(method):
     thrown = "vibration.velocity_ratio=20", f"solve.method={method}", "solve.duration=0.5 s"
@@ -61,6 +62,7 @@ def test_no_method_sends_to_another_over_a_contact_that_rings_for_ever(method):
     assert not any("solve.method" in note for note in answer.notes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("exponent", "begins", "ends"),
     [
@@ -207,6 +209,7 @@ THROWN = (
 )  # fmt: skip
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("ratio", "told"), [(189.871, True), (6.0, False)])
 def test_of_a_body_that_is_thrown_far_above_its_resonance_another_state_is_told(ratio, told):
     # Found by lot: at 2.8 times the resonance it bounces every cycle, or thrice in four.
@@ -239,6 +242,7 @@ def ringing(velocity, *settings):
     return cycle, mode
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("velocity", "settings"),
     [
@@ -293,6 +297,7 @@ def test_a_ring_is_of_many_states_only_where_the_ratio_follows_it(law, friction,
     assert (UNHEARD in marched.notes) != follows
 
 
+@pytest.mark.slow
 def test_drive_and_contact_that_both_ring_are_both_asked_whether_the_ratio_follows(monkeypatch):
     """It follows the contact's ring alone; which of the two is larger is a matter of rounding."""
     undamped = "normal.damping_ratio=0", "normal.law=rough", "friction.model=springs"
@@ -309,6 +314,7 @@ def test_drive_and_contact_that_both_ring_are_both_asked_whether_the_ratio_follo
         assert cycle.one_of_many(growth)
 
 
+@pytest.mark.slow
 def test_where_a_period_begins_to_double_a_disturbance_lasts():
     # The state of one cycle lets go there: damped, a push of it neither grows nor fades.
     before, told = (solved("pin-on-disc", f"vibration.velocity_ratio={k}") for k in (18.3, 18.338))

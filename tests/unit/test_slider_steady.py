@@ -50,6 +50,7 @@ def test_a_march_beside_unstable_steady_sliding_has_not_settled_until_it_has_lef
     assert still_leaves(steady, half, (1e-4, 1e-4 * grown)) == ""
 
 
+@pytest.mark.slow
 def test_a_body_that_rings_for_ever_on_its_drive_has_settled_in_the_mean_and_says_what_it_does():
     """It comes to its swing at once and keeps it; the mean is that of steady sliding to 1e-3."""
     body = Model.from_case(
@@ -69,6 +70,7 @@ def test_a_body_that_rings_for_ever_on_its_drive_has_settled_in_the_mean_and_say
     assert found.ratio == pytest.approx(1.0025, abs=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("method", ["march", "periodic"])
 def test_who_sticks_and_slips_is_sent_to_no_other_method_nor_to_a_longer_march(method):
     """Its window of 0.4 s holds less than one slip of a soft drive: no duration does."""

@@ -59,6 +59,7 @@ def along_strengths(step):
     ]
 
 
+@pytest.mark.slow
 def test_states_that_follow_one_another_choose_their_steps_as_each_alone_does():
     models = along_strengths(None)
     walk = Walk()
@@ -75,6 +76,7 @@ def test_states_that_follow_one_another_choose_their_steps_as_each_alone_does():
     assert {state.model.finer for state in follow(models)} == {1, 2, 4, 16}
 
 
+@pytest.mark.slow
 def test_branches_tell_each_state_s_error_and_in_one_note_that_the_given_step_is_too_long():
     case = read_case("table-4.3", case_tables(), CORNERS)
     found = answer(prepare(case, over=["vibration.velocity_ratio=3,6,10"]), Run())
@@ -321,6 +323,7 @@ def test_what_other_steps_miss_as_well_where_the_load_jumps_is_told(settings):
     assert told == pytest.approx(true, rel=0.1)
 
 
+@pytest.mark.slow
 def test_at_corners_a_limit_that_falls_with_speed_is_let_down_to_as_the_march_does():
     """What is above its limit stays so in proportion: told is the error on any steps, 1 to 10 %."""
     _, cycle = at_its_state(

@@ -24,6 +24,7 @@ def foreseen(answer):
     return float(said.split()[3])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("exponent", "bends"),
     grid(
@@ -39,6 +40,7 @@ def test_the_first_duration_that_is_foreseen_does_whatever_the_exponent(exponent
     assert late.ratio == pytest.approx(1.0, abs=2e-3)
 
 
+@pytest.mark.slow
 def test_a_body_that_never_bears_all_of_its_friction_slides_for_all_that():
     body = still("friction.exponent=1.3", "friction.max_deflection=5 um", *SLOW)
     found = solve(lasting(body, 1.0), history=False)

@@ -120,6 +120,7 @@ def test_json_lists_proposals_and_what_is_impossible(found):
     assert first["centre_distance_mm"] in (40.0, 60.0, 100.0, 200.0)
 
 
+@pytest.mark.slow
 def test_the_dataset_survives_its_file(found, tmp_path):
     dataset = read_dataset(write_dataset(found.to_dataset(), tmp_path / "catalogue.nc"))
     assert dataset["axial_module"].attrs["units"] == "mm"

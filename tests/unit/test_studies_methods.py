@@ -294,6 +294,7 @@ def test_more_ways_stand_beside_those_that_ship_and_the_last_of_a_key_wins(file)
     assert found["ester"].base_friction == pytest.approx(0.8 * found["as_is"].base_friction)
 
 
+@pytest.mark.slow
 def test_numbers_of_the_picture_stay_within_it_and_no_line_goes_through_them():
     figure = plot_comparison(compare_case(case("gearset-2")).to_dataset())
     figure.draw_without_rendering()

@@ -120,6 +120,7 @@ def test_the_settings_also_work_where_the_case_gives_other_numbers(tmp_path):
     assert again.iso14521["eta_z1_2"] == pytest.approx(best.after.iso14521["eta_z1_2"], rel=1e-9)
 
 
+@pytest.mark.slow
 def test_wider_bounds_are_no_worse_and_no_bounds_leave_the_gearset_as_it_is():
     given = gearset()
     free = Bounds(module_change=(-0.1, 0.1))
@@ -162,6 +163,7 @@ def test_bounds_the_wrong_way_round_are_refused():
         Bounds(profile_shift=(0.0, 0.0))
 
 
+@pytest.mark.slow
 def test_a_variable_without_room_stays_and_the_others_are_free():
     given = gearset()
     angle = given[0].pressure_angle
@@ -182,6 +184,7 @@ def test_a_higher_permissible_torque_never_gives_more_efficiency(curve):
     assert np.all(np.diff(curve.efficiency) <= 1e-9)
 
 
+@pytest.mark.slow
 def test_no_design_of_many_beats_the_curve(name, curve):
     found = samples(name)
     torque = found["M_permissible_Nm"]
@@ -197,6 +200,7 @@ def test_the_optimum_lies_on_the_curve_where_strength_decides(curve, best):
     assert best.after.iso14521["eta_z1_2"] == pytest.approx(nearby, abs=2e-4)
 
 
+@pytest.mark.ordinary(1)
 def test_the_dataset_of_the_curve_survives_its_file(curve, tmp_path):
     dataset = read_dataset(write_dataset(curve.to_dataset(), tmp_path / "curve.nc"))
     assert dataset["torque"].attrs["units"] == "N m"

@@ -134,6 +134,7 @@ def test_a_smoother_worm_that_no_longer_locks_itself_is_told_and_not_taken_where
     assert 0.0 < kept.gain < best.gain
 
 
+@pytest.mark.slow
 def test_what_is_not_free_stays_and_bounds_are_kept():
     case = read_case("gearset-3", case_tables())
     best = found(case, free="worm_roughness", bounds=["worm_roughness=1:1.6 um"])

@@ -96,6 +96,7 @@ def test_the_trade_off_keeps_it_too():
     assert max(numbers["axial_module_mm"] * teeth) <= 166.5
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
@@ -187,6 +188,7 @@ def test_no_optimum_of_random_gearsets_breaks_a_requirement():
     assert sum(check(seed) for seed in range(4, 40)) >= 6
 
 
+@pytest.mark.slow
 def test_a_sensitivity_tells_where_a_rise_breaks_a_requirement():
     case = case_of()
     found = sensitivity.answer(sensitivity.prepare(case), Run())

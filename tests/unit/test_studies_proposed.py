@@ -33,6 +33,7 @@ def saved(folder, *found):
     return answer, read(folder / "size.nc").to_dataset()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("found", [(PLAIN,), (PLAIN, WHOLE), (WHOLE, WHOLE)])
 def test_netcdf_holds_of_each_proposal_what_json_does(tmp_path, found):
     answer, dataset = saved(tmp_path, *found)
@@ -61,6 +62,7 @@ def test_netcdf_holds_of_each_proposal_what_json_does(tmp_path, found):
             assert own["bearings"] == "; ".join(f"{k} = {name}" for k, name in bearings.items())
 
 
+@pytest.mark.slow
 def test_what_one_proposal_lacks_is_nan_or_empty(tmp_path):
     _, dataset = saved(tmp_path, PLAIN, WHOLE)
     first = dataset.isel(proposal=0)

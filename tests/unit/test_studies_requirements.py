@@ -131,6 +131,7 @@ def test_the_ratio_may_be_required():
         sized(None)
 
 
+@pytest.mark.slow
 def test_a_proposal_under_a_spectrum_is_written_without_another_life(tmp_path):
     spectrum = "spectrum.step=[{duration='5000 h', output_torque='250 N m'}]"
     asked = {"output_torque": "250 N m", "worm_speed": "1400 rpm"}

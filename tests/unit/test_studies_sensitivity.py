@@ -85,6 +85,7 @@ def test_json_holds_plain_numbers_with_units_and_none_for_no_answer(study):
     assert answer["inputs"]["worm_speed"]["fails_above_percent"] is None
 
 
+@pytest.mark.slow
 def test_the_dataset_survives_its_file(study, tmp_path):
     dataset = read_dataset(write_dataset(study.to_dataset(), tmp_path / "study.nc"))
     curve = dataset["eta_z1_2"].sel(input="centre_distance")

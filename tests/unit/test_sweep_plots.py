@@ -108,6 +108,7 @@ def test_no_line_of_branches_goes_through_what_has_not_settled():
         assert [np.isnan(line.get_ydata()).tolist() for line in drawn] == [[False, True, False]] * 2
 
 
+@pytest.mark.slow
 def test_so_have_branches_and_safeties():
     both = np.ones((2, len(FACTORS)))
     names = ("ratio", "penetration_swing", "open_share", "settled")

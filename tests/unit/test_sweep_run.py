@@ -37,6 +37,7 @@ def case(*settings, name="table-4.3"):
     return read_case(name, TABLES, settings)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("method", ["march", "periodic"])
 def test_every_point_of_a_sweep_is_what_a_single_solve_gives(method):
     body = case(f"solve.method={method}", *SHORT)
@@ -61,6 +62,7 @@ def test_the_grid_runs_through_the_last_axis_first():
     assert len({point.key for point in points}) == 12
 
 
+@pytest.mark.slow
 def test_a_second_run_finds_everything_and_says_the_same():
     body = case("solve.method=periodic")
     axes = ["vibration.direction=0:90:30", "vibration.velocity_ratio=2,6"]
@@ -99,6 +101,7 @@ def test_a_point_that_is_refused_while_solving_is_named():
         run(body, ["friction.mu=0.1,0.2"])
 
 
+@pytest.mark.slow
 def test_a_point_without_convergence_is_masked_with_its_reason_and_remembered(tmp_path):
     axes = ["vibration.velocity_ratio=30,2"]
     for cached in (0, 2):
@@ -151,6 +154,7 @@ def test_who_looks_on_sees_the_points_that_are_there_and_no_others():
         assert np.array_equal(before[known], after[known])
 
 
+@pytest.mark.slow
 def test_the_dataset_has_units_names_and_what_all_points_share(tmp_path):
     body = case("solve.method=periodic")
     result = run(body, ["vibration.direction=0:90:45", "friction.law=split,vector"])
@@ -184,6 +188,7 @@ def test_dimensions_of_the_same_key_are_told_apart_by_their_tables():
     assert result.dims == ("slider_mass", "disc_mass", "radius")
 
 
+@pytest.mark.slow
 def test_points_whose_values_change_together_are_one_dimension_of_the_answer(tmp_path):
     (tmp_path / "two.csv").write_text(
         "vibration.velocity_ratio,vibration.direction [deg]\n2,0\n6,45\n"
@@ -232,6 +237,7 @@ def test_walking_through_a_large_grid_takes_no_memory(monkeypatch):
     assert peak(range(900)) < 1.2 * few + 200_000
 
 
+@pytest.mark.slow
 def test_one_and_two_axes_are_drawn_and_three_are_refused():
     # So fast that no body from rest comes to another state, which would be looked for.
     body = case("solve.method=periodic", "vibration.frequency=6 kHz")
@@ -260,6 +266,7 @@ def test_a_cluster_without_the_extra_names_what_to_install(monkeypatch):
         run(case(*SHORT), ["friction.mu=0.1,0.2"], cluster="tcp://127.0.0.1:1")
 
 
+@pytest.mark.slow
 def test_a_relative_samples_file_is_known_by_its_content(tmp_path):
     def wave(scale):
         phase = np.linspace(0.0, 1.0, 41)

@@ -44,6 +44,7 @@ def test_misalignment_of_an_identical_hob_gives_contact_at_one_edge(formation):
     assert np.all(high < -2.0)
 
 
+@pytest.mark.slow
 def test_an_oversized_and_tilted_hob_gives_ellipses_within_the_face(formation):
     share, low, high = bearing_columns(formation, MODIFIED)
     face = formation["face"].isel(design=MODIFIED)

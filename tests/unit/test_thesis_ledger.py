@@ -147,6 +147,7 @@ def written(tree):
             yield str(piece.value)
 
 
+@pytest.mark.slow
 def test_no_reason_holds_a_number_that_is_typed_in():
     found = list(judgements())
     assert len(found) >= len(CLAIMS)

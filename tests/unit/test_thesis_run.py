@@ -315,6 +315,7 @@ def part(name, **options):
     return Task(name, functools.partial(str, name), name, **options)
 
 
+@pytest.mark.slow
 def test_the_dearest_begins_first_and_nothing_before_what_it_needs():
     tasks = [part("late", after=("small",)), part("small"), part("dear", seconds=9.0)]
     ended = [(task.name, future.result()) for task, future in done(tasks, 1)]
@@ -325,6 +326,7 @@ def order_of(tasks, processes=1):
     return [task.name for task, _ in done(tasks, processes)]
 
 
+@pytest.mark.slow
 def test_what_calls_no_compiled_code_begins_first_then_one_of_each_room():
     def of(name, room, seconds):
         return Task(name, functools.partial(str, name), room, seconds)
@@ -333,6 +335,7 @@ def test_what_calls_no_compiled_code_begins_first_then_one_of_each_room():
     assert order_of(tasks) == ["free", "a2", "b", "a1"]
 
 
+@pytest.mark.slow
 def test_tasks_without_compiled_code_do_not_wait_for_one_another():
     with tempfile.TemporaryDirectory() as folder:
         each = functools.partial(meet, folder)
@@ -375,12 +378,14 @@ def test_what_ended_is_shown_while_nothing_else_does(tmp_path, made, monkeypatch
     assert made()
 
 
+@pytest.mark.slow
 def test_a_process_that_dies_is_told_in_one_line():
     dying = Task("dying", functools.partial(os._exit, 3), "room")
     with pytest.raises(StorageError, match="a process ended"):
         list(done([dying, part("other")], 1))
 
 
+@pytest.mark.slow
 def test_linear_algebra_in_the_processes_has_one_thread(monkeypatch):
     monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     asked = Task("asked", functools.partial(os.getenv, "OMP_NUM_THREADS"), "room")

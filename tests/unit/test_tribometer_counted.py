@@ -40,6 +40,7 @@ def estimated(speed, swings, seed):
     return shown, estimate_counted(TIMES, shown, window, SHAKEN, swings, LEFT_OUT, STEP, 1.0)
 
 
+@pytest.mark.slow
 def test_a_level_is_off_by_what_its_steps_leave_and_far_less_than_as_noise():
     over, wide = [], []
     for seed in range(30):

@@ -120,6 +120,7 @@ def test_what_is_looked_at_next_spans_the_measurements_however_many_conditions_d
         assert (min(looked), max(looked)) == pytest.approx((min(values), max(values)))
 
 
+@pytest.mark.slow
 def test_a_fit_hears_ctrl_c_before_its_next_data_set(tmp_path, monkeypatch):
     solved = []
 
@@ -202,6 +203,7 @@ def test_a_contact_as_good_as_rigid_is_that_of_its_own_deflection(direction, k):
     assert value == pytest.approx(limit.rigid, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_law_that_cannot_be_fitted_is_told_and_the_others_are(tmp_path, monkeypatch):
     class Partly(Predictor):
         def __call__(self, conditions, given):
@@ -221,6 +223,7 @@ def test_a_law_that_cannot_be_fitted_is_told_and_the_others_are(tmp_path, monkey
         fitted(path, "table-4.4", [LIMIT], law="vector")
 
 
+@pytest.mark.slow
 def test_an_uncertain_condition_widens_the_intervals(tmp_path):
     values = exact("table-4.4")
     head = "vibration.velocity_ratio,ratio,sd"
@@ -414,6 +417,7 @@ def test_the_value_of_a_bound_is_within_the_bounds(tmp_path):
             one.quantity.check(one.value(logarithm))
 
 
+@pytest.mark.slow
 def test_a_key_that_forbids_where_a_fit_goes_is_told_with_what_the_fit_came_to(tmp_path):
     path = tmp_path / "data.csv"
     rows = [f"{speed},{force},0.02" for speed, force in ((1, 1.2), (3, 1.1), (10, 1.1), (30, 1.2))]

@@ -55,6 +55,7 @@ def holds(found, columns, tolerance=1e-4):
         assert values == pytest.approx(wanted, abs=tolerance)
 
 
+@pytest.mark.ordinary(30)
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-16-le", "latin-1"])
 @pytest.mark.parametrize("program", TEXTS)
 def test_text_is_read_to_the_value(tmp_path, program, encoding):
@@ -378,6 +379,7 @@ def test_a_number_is_read_as_it_was_written(value, marks):
     assert float(plain.replace(found[0], ".")) == float(f"{value:.3f}")
 
 
+@pytest.mark.slow
 def test_a_look_tells_columns_values_and_gaps_and_draws_them(tmp_path, capsys):
     rows = tektronix_mso64()
     del rows[30]

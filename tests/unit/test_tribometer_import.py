@@ -349,6 +349,7 @@ DATED = {
 }
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("how", DATED)
 def test_a_recording_is_dated_by_its_file_or_by_its_import_and_says_so(tmp_path, how):
     content, began = DATED[how]

@@ -267,6 +267,7 @@ def test_a_gain_that_is_not_known_widens_powers_and_leaves_changes_in_percent():
         assert widths[1] == pytest.approx(math.hypot(widths[0], rim), rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_motor_gives_way_to_the_torque_as_far_as_that_swings():
     # Friction that lasts lowers the speed by what it adds to the torque; a sensor's noise does not.
     found = joint(NOISES["coloured"], 1).levels

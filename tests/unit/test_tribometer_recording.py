@@ -69,6 +69,7 @@ def test_what_was_recorded_is_read_back(tmp_path, compress, pieces):
     assert all(one.attrs["units"] for one in read_dataset(path).data_vars.values())
 
 
+@pytest.mark.slow
 def test_lost_and_late_samples_are_gaps(tmp_path):
     path = tmp_path / "run.nc"
     with recorder(path) as made:
@@ -81,6 +82,7 @@ def test_lost_and_late_samples_are_gaps(tmp_path):
     assert "late" in late.reason
 
 
+@pytest.mark.slow
 def test_lost_samples_are_one_gap_though_a_block_was_not_full(tmp_path):
     path = tmp_path / "run.nc"
     with recorder(path) as made:
@@ -91,6 +93,7 @@ def test_lost_samples_are_one_gap_though_a_block_was_not_full(tmp_path):
     assert lost.reason == "5000 samples lost"
 
 
+@pytest.mark.slow
 def test_samples_that_are_no_values_are_not_numbers(tmp_path):
     path, given = tmp_path / "run.nc", counts(100)
     given[3, 0], given[4, 0], given[5, 0] = layout.MISSING, layout.BEYOND, -layout.BEYOND
@@ -203,6 +206,7 @@ def _virtual_numbers(file, other):
     file.create_virtual_dataset(layout.RAW, virtual)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "lead_out", [_external_link, slow(_soft_link), slow(_external_numbers), _virtual_numbers]
 )
@@ -247,6 +251,7 @@ def test_space_is_asked_for_before_a_file_is_begun(tmp_path, monkeypatch):
     assert stored(path).shape == (BLOCK, 2)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="needs limits of a process")
 def test_a_full_disk_is_a_line(tmp_path):
     limit = "import resource, signal; signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
@@ -345,6 +350,7 @@ def test_of_300_recordings_killed_at_random_each_lacks_its_last_block_at_most(tm
         check_killed(path, 50_000, reported)
 
 
+@pytest.mark.slow
 def test_the_reader_of_the_docs_reads_a_recording_without_this_package(tmp_path):
     path = tmp_path / "run.nc"
     given = counts(600)
@@ -376,6 +382,7 @@ def test_the_reader_of_the_docs_reads_a_recording_without_this_package(tmp_path)
         reader.read(path)
 
 
+@pytest.mark.slow
 def test_the_layout_s_page_names_all_that_is_in_a_recording(tmp_path):
     with recorder(tmp_path / "run.nc") as made:
         made.append(counts(10), 0.01)

@@ -106,6 +106,7 @@ def test_a_calibration_of_three_points_has_one_degree_of_freedom_and_students_fa
     assert budget.coverage_factor == pytest.approx(12.706, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_intervals_of_few_points_hold_the_truth_as_often_as_they_say():
     rng = np.random.default_rng(5)
     volts, value, held = np.linspace(0.0, 5.0, 4), 0.6, 0

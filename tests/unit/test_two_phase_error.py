@@ -30,6 +30,7 @@ def answer(*settings):
     return solve(Model.from_case(case), history=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "step"),
     [(SOFT, "2.4715 us"), (SOFT, "1.2 us"), (SOFT, "0.3 us"), (ACROSS, "3.25 us")],
@@ -41,6 +42,7 @@ def test_the_error_that_is_told_is_not_below_half_of_what_is_made(body, step):
     assert 0.5 * made < told.step_error < 3.0 * made
 
 
+@pytest.mark.slow
 def test_what_the_drive_adds_to_a_vibration_of_the_base_is_noted():
     along = "vibration.applied_to=base", "solve.scheme=two-phase", "solve.step=2.4715 us"
     shaken = answer(*SOFT, *along)
