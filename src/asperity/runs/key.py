@@ -6,7 +6,10 @@ import hashlib
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.kernels.closure import source_key
+from asperity.kernels.closure import Sources, source_key
+
+# A process computes with what it has loaded: its sources are those of its beginning.
+_LOADED = Sources()
 
 
 @functools.cache
@@ -22,7 +25,8 @@ def code_key(*modules: str) -> str:
     """
     from asperity.kernels.fingerprint import machine
 
-    return hashlib.sha256("\0".join((source_key(*modules), *machine())).encode()).hexdigest()
+    code = source_key(*modules, sources=_LOADED)
+    return hashlib.sha256("\0".join((code, *machine())).encode()).hexdigest()
 
 
 def key(code: str, *parts: str | bytes | NDArray[np.generic]) -> str:
