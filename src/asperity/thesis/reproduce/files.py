@@ -98,7 +98,8 @@ class Collection:
         A figure that was made in full serves as well where that is not asked for.
         """
         made = self._made.get(exhibit.name)
-        if made is None or made.key not in {key_of(exhibit, full=grade) for grade in (full, True)}:
+        grades = dict.fromkeys((full, True))
+        if made is None or all(made.key != key_of(exhibit, full=grade) for grade in grades):
             return None
         return self.show(exhibit, made, reused=True)
 
