@@ -18,6 +18,7 @@ from asperity.slider.from_rest import again_after, period_of, ratio_of
 from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import at_the_end
 from asperity.slider.model import Model
+from asperity.slider.ringing import rings
 from asperity.slider.step_error import run_once
 from asperity.slider.timetable import UNSTEADY, Timetable, bends_ever_more
 
@@ -60,10 +61,11 @@ def keeps_a_ring(model: Model) -> bool:
     """Whether a window has rings of a body on its drive in it that the drive's damper leaves.
 
     Of one whose two motions come apart otherwise, `asperity.slider.chance` asks that anyway:
-    friction falls with the speed, or asperities with an exponent above 1 are bent to and fro.
+    friction falls with the speed, or asperities with an exponent above 1 are bent to and fro. A
+    contact that rings on under its load makes cycles unalike by itself, and is told as that.
     """
     slider, friction = model.slider, model.friction
-    if not model.vibrates or model.normal is not None or model.solve.scheme == "two-phase":
+    if not model.vibrates or model.solve.scheme == "two-phase" or rings(model):
         return False
     if slider.drive_stiffness is None or slider.mass is None:
         return False
