@@ -140,7 +140,7 @@ def wandering(body: Integrator, window: WindowMeans, sums: np.void) -> Wandering
     if not model.vibrates:
         return None
     # One that is thrown and lands has cycles unalike by its flights, whatever ring it has.
-    ring = keeps_a_ring(model) and not _lands(model, sums)
+    ring = keeps_a_ring(model) and not (_lands(model, sums) or _bends_apart(model))
     if not (_softens(model) or _falls(model) or ring):
         return None
     if model.duration < model.usual_duration:
@@ -371,12 +371,12 @@ def judged(
             f"it sticks and slips: the halves of the next window are up to {off:.2g} of mu F_N off"
         )
         return (standing if off <= FAR else Standing(False, said)), ()
-    if may_wander(body, table, sums):
+    off, why = 0.0, ""
+    wanders = may_wander(body, table, sums)
+    if wanders:
         off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]), means)
-    elif keeps_a_ring(model) and not means:
-        off, why = off_by_its_ring(body, table, sums)
-    else:
-        return standing, ()
+    if off <= FAR and not means and keeps_a_ring(model) and (not wanders or _bends_apart(model)):
+        off, why = max((off, why), off_by_its_ring(body, table, sums))
     if off <= _NOTHING:
         return standing, ()
     said = f"{why}: the mean of the window is about {off:.2g} of mu F_N from that of all cycles"
