@@ -12,7 +12,7 @@ import numpy as np
 
 from asperity.slider.at_limit import bends_aside, size_of
 from asperity.slider.cycle_map import Cycle
-from asperity.slider.shooting import ACCEPTED, run
+from asperity.slider.shooting import ACCEPTED, run, run_cycle
 from asperity.slider.unknowns import most_unknowns, read_unknowns, unknown_scales, write_unknowns
 
 _THERE = 1e-12  # of the limit
@@ -56,6 +56,8 @@ def bend_to_limit(cycle: Cycle) -> bool:
         write_unknowns(before, body.p, there.q, state, there.springs)
     else:
         return False
+    # With the forces of its end at its start, as a rigid drive has them of the contact.
+    run_cycle(state, there.springs, body.p, there.q, there.increments, there.rises, body.sums)
     if abs(size_of(state) - 1.0) > _THERE or not only_bends_further(there):
         return False
     cycle.body.kept["state"][:] = body.kept["state"]
