@@ -113,6 +113,25 @@ def test_nor_is_one_of_a_pressed_body_or_of_what_comes_apart_otherwise(name):
     assert abs(mean - was) > FAR
 
 
+def test_a_window_with_parts_of_rings_is_not_the_mean_of_friction_that_stays():
+    """It was told a ratio of 1.0157 as settled, of a body that slides at mu F_N all the time."""
+    settings = (
+        "slider.drive_velocity=1 mm/s", "slider.normal_force=0.00561238 N",
+        "slider.mass=0.09625274 kg", "slider.drive_stiffness=21524.61 N/m",
+        "slider.lateral=guided", "friction.model=coulomb", "friction.mu=0.3754941",
+        "vibration.waveform=sine", "vibration.frequency=731.8049 Hz",
+        "vibration.velocity_ratio=0.2339898", "vibration.start=0 s", "solve.method=march",
+    )  # fmt: skip
+    case = read_case("table-4.3", TABLES, settings)
+    answer = solve(
+        Model.from_case(case.replace_values({"solve.step": None, "solve.duration": None})),
+        history=False,
+    )
+    assert not answer.settled
+    assert "the window has no whole number" in answer.settled_by
+    assert "give slider.drive_damping" in answer.notes[-1]
+
+
 def test_a_periodic_state_that_grows_is_told_where_a_march_from_rest_comes_to():
     """It was told 0.97892, as the march was that it asks; long marches have 0.98203."""
     given = 1005.88321873, 1.2673004005, 1.01, 1, "guided", "solve.method=periodic"

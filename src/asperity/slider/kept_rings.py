@@ -20,7 +20,7 @@ from asperity.slider.integrators import Integrator
 from asperity.slider.march_end import sums_on
 from asperity.slider.model import Model
 from asperity.slider.ringing import rings
-from asperity.slider.timetable import UNSTEADY, Timetable
+from asperity.slider.timetable import FAR, UNSTEADY, Timetable
 
 _FADED = 7.0  # time constants of a ring by the drive's damper, in which a window has none left
 _LEAST, _LOOKED_AT = 12, 36  # cycles, in which friction is the same or is not
@@ -76,7 +76,8 @@ def keeps_a_ring(model: Model) -> bool:
 def off_by_its_ring(body: Integrator, table: Timetable, sums: np.void) -> tuple[float, str]:
     """Return how far the mean of a window may be from that of all cycles, over mu F_N, and why.
 
-    Of a body whose friction is the same in every cycle nothing, whatever it does on its drive.
+    Of a body whose friction is the same in every cycle nothing, whatever it does on its drive, but
+    for a window whose parts of rings put it too far off the mean of friction.
 
     Parameters
     ----------
@@ -90,7 +91,7 @@ def off_by_its_ring(body: Integrator, table: Timetable, sums: np.void) -> tuple[
     model = body.model
     swings = float(sums["friction_x_max"] - sums["friction_x_min"])
     if swings <= UNSTEADY and not _softens(model):
-        return 0.0, ""
+        return _by_parts_of_rings(sums)
     ring = math.ceil(model.ring_period * model.frequency)
     there, onward = sums_on(body, table), Onward([], [])
     as_long = cycles_as_long(model, table)
@@ -98,7 +99,7 @@ def off_by_its_ring(body: Integrator, table: Timetable, sums: np.void) -> tuple[
         onward.march(there, cycles)
         still = _still_bends(model, onward, as_long)
         if np.ptp(onward.friction) <= least and not still:
-            return 0.0, ""
+            return _by_parts_of_rings(sums)
     ratio = float(sums["drive_force"] / sums["steps"])
     if not still and (period := period_of(onward.drive[-_LOOKED_AT:])):
         mean = float(np.mean(onward.drive[-period:]))
@@ -108,6 +109,12 @@ def off_by_its_ring(body: Integrator, table: Timetable, sums: np.void) -> tuple[
     more, mean = len(onward.drive), float(np.mean(onward.drive))
     why = f"{UNALIKE}: its cycles are unalike, and {more} more have a mean ratio of {mean:.5g}"
     return _off(onward, ratio), why
+
+
+def _by_parts_of_rings(sums: np.void) -> tuple[float, str]:
+    """Return how far a window is off the mean of its friction, which lasts, if it is too far."""
+    off = abs(float((sums["drive_force"] - sums["friction_x"]) / sums["steps"]))
+    return (off, f"{UNALIKE}, of which the window has no whole number") if off > FAR else (0.0, "")
 
 
 def _still_bends(model: Model, onward: Onward, count: int) -> bool:
