@@ -139,14 +139,14 @@ def test_a_ratio_far_from_the_mean_that_its_words_tell_is_seen(tmp_path, monkeyp
 
 @pytest.mark.parametrize(
     ("part", "member"),
-    [(1, 0), (4, 8), (6, 27), (2, 1), (1, 8), (9, 37), (3, 23), (5, 35), (9, 11)],
+    [(1, 0), (4, 8), (6, 27), (2, 1), (1, 8), (9, 37), (3, 23), (5, 35), (9, 11), (8, 10)],
 )
 def test_durations_said_to_do_that_did_not_do_now(tmp_path, part, member):
     """A ring that its damper alone damps, and motions that repeat themselves after two cycles.
 
     A ring that goes to a ratio of nothing, asperities that bend far, a mean that follows a ring by
     its square, a swing from cycle to cycle, a window that begins in a cycle, and a motion that has
-    first to leave a state that is unstable.
+    first to leave a state that is unstable. And a ring beside asperities that come to their limit.
     """
     off, tried, failed = short_marches((2, part), [member], tmp_path)
     assert (off, tried, failed) == ([], 1, [])

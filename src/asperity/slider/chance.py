@@ -94,10 +94,15 @@ def may_wander(body: Integrator, table: Timetable, sums: np.void) -> bool:
     if model.solve.scheme == "two-phase":
         return False
     falls = _falls(model)
-    lands = model.normal is not None and float(sums["landings"]) > 0.0
+    lands = _lands(model, sums)
     if lands or model.slider.drive_stiffness is None:
         return lands
     return falls or table.window * table.step < SHORT * model.window - 1.0 / model.frequency
+
+
+def _lands(model: Model, sums: np.void) -> bool:
+    """Whether a body is thrown and lands."""
+    return model.normal is not None and float(sums["landings"]) > 0.0
 
 
 def _falls(model: Model) -> bool:
@@ -116,7 +121,7 @@ def _bends_apart(model: Model) -> bool:
     return _softens(model) and not bends_ever_more(model)
 
 
-def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
+def wandering(body: Integrator, window: WindowMeans, sums: np.void) -> Wandering | None:
     """Return how a body wanders at the end of a march that has not settled; None if it does not.
 
     Nor is it said before the usual duration, in which many have come to repeat themselves, nor of
@@ -128,11 +133,15 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
         At the end; left as it is.
     window : WindowMeans
         What the march has come to.
+    sums : np.void
+        Over its window.
     """
     model, table = window.model, window.table
     if not model.vibrates:
         return None
-    if not (_softens(model) or _falls(model) or keeps_a_ring(model)):
+    # One that is thrown and lands has cycles unalike by its flights, whatever ring it has.
+    ring = keeps_a_ring(model) and not (_lands(model, sums) or _bends_apart(model))
+    if not (_softens(model) or _falls(model) or ring):
         return None
     if model.duration < model.usual_duration:
         return None
@@ -142,7 +151,6 @@ def wandering(body: Integrator, window: WindowMeans) -> Wandering | None:
     means = onward(_LOOKED_AT)
     if not _is_rough(means):
         return None
-    ring = keeps_a_ring(model)
     as_long = cycles_as_long(model, table) // table.cycles if ring else 0
     cycles, blocks, last = _blocks(onward, means, table, max(_WINDOWS, as_long))
     if _repeat(last) or (_has_come(blocks) and not ring):
@@ -363,12 +371,12 @@ def judged(
             f"it sticks and slips: the halves of the next window are up to {off:.2g} of mu F_N off"
         )
         return (standing if off <= FAR else Standing(False, said)), ()
-    if may_wander(body, table, sums):
+    off, why = 0.0, ""
+    wanders = may_wander(body, table, sums)
+    if wanders:
         off, why = scatter(body, table, float(sums["drive_force"] / sums["steps"]), means)
-    elif keeps_a_ring(model) and not means:
-        off, why = off_by_its_ring(body, table, sums)
-    else:
-        return standing, ()
+    if off <= FAR and not means and keeps_a_ring(model) and (not wanders or _bends_apart(model)):
+        off, why = max((off, why), off_by_its_ring(body, table, sums))
     if off <= _NOTHING:
         return standing, ()
     said = f"{why}: the mean of the window is about {off:.2g} of mu F_N from that of all cycles"

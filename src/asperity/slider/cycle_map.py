@@ -217,7 +217,7 @@ class Cycle:
         """Whether a mode is one of asperities that come to their limit by a power of the time."""
         body = self.body
         state = body.kept["state"][0]
-        return comes_to_its_limit(body.model, body.sums) and bends_only(
+        return comes_to_its_limit(body.model, body.sums, state) and bends_only(
             mode, state, self.springs, body.p, self.q
         )
 

@@ -12,7 +12,7 @@ from asperity.slider.fading import apart, mean_left, quarters_in_time, steadily,
 from asperity.slider.model import WINDOW_SHARE, Model
 from asperity.slider.nearby import Nearby, comes_there
 from asperity.slider.on_its_way import most_off
-from asperity.slider.ring_on_drive import Ring, ring_of, rung_out
+from asperity.slider.ring_on_drive import SURELY, Ring, ring_of, rung_out
 from asperity.slider.ringing import faded_after, ringing_time, still_rings
 from asperity.slider.steady import growth_rate
 from asperity.slider.taken_up import bent_after, taken_up_after
@@ -120,10 +120,12 @@ def _to_the_state(window: WindowMeans, end: Nearby, loaded: float) -> list[float
     if there is None:
         return None
     if bends_ever_more(model):
-        # By the power of time in which they come to their limit: modes there hardly fade.
-        left = abs(end.ratio - window.quarters[-1]) / (_LEFT * FAR)
-        slowly = max(left, 1.0) ** (model.friction.exponent - 1.0)
-        there = min(there, model.start + (model.duration - model.start) * slowly)
+        # By the power of time in which they come to their limit: modes there hardly fade. Rings do.
+        rings = comes_there(end.ringing, model, most_off(end.ratio))
+        if rings is None:
+            return None
+        by_power = _by_the_power(model, abs(end.ratio - window.quarters[-1]))
+        there = max(min(there, by_power), rings)
     if by_law:
         return [there, loaded]
     if end.linear:
@@ -133,6 +135,21 @@ def _to_the_state(window: WindowMeans, end: Nearby, loaded: float) -> list[float
         there = in_whose_window(model, arrives)
     up = taken_up_after(model)
     return [there, loaded] if up is None else [there, loaded, up]
+
+
+def _by_the_power(model: Model, left: float) -> float:
+    """Return the duration in s of which little is left of what fades as asperities bend further.
+
+    Of so much over mu F_N after the duration that the body has been marched for; and the halves of
+    the window are as near to one another as `march_standing` takes them.
+    """
+    slower = model.friction.exponent - 1.0
+    span = (model.duration - model.start) * max(left / (_LEFT * FAR), 1.0) ** slower
+    half = 0.5 * min(model.window, WINDOW_SHARE * span)
+    early, late = (1.0 - share * half / span for share in (1.5, 0.5))
+    differ = min(left, _LEFT * FAR) * (early ** (-1.0 / slower) - late ** (-1.0 / slower))
+    steady = SURELY * min(UNSTEADY, NEAR_LIMIT * half / (slower * span))
+    return model.start + span * float(max(differ / steady, 1.0) ** slower)
 
 
 def _outruns(window: WindowMeans, end: Nearby) -> float | None:

@@ -14,7 +14,8 @@ from typing import NamedTuple
 import numpy as np
 
 from asperity.arrays import FloatArray
-from asperity.slider.at_limit import comes_to_its_limit
+from asperity.slider.at_full_bend import only_bends_further
+from asperity.slider.at_limit import bends_aside, comes_to_its_limit, size_of
 from asperity.slider.cycle_map import UNSTABLE, Cycle, lasts
 from asperity.slider.integrators import LoadedIntegrator
 from asperity.slider.model import Model
@@ -159,7 +160,7 @@ def from_rest(cycle: Cycle) -> Elsewhere | None:
     body = Cycle(askew, (len(cycle.increments) - 1) // cycle.period, cycle.step)
     if body.body.p.rigid:
         body.body.state["velocity_x"] = body.body.p.drive
-    limit = cycle.at_the_limit or comes_to_its_limit(model, cycle.body.sums)
+    limit = cycle.at_the_limit or comes_to_its_limit(model, cycle.body.sums, cycle.body.state)
     if _grows(model):
         _grow(body)
     mean, before, fades = 0.0, 0.0, _GONE * ringing_time(model) * model.frequency
@@ -320,6 +321,10 @@ def _at_the_limit(body: Cycle, cycle: Cycle, least: FloatArray) -> bool:
     """Whether a body is on its way to friction at its limit: its asperities only bend further."""
     if least.min() >= float(cycle.body.sums["friction_x_min"]) - _REVERSES_NO_MORE:
         return True
+    if bends_aside(body.body.model):
+        # What is left of the limit is left of the mean.
+        mean = ratio_of(body) / size_of(body.body.state)
+        return abs(mean - ratio_of(cycle)) <= _NEAR and only_bends_further(body)
     if body.body.model.friction.model != "dahl" or np.diff(least).min() < -_REVERSES:
         return False
     bent = body.record()[:, (body.body.node_type.names or ()).index("deflection_x")]

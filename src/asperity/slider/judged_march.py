@@ -88,7 +88,7 @@ def judged_answer(
         standing, wanders = judged(standing, at_end, table, sums, means)
         if standing.settled:
             end = end_of_march(at_end, table, sums, window)
-    ever = None if standing.settled else wandering(body(), window)
+    ever = None if standing.settled else wandering(body(), window, sums)
     if ever is not None:
         standing = Standing(False, str(ever))
     follows = True

@@ -8,22 +8,24 @@ whole number of: friction differs from cycle to cycle, and halves of a window ag
 the body goes on for as long again as it was marched tells how far its mean is from that of all.
 """
 
+import itertools
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
-from asperity.slider.cycle_map import Cycle
-from asperity.slider.from_rest import again_after, period_of, ratio_of
+from asperity.slider.from_rest import again_after, period_of
 from asperity.slider.integrators import Integrator
-from asperity.slider.march_end import at_the_end
+from asperity.slider.march_end import sums_on
 from asperity.slider.model import Model
-from asperity.slider.step_error import run_once
-from asperity.slider.timetable import UNSTEADY, Timetable, bends_ever_more
+from asperity.slider.ringing import rings
+from asperity.slider.timetable import FAR, UNSTEADY, Timetable
 
 _FADED = 7.0  # time constants of a ring by the drive's damper, in which a window has none left
 _LEAST, _LOOKED_AT = 12, 36  # cycles, in which friction is the same or is not
 _STEADY = 1e-4  # of mu F_N, that friction is apart in a quarter of a ring which does nothing to it
+_BENT = 5e-4  # of mu F_N, that asperities gain in as long a time as was marched, looked at
 _BLOCKS, _STUDENT = 8, 2.36  # of what is marched on; of 7 degrees of freedom, 95 %
 # Times what blocks gain from half to half, that is still to come of what fades as the inverse of
 # the time, past as long again as was marched.
@@ -47,29 +49,25 @@ class Onward(NamedTuple):
     drive: list[float]
     friction: list[float]
 
-    def march(self, cycle: Cycle, count: int) -> None:
-        """March on until so many cycles are known."""
-        for _ in range(count - len(self.drive)):
-            run_once(cycle)
-            sums = cycle.body.sums
-            self.drive.append(ratio_of(cycle))
+    def march(self, cycles: Iterator[np.void], count: int) -> None:
+        """March on until so many cycles are known, of whose sums each is told."""
+        for sums in itertools.islice(cycles, count - len(self.drive)):
+            self.drive.append(float(sums["drive_force"] / sums["steps"]))
             self.friction.append(float(sums["friction_x"] / sums["steps"]))
 
 
 def keeps_a_ring(model: Model) -> bool:
     """Whether a window has rings of a body on its drive in it that the drive's damper leaves.
 
-    Of one whose two motions come apart otherwise, `asperity.slider.chance` asks that anyway:
-    friction falls with the speed, or asperities with an exponent above 1 are bent to and fro.
+    Of one whose friction falls with the speed `asperity.slider.chance` asks that anyway. A contact
+    that rings on under its load makes cycles unalike by itself, and is told as that.
     """
     slider, friction = model.slider, model.friction
-    if not model.vibrates or model.normal is not None or model.solve.scheme == "two-phase":
+    if not model.vibrates or rings(model):
         return False
     if slider.drive_stiffness is None or slider.mass is None:
         return False
     if (friction.static_mu or 0.0) > friction.mu:
-        return False
-    if friction.model == "dahl" and friction.exponent > 1.0 and not bends_ever_more(model):
         return False
     damping = slider.drive_damping + (friction.viscous_damping or 0.0)
     return 0.5 * damping / slider.mass * model.window < _FADED
@@ -78,7 +76,8 @@ def keeps_a_ring(model: Model) -> bool:
 def off_by_its_ring(body: Integrator, table: Timetable, sums: np.void) -> tuple[float, str]:
     """Return how far the mean of a window may be from that of all cycles, over mu F_N, and why.
 
-    Of a body whose friction is the same in every cycle nothing, whatever it does on its drive.
+    Of a body whose friction is the same in every cycle nothing, whatever it does on its drive, but
+    for a window whose parts of rings put it too far off the mean of friction.
 
     Parameters
     ----------
@@ -90,23 +89,48 @@ def off_by_its_ring(body: Integrator, table: Timetable, sums: np.void) -> tuple[
         Over its window.
     """
     model = body.model
-    if float(sums["friction_x_max"] - sums["friction_x_min"]) <= UNSTEADY:
-        return 0.0, ""
+    swings = float(sums["friction_x_max"] - sums["friction_x_min"])
+    if swings <= UNSTEADY and not _softens(model):
+        return _by_parts_of_rings(sums)
     ring = math.ceil(model.ring_period * model.frequency)
-    there, onward = at_the_end(body, table), Onward([], [])
+    there, onward = sums_on(body, table), Onward([], [])
+    as_long = cycles_as_long(model, table)
     for cycles, least in ((max(_LEAST, ring // 4), _STEADY), (max(_LOOKED_AT, ring), UNSTEADY)):
         onward.march(there, cycles)
-        if np.ptp(onward.friction) <= least:
-            return 0.0, ""
+        still = _still_bends(model, onward, as_long)
+        if np.ptp(onward.friction) <= least and not still:
+            return _by_parts_of_rings(sums)
     ratio = float(sums["drive_force"] / sums["steps"])
-    if period := period_of(onward.drive[-_LOOKED_AT:]):
+    if not still and (period := period_of(onward.drive[-_LOOKED_AT:])):
         mean = float(np.mean(onward.drive[-period:]))
         return abs(mean - ratio), again_after(period)
-    count = max(cycles_as_long(model, table), len(onward.drive))
+    count = max(as_long, len(onward.drive))
     onward.march(there, _BLOCKS * math.ceil(count / _BLOCKS))
     more, mean = len(onward.drive), float(np.mean(onward.drive))
     why = f"{UNALIKE}: its cycles are unalike, and {more} more have a mean ratio of {mean:.5g}"
     return _off(onward, ratio), why
+
+
+def _by_parts_of_rings(sums: np.void) -> tuple[float, str]:
+    """Return how far a window is off the mean of its friction, which lasts, if it is too far."""
+    off = abs(float((sums["drive_force"] - sums["friction_x"]) / sums["steps"]))
+    return (off, f"{UNALIKE}, of which the window has no whole number") if off > FAR else (0.0, "")
+
+
+def _still_bends(model: Model, onward: Onward, count: int) -> bool:
+    """Whether asperities bend further in so many cycles, by what some of them gain.
+
+    Those with an exponent above 1, by a power of the time: cycles next to one another are alike.
+    """
+    if not _softens(model):
+        return False
+    half = len(onward.friction) // 2
+    gained = float(np.mean(onward.friction[half:]) - np.mean(onward.friction[:half]))
+    return abs(gained) * count / half > _BENT
+
+
+def _softens(model: Model) -> bool:
+    return model.friction.model == "dahl" and model.friction.exponent > 1.0
 
 
 def cycles_as_long(model: Model, table: Timetable) -> int:

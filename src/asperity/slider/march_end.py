@@ -185,11 +185,26 @@ def marched_on(cycle: Cycle) -> Iterator[float]:
         yield float(sums["drive_force"] / sums["steps"])
 
 
+def sums_on(body: Integrator, table: Timetable) -> Iterator[np.void]:
+    """March on after a march, which is left as it is, cycle by cycle; yields the sums of each."""
+    if body.model.solve.scheme == "two-phase":
+        yield from _two_phase_sums(body, table)
+    there = at_the_end(body, table)
+    while True:
+        run_once(there)
+        yield there.body.sums
+
+
 def two_phases_on(body: Integrator, table: Timetable) -> Iterator[float]:
     """March on by the two-phase scheme, cycle by cycle; yields the ratio of each.
 
     The body is left as it is.
     """
+    for sums in _two_phase_sums(body, table):
+        yield float(sums["drive_force"] / sums["steps"])
+
+
+def _two_phase_sums(body: Integrator, table: Timetable) -> Iterator[np.void]:
     model, done = body.model, 0
     again = another_at(body, table.step)
     begin = model.frequency * (table.steps * table.step - model.start)
@@ -198,7 +213,7 @@ def two_phases_on(body: Integrator, table: Timetable) -> Iterator[float]:
         again.clear()
         again.march(begin + done * again.rate, until - done, np.empty((3, 1, 0)), record=False)
         done = until
-        yield float(again.sums["drive_force"] / again.sums["steps"])
+        yield again.sums
 
 
 def cycle_after(model: Model, table: Timetable) -> Cycle:

@@ -8,7 +8,7 @@ of the cycles to come are off that of the state.
 import itertools
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -66,6 +66,13 @@ class Nearby(NamedTuple):
     sizes: FloatArray
     linear: bool = True
     grows: float = 0.0
+
+    @property
+    def ringing(self) -> Self:
+        """The same of its modes that turn alone, with what a ring does by its square."""
+        rings = _turns(self.growths)
+        rings[-1] = True
+        return self._replace(sizes=np.where(rings, self.sizes, 0.0))
 
     @property
     def unstable(self) -> bool:

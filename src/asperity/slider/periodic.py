@@ -8,6 +8,7 @@ import numpy as np
 
 from asperity.errors import ConvergenceError, InputError
 from asperity.results.settled import Standing
+from asperity.slider.at_full_bend import bend_to_limit
 from asperity.slider.at_limit import slowly_at_limit
 from asperity.slider.cycle_map import UNSTABLE, Cycle, times
 from asperity.slider.from_rest import (
@@ -211,7 +212,7 @@ def answer_of(
     if _LASTS in standing.settled_by:
         why = _SLOWLY if bends_ever_more(model) else _MARCH
         notes += (f"of this periodic state {_LASTS}: {why}",)
-    if standing.settled and (after := slowly_at_limit(model, cycle.body.sums)) is not None:
+    if standing.settled and (after := slowly_at_limit(cycle.body)) is not None:
         notes += (
             f"asperities with a friction.exponent of {model.friction.exponent:g} come to their "
             f"limit by a power of the time: within 1e-3 of it after about {after:.2g} s",
@@ -267,6 +268,8 @@ def settle(cycle: Cycle) -> tuple[bool, float, tuple[str, ...]]:
     """
     found = any(cycle.find(cycles) for cycles in (0, *SETTLING))
     growth = cycle.multiplier() if found else math.inf
+    if growth <= UNSTABLE:
+        bend_to_limit(cycle)
     notes: tuple[str, ...] = ()
     if found and growth > UNSTABLE:
         notes = (f"this periodic state is unstable: a disturbance grows {times(growth)} a cycle",)

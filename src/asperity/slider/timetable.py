@@ -19,6 +19,7 @@ _TAIL_RECORDS = 4000
 _MOST_STEPS = 1e10
 _FEW = 3  # cycles of a window, of which a quarter has none whole
 UNSTEADY = 1e-3
+_ROUNDING = 1e-9  # of the drive velocity, by which a faster vibration turns nothing back
 FAR = 2e-3  # of mu F_N, that a mean may be from where it goes to
 NEAR_LIMIT = 0.75 * FAR  # as it is foreseen of asperities, of which up to a fifth more is left
 LAGS = 0.02  # of its velocity, that a body may be slower than its drive
@@ -216,7 +217,8 @@ def turns_back(model: Model) -> bool:
     """Whether a vibration that is faster than the drive turns the slip back in every cycle."""
     along, across, _ = model.unit_direction
     flat = math.hypot(along, across) if model.friction.law == "vector" else abs(along)
-    return model.vibrates and flat * model.peak_velocity > model.slider.drive_velocity
+    faster = flat * model.peak_velocity > (1.0 + _ROUNDING) * model.slider.drive_velocity
+    return model.vibrates and faster
 
 
 def still_loads(model: Model, table: Timetable, residual: float) -> bool:
