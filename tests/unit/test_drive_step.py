@@ -39,6 +39,29 @@ def test_what_the_step_makes_wrong_is_what_steps_a_tenth_as_long_make_right(way)
     assert fine.step_error < 0.3 * coarse.step_error
 
 
+PULLED = ("vibration.velocity_ratio=1.5",)
+# Their torque ratios, from steps of 12.5 and 25 ns as of order two.
+LIMITS = {SMOOTH: 0.9487463, PULLED: 0.7420698}
+
+
+@pytest.mark.parametrize(
+    ("way", "over", "order"),
+    [
+        (SMOOTH, (0.4, 0.1), 1.2), slow(SMOOTH, (0.4, 0.05), 1.3), slow(SMOOTH, (0.05, 0.0125), 1.95),
+        slow(PULLED, (0.4, 0.05), 1.6), slow(PULLED, (0.05, 0.0125), 2.0),
+    ],
+)  # fmt: skip
+def test_the_error_of_the_step_falls_by_a_power_between_one_and_two(way, over, order):
+    errors = []
+    for step in over:
+        one = solved(*way, f"solve.step={step} us")
+        assert one.settled
+        errors.append(abs(one.torque_ratio / LIMITS[way] - 1.0))
+        assert 0.7 * errors[-1] < one.step_error < 4.0 * errors[-1]
+    observed = math.log(errors[0] / errors[1]) / math.log(over[0] / over[1])
+    assert observed == pytest.approx(order, abs=0.1)
+
+
 def test_a_step_that_is_not_given_is_chosen_by_what_it_makes_wrong():
     given, chosen = solved(*FAST, "solve.step=0.38 us"), solved(*FAST)
     assert given.step_error > 1e-3
