@@ -47,8 +47,9 @@ LIMITS = {SMOOTH: 0.9487463, PULLED: 0.7420698}
 @pytest.mark.parametrize(
     ("way", "over", "order"),
     [
-        (SMOOTH, (0.4, 0.1), 1.2), slow(SMOOTH, (0.4, 0.05), 1.3), slow(SMOOTH, (0.05, 0.0125), 1.95),
-        slow(PULLED, (0.4, 0.05), 1.6), slow(PULLED, (0.05, 0.0125), 2.0),
+        (SMOOTH, (0.4, 0.1), 1.2), slow(SMOOTH, (0.4, 0.05), 1.3),
+        slow(SMOOTH, (0.05, 0.0125), 1.95), slow(PULLED, (0.4, 0.05), 1.6),
+        slow(PULLED, (0.05, 0.0125), 2.0),
     ],
 )  # fmt: skip
 def test_the_error_of_the_step_falls_by_a_power_between_one_and_two(way, over, order):

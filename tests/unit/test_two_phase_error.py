@@ -1,5 +1,4 @@
 import pytest
-
 from apparatus.grid import slow
 
 from asperity.casefile import read_case
