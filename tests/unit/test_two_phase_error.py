@@ -31,11 +31,12 @@ def answer(*settings):
     return solve(Model.from_case(case), history=False)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("body", "step"),
-    [(SOFT, "2.4715 us"), (SOFT, "1.2 us"), (SOFT, "0.3 us"), (ACROSS, "3.25 us")],
-)
+    [
+        slow(SOFT, "2.4715 us"), slow(SOFT, "1.2 us"), slow(SOFT, "0.3 us"), (ACROSS, "3.25 us"),
+    ],
+)  # fmt: skip
 def test_the_error_that_is_told_is_not_below_half_of_what_is_made(body, step):
     fine = answer(*body)
     told = answer(*body, "solve.scheme=two-phase", f"solve.step={step}")
