@@ -189,8 +189,9 @@ def test_a_guided_body_on_rigid_friction_that_nearly_stands_at_each_turn_is_of_o
     errors = {}
     for count in (300, 600, 1200, 2400, 9600, 19200):
         model = body(DAMPED, COULOMB, step=1.0 / (4000.0 * count))
-        ratio = solve_periodic(model, history=False, judged=False).ratio
-        errors[count] = abs(ratio / 0.20339558 - 1.0)  # extrapolated from 32,000 and 64,000
+        found = solve_periodic(model, history=False)
+        errors[count] = abs(found.ratio / 0.20339558 - 1.0)  # extrapolated from 32,000 and 64,000
+        assert found.step_error > errors[count] * found.ratio / 6.0
     assert max(errors, key=errors.get) == 2400
     assert errors[2400] == pytest.approx(2.3e-4, rel=0.1)
     assert math.log2(errors[9600] / errors[19200]) == pytest.approx(2.0, abs=0.15)
