@@ -76,7 +76,7 @@ def selection():
 
 
 def _position(distance, ratio, torque, efficiency):
-    found = _rated(distance, ratio, torque or _BETWEEN[ratio])
+    found = rated(distance, ratio, torque or _BETWEEN[ratio])
     return Position(
         distance,
         ratio,
@@ -89,7 +89,8 @@ def _position(distance, ratio, torque, efficiency):
     )
 
 
-def _rated(distance, ratio, torque):
+def rated(distance, ratio, torque):
+    """Return the rating of a gearbox of that centre distance, mm, ratio and torque, N m."""
     worm = 0.43 * distance
     teeth = round(STARTS[ratio] * ratio)
     module = (2.0 * distance - worm) / teeth

@@ -8,8 +8,11 @@ import importlib.util
 import json
 import math
 import random
+import re
 from pathlib import Path
+from xml.etree import ElementTree
 
+import h5py
 import numpy as np
 import pytest
 from apparatus import reports
@@ -96,26 +99,18 @@ def asked(name, lot):
         "control": (["drive-actuator"], [*TEETH, "drive.stroke=16 deg", "control.failures=dead"]),
         "fit": ([ANSWERS / "ratios.csv", "table-4.3", "--free", "friction.max_deflection"], []),
         "rig plan": (["rig-final"], [f"plan.repeats={lot.randint(1, 4)}"]),
+        "rig look": ([ANSWERS / "wave.csv", "--columns", "time,torque", "--units", "s,V"], []),
         "rig check": ([ANSWERS / "rig.nc"], []),
+        "rig report": ([ANSWERS], []),
         "rig reduce": ([ANSWERS / "rig.nc"], []),
     }  # fmt: skip
     given, settings = words[name]
     return [*name.split(), *map(str, given), *(f"--set={each}" for each in settings)]
 
 
-# They write recordings or a page of a folder's, of which `rig reduce` has the numbers, or take
-# minutes: tests of their own.
-ELSEWHERE = {
-    *(
-        "rig run",
-        "rig look",
-        "rig import",
-        "rig report",
-        "rig package",
-        "optimise",
-        "rexs",
-    ),
-}
+# They write no answer beside its netCDF file, or (`rig run`, its package) take long: see below,
+# `test_cli_rig_run.py` and `test_rig_package.py`.
+ELSEWHERE = {"rig run", "rig import", "rig package", "rexs"}
 QUICK = ("sweep", "rig plan")
 # Of those that print what stands in arrays.
 ARRAYS = {"sweep": 2, "branches": 9, "fit": 1}
@@ -123,6 +118,13 @@ ARRAYS = {"sweep": 2, "branches": 9, "fit": 1}
 
 def number(value):
     return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def cells(path):
+    """Return the numbers of a table; the report of a folder has budgets, which JSON leaves out."""
+    with path.open(newline="", encoding="utf-8") as file:
+        texts = [text for row in csv.reader(file) for text in row]
+    return [float(text) for text in texts if re.fullmatch(r"-?\d[\d.]*(e[-+]\d+)?", text)]
 
 
 def check_netcdf(path, printed):
@@ -177,6 +179,30 @@ def check_csv(path, printed):
     return {(row["standard"], row["meaning"]): row["value"] for row in rows}
 
 
+def check_segments(folder, printed):
+    """Hold the rows of a table of segments, and their arrays, to what was printed."""
+    path, saved = folder / "reduce.csv", read(folder / "reduce.nc").dataset
+    with path.open(newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    count = 0
+    for row, told in zip(rows, printed["segments"], strict=True):
+        for key, value in told.items():
+            if number(value) and row.get(key):
+                assert float(row[key]) == value, key
+                count += 1
+    assert count > 8
+    units = {
+        name: unit_suffix(kept.attrs.get("units", "")) for name, kept in saved.variables.items()
+    }
+    held = 0
+    for name, unit in units.items():
+        told = [one.get(f"{name}{unit}") for one in printed["segments"]]
+        if all(map(number, told)):
+            assert saved[name].to_numpy().tolist() == told, name
+            held += 1
+    assert held > 8
+
+
 def check_workbook(path, table):
     """Hold the values that a workbook shows to those of the table."""
     sheets = helper(HERE.parent / "unit" / "test_workbook.py").Workbook(path)
@@ -209,13 +235,20 @@ def test_every_file_of_an_answer_has_the_numbers_that_are_printed(asperity, tmp_
     printed = json.loads(output)
     folder = tmp_path / "out"
     (written,) = (path for path in folder.glob("*.json") if path.with_suffix(".nc").exists())
-    assert json.loads(written.read_text("utf-8")) == printed
+    kept = json.loads(written.read_text("utf-8"))
+    if name == "rig report":
+        # Beside the reduction that is written it prints what of the plan is there.
+        assert len(kept) > 8
+        printed = {key: printed[key] for key in kept}
+    assert kept == printed
     count = check_netcdf(written.with_suffix(".nc"), printed)
     arrays = check_arrays(written.with_suffix(".nc"), printed)
     assert arrays >= ARRAYS.get(name, 0)
     assert count > 3 or name not in ("slide", "static", "block", "drive")
     if (folder / "rate.csv").exists():
         check_workbook(folder / "rate.xlsx", check_csv(folder / "rate.csv", printed))
+    if (folder / "reduce.csv").exists():
+        check_segments(folder, printed)
     if (report := folder / "report.html").exists():
         page = reports.Page(report.read_text("utf-8"))
         if name in KEYED:
@@ -225,7 +258,67 @@ def test_every_file_of_an_answer_has_the_numbers_that_are_printed(asperity, tmp_
             page.numbers, all_of_it = [n for n in page.numbers if n[1] is not None], page.numbers
             reports.check_numbers(page, printed)
             page.numbers = all_of_it
-            reports.check_told(page, printed)
+            budgets = [*folder.glob("budget.csv")]
+            reports.check_told(page, printed | {"budget": [*map(cells, budgets)]})
+
+
+def test_a_recording_that_is_imported_is_what_is_printed_and_what_came_in(asperity, tmp_path):
+    given, made = ANSWERS / "rig.nc", tmp_path / "run.nc"
+    code, output, errors = asperity("rig", "import", given, "rig-final", "--out", made, "--json")
+    assert code == 0, errors
+    printed = json.loads(output)
+    with h5py.File(given) as before, h5py.File(made) as after:
+        assert after["raw"].shape == (printed["samples"], len(printed["channels"]))
+        assert after.attrs["sample_interval"][0] == printed["sample_interval_s"]
+        assert after.attrs["start"] == printed["start"]
+        for n, channel in enumerate(printed["channels"]):
+            assert after["signal"][n].decode() == channel["signal"]
+            assert after["units"][n].decode() == channel["units"]
+            assert after["scale"][n] == channel["scale"]
+        columns = {name: n for n, name in enumerate(before["signal"][:])}
+        for n, name in enumerate(after["signal"][:]):
+            values = (
+                f["offset"][i] + f["scale"][i] * f["raw"][:, i]
+                for f, i in ((before, columns[name]), (after, n))
+            )
+            # To half a count of what it is kept in.
+            np.testing.assert_allclose(*values, rtol=0, atol=0.51 * after["scale"][n])
+
+
+OF_REXS = {
+    "number_of_teeth": ("starts", "wheel_teeth"),
+    "center_distance": ("centre_distance_mm",),
+    "axial_module": ("axial_module_mm",),
+    "lead_angle_worm_gear": ("lead_angle_deg",),
+    "pressure_angle_worm_gear": ("pressure_angle_deg",),
+    "addendum_modification_coefficient_worm_wheel": ("profile_shift",),
+    "reference_diameter_worm_gear": ("worm_pitch_diameter_mm", "wheel_reference_diameter_mm"),
+    "root_diameter_worm_gear": ("worm_root_diameter_mm", "wheel_root_diameter_mm"),
+    "face_width_worm_wheel": ("wheel_face_width_mm",),
+    "length_worm_gear": ("worm_face_width_mm",),
+    "force_acting_on_shaft_u": ("worm_axial_N", "wheel_axial_N"),
+    "force_acting_on_shaft_v": ("worm_radial_N", "wheel_tangential_N"),
+    "force_acting_on_shaft_w": ("worm_tangential_N", "wheel_radial_N"),
+}
+
+
+def test_a_rexs_file_has_as_many_parts_as_are_printed_and_the_gearset_s_numbers(asperity, tmp_path):
+    file = tmp_path / "gearset.rexs"
+    code, output, errors = asperity("rexs", "gearset-3", "--out", file, "--json")
+    assert code == 0, errors
+    printed, model = json.loads(output), ElementTree.parse(file).getroot()
+    counts = {"components": "component", "attributes": "attribute", "relations": "relation"}
+    assert {key: len(model.findall(f".//{tag}")) for key, tag in counts.items()} == {
+        key: printed[key] for key in counts
+    }
+    assert model.get("version") == printed["rexs"]
+    rated = json.loads(asperity("rate", "gearset-3", "--json")[1])
+    forces = rated["forces"]["clockwise"]
+    for attribute, keys in OF_REXS.items():
+        kept = {float(one.text) for one in model.iter("attribute") if one.get("id") == attribute}
+        told = {abs({**rated["geometry"], **forces}[key]) for key in keys}
+        # The hob stands in it as well.
+        assert told <= {*map(abs, kept)}, attribute
 
 
 def test_every_command_is_asked_or_has_tests_of_its_own():

@@ -39,6 +39,12 @@ TOLERANCES = (
         "and slips the last bits decide in which, and move the ratio by 2e-7",
     ),
     (
+        "optimise gearset-3 --set rating.iso14521_edition=1998",
+        "json.*pressure_angle_deg*",
+        1.0,
+        "the edition of 1998 knows no pressure angle: any is as good as any other",
+    ),
+    (
         "optimise *",
         "*trade_off.profile_shift*",
         1e-5,
@@ -54,7 +60,13 @@ TOLERANCES = (
     ),
     *(
         ("thesis *", place, 1e-6, "exhibits of the optimised gearsets, found as above")
-        for place in ("figure-3.4.nc:*", "figure-3.5.nc:*", "table-3.6.csv:*", "table-3.7.csv:*")
+        for place in (
+            "figure-3.4.nc:*",
+            "figure-3.5.nc:*",
+            "table-3.6.csv:*",
+            "table-3.7.csv:*",
+            "json.tables*",
+        )
     ),
     (
         "rig reduce *",
@@ -148,7 +160,7 @@ _UNITS = (
 )
 
 
-def differences(line, recorded, seen, changes=()):
+def differences(line, recorded, seen):
     """Say where two answers of a command line differ.
 
     Parameters
@@ -157,21 +169,17 @@ def differences(line, recorded, seen, changes=()):
         The command line.
     recorded, seen : dict
         What :func:`observe.observe` saw, then and now.
-    changes : iterable of (lines, places, reason)
-        What was changed on purpose: patterns of command lines and places that are not compared.
 
     Returns
     -------
     list of str
         Place, what was recorded, what is seen.
     """
-    skipped = [place for lines, place, _ in changes if fnmatch.fnmatch(line, lines)]
     command = line.split()[0]
     found = []
 
     def differ(place, before, now):
-        if not any(fnmatch.fnmatch(place, pattern) for pattern in skipped):
-            found.append(f"{place}: {before!r} was recorded, now {now!r}")
+        found.append(f"{place}: {before!r} was recorded, now {now!r}")
 
     if recorded["code"] != seen["code"]:
         differ("code", recorded["code"], seen["code"])

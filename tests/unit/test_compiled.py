@@ -14,6 +14,7 @@ import numba
 import numpy as np
 import pytest
 from apparatus.grid import slow
+from numba.core.base import BaseContext
 
 from asperity.files.folders import cache_folder
 from asperity.friction.tangent import update
@@ -100,6 +101,18 @@ def test_a_kernel_that_is_only_loaded_loads_nothing_that_compiling_needs(run_pro
     run()
     *answer, compiling = run_process()
     assert (answer[:2], compiling) == ([30.0, 1], [])
+
+
+def test_a_kernel_that_is_only_loaded_does_not_ask_for_all_that_compiling_may_need(
+    run, monkeypatch
+):
+    run()
+
+    def refreshed(_):
+        raise AssertionError("half a second of modules were loaded")
+
+    monkeypatch.setattr(BaseContext, "refresh", refreshed)
+    assert run()[:2] == [30.0, 1]
 
 
 @pytest.mark.slow

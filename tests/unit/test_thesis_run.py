@@ -8,7 +8,7 @@ import shutil
 import sys
 import tempfile
 import time
-from concurrent.futures import Future
+from concurrent.futures import Executor, Future
 from pathlib import Path
 
 import pytest
@@ -313,6 +313,28 @@ def test_a_change_reaches_what_follows_from_it_and_nothing_else(follow_from):
 
 def part(name, **options):
     return Task(name, functools.partial(str, name), name, **options)
+
+
+class AtOnce(Executor):
+    """In place of processes: what is begun has ended."""
+
+    def submit(self, do, /, *given):
+        ended = Future()
+        ended.set_result(do(*given))
+        return ended
+
+
+def test_first_begins_what_calls_no_compiled_code_then_one_of_each_room_the_dearest_first():
+    def order(*tasks):
+        return [task.name for task, _ in workers._fed(AtOnce(), 1, tasks, lambda: None)]
+
+    def of(name, room, seconds, *after):
+        return Task(name, str, room, seconds, after)
+
+    rooms = of("a1", "a", 3.0), of("a2", "a", 9.0), of("b", "b", 1.0), of("free", "", 0.5)
+    assert order(*rooms) == ["free", "a2", "b", "a1"]
+    waits = of("late", "l", 1.0, "small"), of("small", "s", 1.0), of("dear", "d", 9.0)
+    assert order(*waits) == ["dear", "small", "late"]
 
 
 @pytest.mark.slow
