@@ -8,7 +8,7 @@ import pytest
 from apparatus.native_library import function, object_files, signature
 
 from asperity.files import folders
-from asperity.kernels import compiled
+from asperity.kernels import compiled, machine_code
 from asperity.kernels.building import lean, link
 from asperity.kernels.native import kept, keys, layout, load, makers, table, target
 from asperity.kernels.native.entries import Entry, listed
@@ -121,6 +121,24 @@ def test_what_others_may_have_written_is_not_loaded(name, mode, cache, parts, ha
     assert told.endswith("remove it")
     # It is for the user to look at.
     assert (folder / table.LIBRARY).exists()
+
+
+def test_from_a_cache_that_others_may_write_to_nothing_is_loaded(cache, parts, half, caplog):
+    keeps(cache, parts)
+    cache.chmod(0o770)
+    assert [half(3.0), half(3.0)] == [1.5, 1.5]
+    (told,) = caplog.messages
+    assert told.startswith(f"{cache} can be written to by others; kernels are compiled anew")
+
+
+def test_nor_does_numba_read_a_folder_that_others_may_write_to(cache, caplog):
+    folder = cache / f"{1:016}"
+    folder.mkdir(mode=0o700)
+    assert machine_code._kernel_folder(folder.name) == folder
+    folder.chmod(0o770)
+    assert machine_code._kernel_folder(folder.name) is None
+    (told,) = caplog.messages
+    assert told.startswith(f"{folder} can be written to by others; kernels are compiled anew")
 
 
 def test_files_that_nobody_else_reaches_are_loaded_whatever_the_umask(cache, parts, half, caplog):
