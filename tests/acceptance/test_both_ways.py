@@ -83,11 +83,15 @@ def test_what_differs_in_a_bit_is_found():
     assert len([*places(as_told(one), as_told(other))]) == 2
 
 
-CALLING = [
-    line
-    for line in (*command_lines("ordinary"), *command_lines("slow"))
-    if entries.listed().lines[line]
-]
+def _compiled(line):
+    """About how long Numba compiles for a command line, s."""
+    return sum(entries.listed().entries[number].seconds for number in entries.listed().lines[line])
+
+
+# The cheapest first, of which the smallest share is.
+CALLING = sorted(
+    filter(_compiled, (*command_lines("ordinary"), *command_lines("slow"))), key=_compiled
+)
 
 
 @pytest.mark.slow
@@ -95,7 +99,7 @@ CALLING = [
 @pytest.mark.skipif(
     not load.is_for_here(kept._MADE_HERE, FEATURES), reason="kernels are Numba's on this machine"
 )
-@pytest.mark.parametrize("line", CALLING)
+@pytest.mark.parametrize("line", CALLING, ids=CALLING)
 def test_both_ways_answer_the_same_to_the_bit(line, tmp_path):
     by_library, by_numba = (seen(line, way, tmp_path / f"way-{way}") for way in ("1", "0"))
     # They were two.
