@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 import asperity
 from asperity.kernels import folder as kernel_folder
 from asperity.kernels.dense import copy, multiply
-from asperity.kernels.native import kept, keys, table
+from asperity.kernels.native import kept, keys, load, makers, table
 from asperity.kernels.native.entries import listed
+from asperity.kernels.native.target import FEATURES
 
 PACKAGE = Path(asperity.__file__).parent
 NUMBERS = {float, int, bool, "float", "int", "bool"}
@@ -270,6 +271,9 @@ def test_of_numpy_kernels_call_only_what_makes_arrays_and_what_is_named():
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(
+    not load.is_for_here(makers.MADE_HERE, FEATURES), reason="kernels are Numba's on this machine"
+)
 def test_no_machine_code_asks_for_memory_but_that_of_kernels_that_are_named():
     """Also an expression of arrays makes one: what asks for memory is in the machine code.
 
