@@ -4,8 +4,8 @@ Run it with ``make bench``. They are made into a folder that holds nothing yet, 
 from before, on one core; kernels not yet compiled are compiled on the way.
 
 With ``--whole`` it is all of it and by the clock, on all cores: the first run of a user, whose
-cache is empty; one with another folder to write to; and one that finds everything done. It
-ends with 1 where one of them takes longer than is promised.
+cache is empty, and when its page is there; one with another folder to write to; and one that finds
+everything done. It ends with 1 where one of them takes longer than is promised.
 """
 
 import os
@@ -22,18 +22,35 @@ from asperity.thesis import contents
 from asperity.thesis.reproduce.run import run
 
 CHAPTER = "5"
-MOST = {"chapter_s": 180.0, "first_s": 180.0, "kernels_kept_s": 60.0, "unchanged_s": 2.0}
+MOST = {
+    "chapter_s": 180.0,
+    "page_s": 20.0,
+    "first_s": 180.0,
+    "kernels_kept_s": 60.0,
+    "unchanged_s": 2.0,
+}
+LOOK = 0.05  # s between looks for the page
 
 
 def whole():
     """Run ``asperity thesis`` three times and print how long each took."""
     seconds = {}
     with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "ASPERITY_CACHE": f"{folder}/cache"}
+        # Compiled modules are kept, as ``make run`` does.
+        kept = {"ASPERITY_CACHE": f"{folder}/cache", "PYTHONDONTWRITEBYTECODE": ""}
+        environment = {**os.environ, **kept}
         for name, out in (("first_s", "a"), ("kernels_kept_s", "b"), ("unchanged_s", "b")):
             words = [sys.executable, "-m", "asperity", "thesis", "--out", f"{folder}/{out}"]
+            page = Path(folder, out, "index.html")
+            is_new = not page.exists()
             began = time.perf_counter()
-            subprocess.run(words, check=True, capture_output=True, env=environment)
+            quiet = subprocess.DEVNULL
+            running = subprocess.Popen(words, stdout=quiet, stderr=quiet, env=environment)
+            while is_new and not page.exists() and running.poll() is None:
+                time.sleep(LOOK)
+            seconds.setdefault("page_s", time.perf_counter() - began)
+            if running.wait():
+                raise subprocess.CalledProcessError(running.returncode, words)
             seconds[name] = time.perf_counter() - began
     finish({"all": seconds}, held={name: MOST[name] for name in seconds})
 

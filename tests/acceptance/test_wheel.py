@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tarfile
 import zipfile
 from pathlib import Path
 
@@ -18,6 +19,7 @@ pytest.importorskip("hatchling", reason="hatchling is not installed")
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = ("LICENSE", "README.md", "hatch_build.py", "pyproject.toml", "constraints.txt")
 PLAIN, ANY = "asperity-0.1.0-py3-none-linux_x86_64.whl", "asperity-0.1.0-py3-none-any.whl"
+SDIST = "asperity-0.1.0.tar.gz"
 KERNELS = (
     "asperity.slider.pressed.friction_limit",
     "asperity.friction.lugre.stribeck_share",
@@ -59,9 +61,9 @@ def sources(tmp_path_factory):
     return folder
 
 
-def made(sources, out, **variables):
-    """Make a wheel; return its name and what was said."""
-    program = "import sys, hatch_build; print(hatch_build.build_wheel(sys.argv[1]))"
+def made(sources, out, kind="wheel", **variables):
+    """Make a wheel, or an sdist; return its name and what was said."""
+    program = f"import sys, hatch_build; print(hatch_build.build_{kind}(sys.argv[1]))"
     environment = {name: os.environ[name] for name in os.environ if not name.startswith("ASPERITY")}
     environment["PYTHONPATH"] = os.pathsep.join([str(sources), str(sources / "src")])
     if "ASPERITY_CACHE" in os.environ:
@@ -74,8 +76,8 @@ def made(sources, out, **variables):
         text=True,
         check=False,
     )
-    wheels = [file.name for file in out.glob("*.whl")]
-    return done.returncode, wheels, done.stdout + done.stderr
+    files = [file.name for pattern in ("*.whl", "*.tar.gz") for file in out.glob(pattern)]
+    return done.returncode, files, done.stdout + done.stderr
 
 
 @pytest.fixture(scope="module")
@@ -211,6 +213,45 @@ def test_a_library_that_must_be_there_and_cannot_be_is_an_error(sources, tmp_pat
     code, wheels, said = made(sources, tmp_path, ASPERITY_LIBRARY="1", CC="no-such-compiler")
     assert (code != 0, wheels) == (True, [])
     assert said.splitlines()[-1].endswith("or what CC names)")
+
+
+@pytest.fixture(scope="module")
+def unpacked(sources, tmp_path_factory):
+    """The sources as who downloads them has them."""
+    out = tmp_path_factory.mktemp("sdist")
+    code, files, said = made(sources, out, "sdist", CC="no-such-compiler")
+    assert (code, files) == (0, [SDIST]), said
+    assert "no library" not in said
+    with tarfile.open(out / SDIST) as packed:
+        packed.extractall(out, filter="data")
+    return out / SDIST.removesuffix(".tar.gz")
+
+
+@needs_library
+def test_of_an_sdist_a_wheel_with_a_library_is_made(unpacked, tmp_path):
+    code, wheels, said = made(unpacked, tmp_path)
+    assert (code, wheels) == (0, [PLAIN]), said
+    assert "no library" not in said
+    with zipfile.ZipFile(tmp_path / PLAIN) as files:
+        files.extractall(tmp_path / "installed")
+    answers, said = called(tmp_path / "installed", ASPERITY_CACHE=str(tmp_path / "empty"))
+    assert (answers, said) == ([LISTED, OTHERS, True, True], "")
+
+
+def test_of_an_sdist_without_a_compiler_a_wheel_for_all_is_made_and_says_why(
+    sources, unpacked, tmp_path
+):
+    contents = []
+    for origin in (sources, unpacked):
+        out = tmp_path / origin.name
+        out.mkdir()
+        code, wheels, said = made(origin, out, CC="no-such-compiler")
+        assert (code, wheels) == (0, [ANY]), said
+        assert said.count("no library of kernels: no C compiler is found") == 1
+        with zipfile.ZipFile(out / ANY) as files:
+            contents.append({name: files.read(name) for name in files.namelist()})
+    # The sdist lacks nothing.
+    assert contents[0] == contents[1]
 
 
 @pytest.mark.parametrize(("said", "needs_numba"), [("", True), ("0", False)])

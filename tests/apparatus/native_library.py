@@ -102,7 +102,8 @@ def object_files(folder, *functions):
     """Write a library's objects; return their paths."""
     import llvmlite.binding as llvm
 
-    machine = _target().create_target_machine(opt=1, reloc="pic")
+    # As they are made: LLVM loads none of code that may stand anywhere.
+    machine = _target().create_target_machine(opt=1, reloc="pic", codemodel="default")
     files = []
     for number, text in enumerate([gather.ir(), RELEASE + "\n".join(functions)]):
         files.append(folder / f"{number}.o")

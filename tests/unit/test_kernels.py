@@ -12,7 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import asperity
+from asperity.kernels import folder as kernel_folder
 from asperity.kernels.dense import copy, multiply
+from asperity.kernels.native import kept, keys, load, makers, table
+from asperity.kernels.native.entries import listed
+from asperity.kernels.native.target import FEATURES
 
 PACKAGE = Path(asperity.__file__).parent
 NUMBERS = {float, int, bool, "float", "int", "bool"}
@@ -27,8 +31,25 @@ METHODS = {
 }  # fmt: skip
 
 ROOM_OF_THEIR_OWN = {
-    # What a command calls a few times at most, for loops that then run without any.
+    # What a command calls a few times at most, for loops that then run without any. Arrays of no
+    # nodes, where a march or a cycle records none.
+    "asperity.slider.kernels.march_stretches",
+    "asperity.slider.shooting.run",
+    "asperity.slider.shooting.run_cycle",
+    # What a whole march, search or recording then works in, as large as what it begins with.
     "asperity.drive.elastic.march.march",
+    "asperity.slider.at_corners._let_down_in_a_cycle",
+    "asperity.slider.held_kernels.carry",
+    "asperity.slider.on_twice._moved",
+    "asperity.slider.on_twice._pairs",
+    "asperity.slider.search_room.room_for",
+    "asperity.slider.shooting.shoot",
+    "asperity.slider.unknowns.unknown_scales",
+    "asperity.thesis.drive.appendix_e.follow",
+    "asperity.tribometer.reduction.noise.weighed",
+    "asperity.tribometer.reduction.noise.whitened",
+    "asperity.tribometer.twin.plant_kernels.sample",
+    # A few numbers that all points of a grid or all teeth share in turn; threads call them at once.
     "asperity.drive.teeth.contact._act",
     "asperity.flanks.meshing.kernels.transmission.least_each",
     "asperity.flanks.wheel.cutting.trim_grid.fillet_grid",
@@ -36,21 +57,21 @@ ROOM_OF_THEIR_OWN = {
     "asperity.flanks.wheel.cutting.trim_grid.limits_each",
     "asperity.flanks.wheel.cutting.trim_grid.locate_each",
     "asperity.flanks.wheel.cutting.undercut.regularity_map",
-    "asperity.slider.at_corners._let_down_in_a_cycle",
-    "asperity.slider.held_kernels.carry",
-    "asperity.slider.kernels.march_stretches",
-    "asperity.slider.on_twice._moved",
-    "asperity.slider.on_twice._pairs",
-    "asperity.slider.search_room.room_for",
-    "asperity.slider.shooting.run",
-    "asperity.slider.shooting.run_cycle",
-    "asperity.slider.shooting.shoot",
-    "asperity.slider.unknowns.unknown_scales",
-    "asperity.thesis.drive.appendix_e.follow",
-    "asperity.tribometer.reduction.noise.weighed",
-    "asperity.tribometer.reduction.noise.whitened",
-    "asperity.tribometer.twin.plant_kernels.sample",
 }
+
+# NumPy's functions of numbers, for which there is none in `math` or one that answers otherwise; of
+# an array they would make another.
+OF_NUMBERS = {
+    ("asperity.drive.elastic.march.march", "isfinite"),
+    ("asperity.drive.elastic.rim.way_of", "sqrt"),
+    ("asperity.normal.indentation", "cbrt"),
+    ("asperity.slider.pieces.value_and_slope", "searchsorted"),
+    ("asperity.thesis.drive.appendix_e.advance", "hypot"),
+    ("asperity.thesis.drive.appendix_e.advance", "sign"),
+    ("asperity.tribometer.twin.plant_kernels.friction_at", "searchsorted"),
+    ("asperity.vibration.waveform.fill_increments", "floor"),
+}
+NO_FUNCTIONS = {"inf", "int16", "int64"}
 
 
 def is_kernel(node):
@@ -126,43 +147,71 @@ def is_part(target):
     )
 
 
-def allocates(kernel):
-    return any(
-        isinstance(node, ast.Call)
-        and ast.unparse(node.func) in {f"np.{name}" for name in ALLOCATING}
+def of_numpy(kernel):
+    """Names that a kernel takes from NumPy."""
+    return {
+        node.attr
         for node in ast.walk(kernel)
-    )
+        if isinstance(node, ast.Attribute)
+        and isinstance(node.value, ast.Name)
+        and node.value.id == "np"
+    }
 
 
 @functools.cache
 def called_from_python():
     """Kernels that other functions than kernels name."""
-    return {*_named_in_python()}
+    return {
+        name
+        for module, tree in trees().items()
+        for name in named_in(tree, module, but_for_kernels=True)
+    }
 
 
-def _named_in_python():
-    for module, tree in trees().items():
-        known = {
-            name.rsplit(".", 1)[1]: name for name in kernels() if name.startswith(f"{module}.")
-        }
-        modules = {}
-        for node in ast.walk(tree):
-            if isinstance(node, ast.ImportFrom):
-                for alias in node.names:
-                    full = f"{node.module}.{alias.name}"
-                    if full in kernels():
-                        known[alias.asname or alias.name] = full
-                    modules[alias.asname or alias.name] = full
-        waiting = [tree]
-        while waiting:
-            node = waiting.pop()
-            waiting += [inner for inner in ast.iter_child_nodes(node) if not is_kernel(inner)]
-            if isinstance(node, ast.Name) and node.id in known:
-                yield known[node.id]
-            elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
-                full = f"{modules.get(node.value.id)}.{node.attr}"
+def called_by(name):
+    """A kernel with all that it calls, and that those call."""
+    known, waiting = set(), [name]
+    while waiting:
+        name = waiting.pop()
+        if name not in known:
+            known.add(name)
+            waiting += calls_of(name)
+    return known
+
+
+@functools.cache
+def calls_of(name):
+    return {*named_in(kernels()[name], name.rpartition(".")[0])}
+
+
+@functools.cache
+def names_in(module):
+    """Kernels by what a module calls them, and what else it imports."""
+    known = {name.rsplit(".", 1)[1]: name for name in kernels() if name.startswith(f"{module}.")}
+    modules = {}
+    for node in ast.walk(trees()[module]):
+        if isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                full = f"{node.module}.{alias.name}"
                 if full in kernels():
-                    yield full
+                    known[alias.asname or alias.name] = full
+                modules[alias.asname or alias.name] = full
+    return known, modules
+
+
+def named_in(top, module, but_for_kernels=False):
+    known, modules = names_in(module)
+    waiting = [top]
+    while waiting:
+        node = waiting.pop()
+        inner = ast.iter_child_nodes(node)
+        waiting += [each for each in inner if not (but_for_kernels and is_kernel(each))]
+        if isinstance(node, ast.Name) and node.id in known:
+            yield known[node.id]
+        elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+            full = f"{modules.get(node.value.id)}.{node.attr}"
+            if full in kernels():
+                yield full
 
 
 def kinds_of(made):
@@ -209,7 +258,42 @@ def test_kernels_need_nothing_of_python():
 
 
 def test_only_kernels_that_are_named_make_arrays():
-    assert {name for name, node in kernels().items() if allocates(node)} == ROOM_OF_THEIR_OWN
+    making = {name for name, node in kernels().items() if of_numpy(node) & ALLOCATING}
+    assert making == ROOM_OF_THEIR_OWN
+
+
+def test_of_numpy_kernels_call_only_what_makes_arrays_and_what_is_named():
+    """Any other, of an array, would make one."""
+    called = {(name, one) for name, node in kernels().items() for one in of_numpy(node)}
+    assert {
+        (name, one) for name, one in called if one not in ALLOCATING | NO_FUNCTIONS
+    } == OF_NUMBERS
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not load.is_for_here(makers.MADE_HERE, FEATURES), reason="kernels are Numba's on this machine"
+)
+def test_no_machine_code_asks_for_memory_but_that_of_kernels_that_are_named():
+    """Also an expression of arrays makes one: what asks for memory is in the machine code.
+
+    Where something that is called has room of its own, it hides others; most kernels are called by
+    an entry that has nothing such.
+    """
+    kept.make(listed().entries)
+    asking, having, seen = set(), set(), set()
+    for entry in listed().entries:
+        called = called_by(entry.name)
+        if called & ROOM_OF_THEIR_OWN:
+            having.add(entry.name)
+        else:
+            seen |= called
+        folder = kernel_folder.kernels() / keys.key(entry)
+        # An object's table of what it needs from elsewhere is words that end with a zero.
+        if b"malloc\0" in (folder / table.OBJECTS[0]).read_bytes():
+            asking.add(entry.name)
+    assert asking == having
+    assert len(seen) > 250
 
 
 def test_what_python_calls_returns_numbers():

@@ -93,7 +93,11 @@ def is_kept(folder: Path) -> bool:
     try:
         with contextlib.suppress(OSError):  # it may be on a disk that is only read
             os.utime(folder)
-        return is_ours_alone(folder, _INSTEAD)
+        places = [folder]
+        if folder.stat().st_mode & 0o011:
+            # Made for the user alone, it was opened since, and files are as the umask has them.
+            places += folder.iterdir()
+        return all(is_ours_alone(place, _INSTEAD) for place in places)
     except OSError:
         return False
 

@@ -167,6 +167,8 @@ def pattern(mesh: Transmission, grid: FlankGrid, thickness: float = MARKING) -> 
         phase,
         pair.worm.facing(side),
         pair.mount,
+        np.empty_like(beta),
+        np.empty_like(beta),
         gap.reshape(-1),
         at.reshape(-1),
     )

@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from asperity.flanks.wheel.cutting.bracket import compiled_minimum
 from asperity.flanks.wheel.gaps import gap_at
 from asperity.kernels.compiled import kernel
@@ -24,10 +22,14 @@ def gap_between(t, point, betas, phases, worm, mount):
 
 
 @kernel
-def smallest_gap(points, betas, phases, worm, mount, gap, at):
-    """Smallest gap of each point over places of wheel and worm, and the wheel's place then."""
-    cosines = np.cos(betas)
-    sines = np.sin(betas)
+def smallest_gap(points, betas, phases, worm, mount, cosines, sines, gap, at):
+    """Smallest gap of each point over places of wheel and worm, and the wheel's place then.
+
+    ``cosines`` and ``sines`` are room for those of the places.
+    """
+    for j in range(betas.size):
+        cosines[j] = math.cos(betas[j])
+        sines[j] = math.sin(betas[j])
     last = betas.size - 1
     for k in range(points.shape[0]):
         best = math.inf
