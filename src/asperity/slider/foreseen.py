@@ -144,12 +144,13 @@ def _by_the_power(model: Model, left: float) -> float:
     the window are as near to one another as `march_standing` takes them.
     """
     slower = model.friction.exponent - 1.0
-    span = (model.duration - model.start) * max(left / (_LEFT * FAR), 1.0) ** slower
+    span: float = (model.duration - model.start) * max(left / (_LEFT * FAR), 1.0) ** slower
     half = 0.5 * min(model.window, WINDOW_SHARE * span)
     early, late = (1.0 - share * half / span for share in (1.5, 0.5))
     differ = min(left, _LEFT * FAR) * (early ** (-1.0 / slower) - late ** (-1.0 / slower))
     steady = SURELY * min(UNSTEADY, NEAR_LIMIT * half / (slower * span))
-    return model.start + span * float(max(differ / steady, 1.0) ** slower)
+    longer: float = max(differ / steady, 1.0) ** slower
+    return model.start + span * longer
 
 
 def _outruns(window: WindowMeans, end: Nearby) -> float | None:
