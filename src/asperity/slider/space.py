@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from asperity.errors import ConvergenceError
+from asperity.friction.springs import load_and_slope, spring_profile
 from asperity.normal import elastic_slope, indentation
 from asperity.results import Quantities, quantity
 from asperity.slider.model import Model
@@ -183,14 +184,16 @@ def too_few_springs(model: Model) -> tuple[str, ...]:
 
 
 def missed_limit(law: str, count: int, deepest: float) -> float:
-    r"""Return by how much the limit of springs may miss that of the law, over the reference.
+    """Return the most by which the limit of springs misses that of the law, over the reference.
 
-    An interval of springs misses a curve that bends by :math:`N''` by :math:`N''\Delta^2/8`, of
-    which two thirds are left at its ends, as it misses nothing on average; all have as much of it
-    (`asperity.friction.springs`). Where springs reach deep that is little of their load and may be
-    much of the reference.
+    Where they reach deep that is little of their load and may be much of the reference.
     """
     if law == "linear":
         return 0.0
-    bend = 4.0 / 3.0 * (deepest / 1.5) ** 1.5 if law == "hertz" else 4.0 * math.exp(deepest)
-    return bend / (12.0 * count * count)
+    heights, weights = spring_profile(law, count, deepest)
+    # A polygon misses most at its corners and half-way between them.
+    between = 0.5 * (heights[1:] + heights[:-1])
+    depth = np.concatenate([heights, between, [deepest]])
+    depth = depth[depth <= deepest]
+    carried = np.maximum(depth[:, None] - heights, 0.0) @ weights
+    return float(np.abs(carried - load_and_slope(law, depth)[0]).max())
