@@ -16,7 +16,7 @@ DEEP = 2.0
 def test_springs_miss_the_law_by_no_more_than_is_told(law, count):
     deepest = REFERENCE_INDENTATION[law] + DEEP
     heights, weights = spring_profile(law, count, deepest)
-    depth = np.linspace(-9.0, deepest, 20001)
+    depth = np.linspace(-9.0, deepest, 40001)
     carried = np.maximum(depth[:, None] - heights, 0.0) @ weights
     off = np.abs(carried - load_and_slope(law, depth)[0]).max()
     assert off == pytest.approx(missed_limit(law, count, deepest), rel=0.05)
