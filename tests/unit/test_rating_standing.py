@@ -4,8 +4,11 @@ from types import SimpleNamespace
 
 import pytest
 
+import asperity
+from asperity.gearset import oil
 from asperity.rating.changes import says_less
 from asperity.rating.iso14521.limits import PLAUSIBLE, VALIDITY, implausible
+from asperity.rating.power_words import power_lines
 from asperity.rating.standing import WIDTH, Standing, efficiency_outside
 
 WHY = (
@@ -34,7 +37,9 @@ def test_the_report_has_the_whole_reason():
 
 
 LIMITS = {**VALIDITY, **PLAUSIBLE}
-OF_EFFICIENCY = {"centre_distance", "profile_shift", "geometry_factor", "idle_share"}
+OF_EFFICIENCY = {
+    "centre_distance", "profile_shift", "geometry_factor", "idle_share", "theta_S_degC",
+}  # fmt: skip
 """Limits of what friction, or what is lost without load, rests on."""
 
 
@@ -44,6 +49,25 @@ def test_an_efficiency_is_marked_by_what_it_rests_on_alone(key):
     sentence = LIMITS[key].violation(2.0 * LIMITS[key].upper + 1.0)
     marked = efficiency_outside(SimpleNamespace(violations=(sentence,)))
     assert len(marked) == (key in OF_EFFICIENCY)
+
+
+def powers(setting):
+    rated = asperity.rate("gearset-3", standard="iso14521", settings=[setting])
+    return rated.iso14521, " ".join(map(str, power_lines(rated.rating_inputs, rated.iso14521)))
+
+
+def test_an_oil_hotter_than_its_range_marks_the_efficiency():
+    assert "of the teeth (OUTSIDE ITS RANGE)" in powers("operation.output_torque=1e12 N m")[1]
+    for of_oil in (oil.TEMPERATURE, oil.VISCOSITY):
+        sentence = of_oil.violation(2.0 * of_oil.upper + 1.0)
+        assert efficiency_outside(SimpleNamespace(violations=(sentence,)))
+
+
+def test_a_gearbox_that_comes_out_above_its_teeth_says_why():
+    for setting, above in (("worm_speed=1e-9 rpm", True), ("worm_speed=1500 rpm", False)):
+        iso, said = powers(f"operation.{setting}")
+        assert (iso["eta_ges"] > iso["eta_z1_2"]) == above
+        assert ("comes out above its teeth: the standard's loss has 0.1" in said) == above
 
 
 ORDER = "does not hold", "no answer", "undecided", "holds"

@@ -29,6 +29,8 @@ def power_lines(inputs: Inputs, iso: Rating) -> Iterator[str]:
         _number(iso, "eta_z1_2", ".1f", 100.0),
         f" % of the teeth ({'OUTSIDE ITS RANGE' if outside else 'ISO/TR 14521'})",
     )  # fmt: skip
+    if float(iso["eta_ges"]) > float(iso["eta_z1_2"]):
+        yield "the gearbox comes out above its teeth: the standard's loss has 0.1 for 2 pi/60"
     yield Sentence(
         "losses ", _number(iso, "loss_total_W", ".4g"), " W of ",
         _number(iso, "input_power_W", ".4g"), " W: ", _parts(iso, "loss_meshing_W"),

@@ -26,7 +26,10 @@ WORDS: tuple[Word, ...] = ("does not hold", "holds", "undecided", "no answer")
 """What a standard comes to, in the order in which it is said."""
 
 # What the efficiencies of ISO/TR 14521 rest on, as its limits of validity name it.
-_OF_EFFICIENCY = ("(Y_S)", "(h*, p_m*)", "Y_G", "(eta_ges)")
+# Friction rests on the oil's viscosity as well, which an oil outside its range has none of.
+_OF_EFFICIENCY = (
+    "(Y_S)", "(h*, p_m*)", "Y_G", "(eta_ges)", "oil temperature", "of the sump theta_S", "viscosity"
+)  # fmt: skip
 # A part ends at a semicolon or a full stop, which abbreviations have none of here.
 _PART = re.compile(r"(?:;|(?<!\b[a-z])\.)\s")
 _CUT = " ..."

@@ -5,12 +5,15 @@ import math
 import numpy as np
 
 from asperity.errors import ConvergenceError
+from asperity.friction.springs import load_and_slope, spring_profile
 from asperity.normal import elastic_slope, indentation
 from asperity.results import Quantities, quantity
 from asperity.slider.model import Model
 from asperity.slider.substeps import LANDING_BOUND, RING_BOUND
 
 _MOST_GAIN = 1e-9  # of the friction power: rounding
+_WITHIN = 2e-3  # of mu F_N, that springs may be off without a word
+MOST_SPRINGS = 256
 
 IN_FLIGHT = "the body does not land in the window of the means"
 
@@ -138,6 +141,7 @@ def remarks(model: Model, step: float, sums: np.void, motion: NormalMotion) -> t
             f"the contact is met harder than expected: give a solve.step of {step / finer:.2g} s"
         )
     if model.friction.model == "springs":
+        notes += too_few_springs(model)
         deepest = float(indentation(q.law, 0.0, math.inf, sums["load_max"]))
         if deepest > model.deepest:
             notes.append(
@@ -161,3 +165,35 @@ def remarks(model: Model, step: float, sums: np.void, motion: NormalMotion) -> t
             reached={"friction_gain_W": motion.friction_gain},
         )
     return tuple(notes)
+
+
+def too_few_springs(model: Model) -> tuple[str, ...]:
+    """Return a note that a contact's springs may be too few to tell friction by, if they may be."""
+    assert model.normal is not None
+    count = model.friction.springs
+    within = missed_limit(model.normal.law, count, model.deepest)
+    if within <= _WITHIN:
+        return ()
+    enough = min(16 * math.ceil(count * math.sqrt(within / _WITHIN) / 16), MOST_SPRINGS)
+    left = max(within * (count / enough) ** 2, _WITHIN)
+    other = f": friction.springs = {enough} tells it to {left:.2g}" if enough > count else ""
+    return (
+        f"of {count} springs friction is known to within {within:.2g} of mu F_N where the load "
+        f"swings as far as this{other}",
+    )
+
+
+def missed_limit(law: str, count: int, deepest: float) -> float:
+    """Return the most by which the limit of springs misses that of the law, over the reference.
+
+    Where they reach deep that is little of their load and may be much of the reference.
+    """
+    if law == "linear":
+        return 0.0
+    heights, weights = spring_profile(law, count, deepest)
+    # A polygon misses most at its corners and half-way between them.
+    between = 0.5 * (heights[1:] + heights[:-1])
+    depth = np.concatenate([heights, between, [deepest]])
+    depth = depth[depth <= deepest]
+    carried = np.maximum(depth[:, None] - heights, 0.0) @ weights
+    return float(np.abs(carried - load_and_slope(law, depth)[0]).max())

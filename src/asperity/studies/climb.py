@@ -23,10 +23,14 @@ Hill = tuple[Rows, Sequence[FloatArray]]
 _Climber = Generator[FloatArray, FloatArray, tuple[float, FloatArray] | None]
 """Asks for the worth of points, in rows, until it is where it ends."""
 
+_Seen = Callable[[FloatArray], Generator[FloatArray, FloatArray, FloatArray]]
+"""A merit that asks for the worth of points, and remembers the best of those that may be."""
+
 _STEP = 1e-6
 _MARGIN = 1e-9
 _SLACK = 1e-12
-_SAME = 1e-6
+SAME = 1e-6
+"""Heights no further apart count as the same."""
 _TIED = 1e-9
 _BACK: FloatArray = np.array([0.0, *np.geomspace(1e-9, 1.0, 37)])
 _IMPOSSIBLE = -1.0
@@ -134,24 +138,40 @@ def _highest(ends: Sequence[tuple[float, FloatArray] | None], start: FloatArray)
     # Where a coordinate has no say, rounding alone would choose among tops.
     tied = [top for top in tops if highest - top[0] <= _TIED]
     height, point = min(tied, key=lambda top: float(np.linalg.norm(top[1] - start)))
-    return Top(point, height, sum(height - other <= _SAME for other, _ in tops))
+    return Top(point, height, sum(height - other <= SAME for other, _ in tops))
 
 
 def _climber(merit: Rows, start: FloatArray) -> _Climber:
     """Return the height and the place of the end of a climb that keeps all constraints."""
-    end = (yield from _top(merit, start)) if start.size else start
+    passed: list[tuple[float, FloatArray]] = []
+
+    def seen(points: FloatArray) -> Generator[FloatArray, FloatArray, FloatArray]:
+        rows = merit((yield points))
+        passed.extend(_best_kept(points, rows))
+        return rows
+
+    end = (yield from _top(seen, start)) if start.size else start
     # Where a constraint has a kink the climb may end a little beyond it: then back to the start,
     # as far as needed.
     ways = end + _BACK[:, None] * (start - end)
-    rows = merit((yield ways))
+    ends = _best_kept(ways, merit((yield ways)))
+    best = max(passed, key=lambda one: one[0], default=None)
+    # A climb that went astray came by something better; by less than this it is rounding.
+    if best is not None and not (ends and ends[0][0] >= best[0] - SAME):
+        return best
+    return ends[0] if ends else None
+
+
+def _best_kept(points: FloatArray, rows: FloatArray) -> list[tuple[float, FloatArray]]:
+    """Return the height and the place of the highest point that keeps all constraints, if any."""
     kept = np.all(np.isfinite(rows), axis=1) & np.all(rows[:, 1:] >= -_SLACK, axis=1)
     if not kept.any():
-        return None
+        return []
     best = int(np.argmax(np.where(kept, rows[:, 0], -np.inf)))
-    return float(rows[best, 0]), ways[best]
+    return [(float(rows[best, 0]), points[best])]
 
 
-def _top(merit: Rows, start: FloatArray) -> Generator[FloatArray, FloatArray, FloatArray]:
+def _top(seen: _Seen, start: FloatArray) -> Generator[FloatArray, FloatArray, FloatArray]:
     steps = lowest(start, 1e-12, _ITERATIONS)
     recent: deque[FloatArray] = deque(maxlen=_PATIENCE)
     at, answer = b"", (np.empty(0), np.empty((0, 0)))
@@ -164,7 +184,7 @@ def _top(merit: Rows, start: FloatArray) -> Generator[FloatArray, FloatArray, Fl
                 # differences.
                 steps.close()
                 break
-            answer, at = (yield from _slopes(merit, point)), point.tobytes()
+            answer, at = (yield from _slopes(seen, point)), point.tobytes()
         try:
             point = steps.send(answer)
         except StopIteration as ended:
@@ -174,12 +194,12 @@ def _top(merit: Rows, start: FloatArray) -> Generator[FloatArray, FloatArray, Fl
 
 
 def _slopes(
-    merit: Rows, point: FloatArray
+    seen: _Seen, point: FloatArray
 ) -> Generator[FloatArray, FloatArray, tuple[FloatArray, FloatArray]]:
     """Return what is to be low and the constraints, and their slopes by differences in one call."""
     # Backwards at the far side, to stay inside.
     steps = np.where(point + _STEP <= 1.0, _STEP, -_STEP)
-    rows = merit((yield np.vstack([point, point + np.diag(steps)])))
+    rows = yield from seen(np.vstack([point, point + np.diag(steps)]))
     rows = np.where(np.isnan(rows), _IMPOSSIBLE, rows)
     slopes = ((rows[1:] - rows[0]) / steps[:, None]).T
     values = np.append(-rows[0, :1], rows[0, 1:] - _MARGIN)

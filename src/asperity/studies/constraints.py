@@ -95,7 +95,8 @@ def limits_of(
     values = free_numbers(after)
     for name, (low, high) in spans.items():
         what, value = varied_quantity(name), values[name]
-        near = _ACTIVE * (high - low)
+        # Bounds that lie decades away hold nothing back; a shift of zero has a size, too.
+        near = _ACTIVE * min(high - low, max(10.0 * abs(value), 1.0))
         for relation, bound, gap in ((">=", low, value - low), ("<=", high, high - value)):
             limits.append(Limit(what.key, what.symbol, relation, bound, value, gap <= near))
     return tuple(limits)

@@ -27,6 +27,7 @@ from asperity.rating.standards import STANDARDS, tables_of
 from asperity.rating.variants import variants
 from asperity.sources import Source
 from asperity.studies.climb import spread
+from asperity.studies.cube import cube_of
 from asperity.studies.requirements import Requirements
 
 VARIABLES = ("pressure_angle", "diameter_factor", "axial_module", "worm_roughness")
@@ -187,10 +188,12 @@ class Space:
             min(bounds.profile_shift[0], shift),
             max(bounds.profile_shift[1], shift),
         )
+        ends = np.column_stack([self.lower, self.upper])
+        twice, teeth = 2e-3 * geometry.centre_distance, gearset.wheel_teeth
+        self.cube = cube_of(VARIABLES, ends, self.profile_shift, twice, teeth)
         own = self.threads_of(geometry.diameter_factor, gearset.pressure_angle)
         self.least_threads = min(LEAST_THREADS, float(own)) if knows else None
-        self._free = np.flatnonzero(self.upper > self.lower)
-        self.start = ((now - self.lower)[self._free]) / (self.upper - self.lower)[self._free]
+        self.start = self.cube.points(now)
 
     def _keep_hob(self) -> None:
         """Refuse to change what a hob of the shelf settles, and a gearset that none cuts."""
@@ -218,15 +221,12 @@ class Space:
     @property
     def dimensions(self) -> int:
         """How many of the `VARIABLES` have room within their bounds."""
-        return len(self._free)
+        return len(self.cube.free)
 
     def values(self, points: FloatArray) -> dict[str, Any]:
         """Return the variables at points, in SI."""
-        shares = np.zeros((*points.shape[:-1], len(VARIABLES)))
-        shares[..., self._free] = points
-        inside = self.lower + shares * (self.upper - self.lower)
-        inside = np.clip(inside, self.lower, self.upper)
-        return dict(zip(VARIABLES, np.moveaxis(inside, -1, 0), strict=True))
+        designs = self.cube.designs(points)
+        return dict(zip(VARIABLES, np.moveaxis(designs, -1, 0), strict=True))
 
     def rated(self, gearset: Gearset) -> Rated:
         """Return the whole rating of a gearset under what all are under."""
@@ -367,13 +367,11 @@ class Space:
 
     def points(self, designs: FloatArray) -> FloatArray:
         """Return the points of designs that are rows of `VARIABLES` in SI."""
-        span = (self.upper - self.lower)[self._free]
-        shares: FloatArray = (designs[:, self._free] - self.lower[self._free]) / span
-        return np.clip(shares, 0.0, 1.0)
+        return self.cube.points(designs)
 
     def thickest(self, point: FloatArray) -> FloatArray:
         """Return a point with the greatest diameter factor in place of its own."""
-        return np.where(self._free == VARIABLES.index("diameter_factor"), 1.0, point)
+        return np.where(self.cube.free == VARIABLES.index("diameter_factor"), 1.0, point)
 
     def gearset_at(self, point: FloatArray) -> Gearset:
         """Return the design at a point as a gearset."""

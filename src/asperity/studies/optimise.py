@@ -38,7 +38,7 @@ from asperity.studies.gears import Gears
 from asperity.studies.layout import points
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.requirements import Requirements, special_hob
-from asperity.studies.rounding import rounded
+from asperity.studies.rounding import rounded_near
 from asperity.studies.search import bounds_of, known_safeties, least_safeties, notes_of
 from asperity.studies.tradeoff import TradeOff, curve_in
 from asperity.studies.with_shafts import Borne, with_shafts
@@ -292,15 +292,14 @@ def _best_in(
         rows = space.merit(space.worth(points), capacity)
         return rows if borne is None else np.hstack([rows, borne.room(space.gearset_at, points)])
 
-    top = climb(merit, first)
+    top, near = climb(merit, first), None
     if top is None:
         raise space.nothing_keeps()
+    if least is not None:
+        top, near = rounded_near(space, top, merit, capacity, borne)
     design = space.gearset_at(top.point)
-    near = None if least is None else rounded(space, top.point, capacity, borne)
     before, after = (space.rated(g) for g in (space.gearset, design))
-    made = None
-    if near is not None:
-        made = space.rated(space.gearset_at(near))
+    made = None if near is None else space.rated(space.gearset_at(near))
     return Optimum(
         gearset=design,
         before=before,
@@ -310,7 +309,7 @@ def _best_in(
         agreed=top.agreed,
         made=made,
         notes=(
-            *notes_of(before, bounds),
+            *notes_of(before, bounds, top.agreed, len(first)),
             *special_hob((made or after).gearset.pressure_angle),
             *space.kept,
             *(falls(before, made or after) if least else ()),

@@ -11,6 +11,7 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.gearset.sizing import MODULES as ISO_54
+from asperity.studies.climb import SAME, Rows, Top, climb
 from asperity.studies.design import VARIABLES, Space
 from asperity.studies.quantities import varied_quantity
 from asperity.studies.series import MODULES as DIN_780
@@ -88,6 +89,36 @@ def rounded(
         return None
     worth = [height + SERIES_IS_WORTH * in_series for height, in_series, _ in found]
     return found[int(np.argmax(worth))][2]
+
+
+def rounded_near(
+    space: Space,
+    top: Top,
+    merit: Rows,
+    least: Mapping[str, float],
+    borne: Borne | None = None,
+) -> tuple[Top, FloatArray | None]:
+    """Return the best design and the one near it that can be made, which is no better.
+
+    Where the climbs missed what numbers near their top have, another begins there.
+
+    Parameters
+    ----------
+    top : Top
+        What the climbs came to.
+    merit : callable
+        What they climbed.
+    space, least, borne
+        As in `rounded`.
+    """
+    while True:
+        near = rounded(space, top.point, least, borne)
+        if near is None or float(merit(near[None])[0, 0]) <= top.height + SAME:
+            return top, near
+        higher = climb(merit, [near])
+        if higher is None or higher.height <= top.height + SAME:
+            return top, near
+        top = higher
 
 
 def _multiples(space: Space, name: str, value: float) -> list[float]:

@@ -146,12 +146,17 @@ def known_safeties(name: str) -> set[str]:
     return known[name]
 
 
-def notes_of(before: Rated, bounds: Bounds | None) -> tuple[str, ...]:
-    """Return what to know of assumed bounds and of numbers from memory."""
+def notes_of(before: Rated, bounds: Bounds | None, agreed: int, starts: int) -> tuple[str, ...]:
+    """Return what to know of assumed bounds, numbers from memory, and starts that disagree."""
     notes = []
     if bounds is None:
         notes.append(f"the bounds are assumed: {ASSUMED.note}")
     rating = before.bs721
     if rating is not None and rating.entry("M_w_Nm").from_memory:
         notes.append("M_w and M_s rest on tables of BS 721 from memory; check them before use")
+    if 2 * agreed < starts:
+        notes.append(
+            f"only {agreed} of {starts} starts came to this design: there may be a better one; "
+            "narrower --bounds search more closely"
+        )
     return tuple(notes)
