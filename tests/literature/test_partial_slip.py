@@ -198,7 +198,6 @@ def test_a_cycle_of_rubbing_dissipates_what_mindlin_and_deresiewicz_say(
     assert cycle.loads[[0, 16, -1]] == pytest.approx(share * np.array([1, -1, 1]), rel=0.01)
 
 
-@pytest.mark.slow
 def test_dahl_friction_of_exponent_nought_is_coulomb_friction_with_elastic_slip(
     quarter_of_half_space,
 ):

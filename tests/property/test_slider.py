@@ -116,7 +116,6 @@ def test_the_power_ledger_of_any_body_closes(samples, slider, friction, vibratio
         assert ledger.untransferred == 0.0
 
 
-@pytest.mark.slow
 @given(bodies, frictions(("coulomb", "dahl")), vibrations())
 @settings(max_examples=50)
 def test_friction_stays_within_its_limit_under_every_law_and_exponent(

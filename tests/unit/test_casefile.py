@@ -10,6 +10,7 @@ import pytest
 
 from asperity.casefile import Table, naming_source, read_case
 from asperity.errors import InputError
+from asperity.files import shipped
 from asperity.files.shipped import SPEAKING, describe, shipped_case, shipped_cases
 from asperity.units import Quantity
 
@@ -409,13 +410,21 @@ def test_a_shipped_case_is_read_by_name_unless_a_file_has_that_name(case_file):
 
 
 def test_a_speaking_name_is_another_name_of_a_case_that_ships():
-    shipped = shipped_cases()
-    assert not SPEAKING.keys() & shipped.keys()
+    files = shipped_cases()
+    assert not SPEAKING.keys() & files.keys()
     assert len(set(SPEAKING.values())) == len(SPEAKING)
     assert {name: shipped_case(name) for name in SPEAKING} == {
-        name: shipped[file] for name, file in SPEAKING.items()
+        name: files[file] for name, file in SPEAKING.items()
     }
     known = dict.fromkeys(("slider", "friction", "vibration", "normal", "solve"), AnyTable)
     assert read_case("pin-on-disc", known).raw == read_case("normal-pin", known).raw
     with pytest.raises(InputError, match=r"neither .*did you mean 'pin-on-disc'"):
         read_case("pin-on-disk", TABLES)
+
+
+def test_where_no_cases_ship_a_case_of_one_s_own_is_read(tmp_path, monkeypatch):
+    monkeypatch.setattr(shipped, "__file__", str(tmp_path / "src/asperity/files/shipped.py"))
+    assert shipped_cases() == {}
+    own = tmp_path / "own.toml"
+    own.write_text("[body]\nspeed = '1 m/s'\n", encoding="utf-8")
+    assert read_case(str(own), {"body": Body}).raw == {"body": {"speed": "1 m/s"}}

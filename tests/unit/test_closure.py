@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 import asperity
-from asperity.kernels.closure import closure, source_key
+from asperity.kernels.closure import Sources, closure, source_key
 
 PACKAGE = Path(asperity.__file__).parent
 
@@ -54,3 +54,11 @@ def test_tables_beside_a_source_belong_to_an_answer():
 def test_a_module_that_is_not_there_is_named():
     with pytest.raises(LookupError, match="asperity_nothing"):
         source_key("asperity_nothing.here")
+
+
+def test_sources_that_are_read_once_have_the_key_that_each_reading_has():
+    modules = ("asperity.slider.march", "asperity.rating.rate", "asperity.slider.march")
+    once = Sources()
+    kept = [source_key(module, sources=once) for module in modules]
+    assert kept == [source_key(module) for module in modules]
+    assert kept[0] == kept[2] != kept[1]

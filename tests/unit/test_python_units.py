@@ -51,7 +51,6 @@ def same(*tables):
     assert len({table.model_dump_json() for table in tables}) == 1
 
 
-@pytest.mark.slow
 def test_text_pint_and_a_number_with_its_unit_give_the_same_bits():
     u = pint.UnitRegistry()
     for size in (74.93, 100.0, 0.1, 1 / 3):

@@ -372,7 +372,6 @@ class LoadCase:
         return asked
 
 
-@pytest.mark.slow
 def test_nobody_is_sent_to_a_rig_that_is_on(tmp_path):
     case = rigs.small_case()
     bench, rig = rigs.made_bench(case)
@@ -484,7 +483,6 @@ def test_exchanged_cables_are_found_before_the_first_recording(pair, kind, tmp_p
     assert not rig.on & {"steel", "bronze", "vibration"}
 
 
-@pytest.mark.slow
 def test_a_latched_run_waits_for_a_person(undisturbed, tmp_path):
     case = rigs.small_case()
     bench, rig = rigs.made_bench(case)
@@ -505,7 +503,6 @@ def test_a_latched_run_waits_for_a_person(undisturbed, tmp_path):
         rigs.run(case, tmp_path, resume=True, acknowledge="again")
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
 def test_a_full_disk_latches_with_everything_off(undisturbed, tmp_path):
     case = rigs.small_case()

@@ -52,7 +52,6 @@ def test_a_dataclass_comes_back_from_its_file(outer, tmp_path):
     assert same(from_tree(Outer, read_tree(tmp_path / "kept.npz")), outer)
 
 
-@pytest.mark.slow
 @given(st.floats(allow_nan=False), st.integers(-(2**60), 2**60), st.text(max_size=20))
 def test_numbers_and_texts_keep_every_bit(tmp_path_factory, number, count, text):
     path = tmp_path_factory.getbasetemp() / "kept.npz"
@@ -67,7 +66,6 @@ def test_what_is_no_part_of_a_tree_is_refused(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.slow
 def test_any_flipped_bit_that_matters_is_found(tmp_path):
     path = tmp_path / "kept.npz"
     tree = {"a": np.arange(4.0), "b": "text"}

@@ -10,6 +10,7 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.slider import TABLES, Model, solve
+from asperity.slider.continuation import follow
 
 UNSPLIT = "friction.law=unsplit", "friction.transfer=1", "vibration.start=0 s"
 RIGID = dict.fromkeys(("slider.drive_stiffness", "slider.drive_damping", "slider.mass"))
@@ -81,3 +82,58 @@ def test_asperities_that_bend_back_in_a_cycle_are_not_put_to_their_limit():
     assert answer.settled
     assert not answer.notes
     assert answer.ratio < 0.9
+
+
+@pytest.mark.parametrize(("exponent", "there"), [(1.5, 0.81602), (3, 0.59506)])
+def test_shaken_along_they_are_found_where_split_ones_are(exponent, there):
+    """Friction at its limit repeats itself too, and a body from rest stays below it."""
+    drawn = (
+        "slider.drive_velocity=1 mm/s", "slider.drive_stiffness=4287 kN/m", "slider.mass=0.5 kg",
+        "slider.drive_damping=29.3 N s/m", "slider.normal_force=37 N", "slider.lateral=guided",
+        "friction.max_deflection=1 um", "vibration.frequency=1530 Hz",
+        "vibration.velocity_ratio=0.91", "vibration.direction=0 deg",
+    )  # fmt: skip
+    ratios = [
+        state(exponent, (*drawn, f"friction.law={law}")).ratio for law in ("unsplit", "split")
+    ]
+    assert ratios == pytest.approx([there] * 2, abs=1e-5)
+
+
+def test_under_a_contact_that_nothing_swings_they_are_where_they_are_without_one():
+    pressed = "normal.law=linear", "normal.stiffness=100 MN/m", "normal.damping_ratio=0.3"
+    free = state(6, ACROSS).ratio
+    assert free == pytest.approx(0.94409, abs=1e-5)
+    assert state(6, (*ACROSS, *pressed)).ratio == pytest.approx(free, abs=1e-6)
+
+
+def test_a_walk_comes_to_the_states_that_bodies_have_alone():
+    given = *UNSPLIT, "friction.exponent=6", *ACROSS, "solve.method=periodic"
+    case = read_case("table-4.3", TABLES, given)
+    ratios = (8.0, 0.4455)
+    models = [
+        Model.from_case(
+            case.replace_values(
+                {"solve.step": None, "solve.duration": None, "vibration.velocity_ratio": ratio}
+            )
+        )
+        for ratio in ratios
+    ]
+    walked = [answer.ratio for answer in follow(models)]
+    assert walked == pytest.approx(
+        [solve(model, history=False).ratio for model in models], abs=1e-8
+    )
+
+
+def test_next_to_an_exponent_of_1_a_duration_is_told():
+    """A power of what is left overflows there."""
+    drawn = (
+        "slider.drive_velocity=1 mm/s", "slider.drive_stiffness=226 MN/m", "slider.mass=0.5 kg",
+        "slider.drive_damping=32 kN s/m", "slider.normal_force=14 N", "slider.lateral=guided",
+        "friction.max_deflection=1.17 um", "vibration.frequency=1760 Hz",
+        "vibration.velocity_ratio=0.58", "vibration.direction=90 deg",
+    )  # fmt: skip
+    given = *UNSPLIT, "friction.exponent=1.0005", *drawn, "solve.duration=9 ms"
+    case = read_case("table-4.3", TABLES, (*given, "solve.method=march"))
+    answer = solve(Model.from_case(case.replace_values({"solve.step": None})), history=False)
+    assert not answer.settled
+    assert "a solve.duration of 0.035 s would do" in "\n".join(answer.notes)

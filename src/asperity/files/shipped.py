@@ -44,7 +44,9 @@ def _shipped(kind: str) -> dict[str, Path]:
     package = Path(__file__).parents[1]
     # In an editable checkout the folder stands at the root, beside `src`.
     folders = [package / "cases", package.parents[1] / "cases"]
-    folder = next((folder for folder in folders if folder.is_dir()), folders[0])
+    folder = next((folder for folder in folders if folder.is_dir()), None)
+    if folder is None:
+        return {}
     # Names, of which a run of the thesis asks hundreds of times: paths take five times as long.
     names = sorted(name for name in os.listdir(folder) if name.endswith(kind))
     return {name.removesuffix(kind): folder / name for name in names}

@@ -36,7 +36,7 @@ class Sources:
 
     def file(self, name: str, roots: dict[str, str]) -> str | None:
         """Return the file of a module, or of the one that a name is taken from."""
-        if not name.startswith("asperity"):
+        if name.partition(".")[0] != "asperity":
             return _file(name, roots)
         if name not in self._files:
             self._files[name] = _file(name, roots)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from asperity.kernels.closure import Sources, source_key
 
-# A process computes with what it has loaded: its sources are those of its beginning.
+# Each source is read once a process: one that is edited under a process counts from its next start.
 _LOADED = Sources()
 
 

@@ -23,14 +23,15 @@ _TRIED = 60  # cycles
 def bend_to_limit(cycle: Cycle) -> bool:
     """Bring a state that was found to where its asperities come to; whether it has been.
 
-    It stays as it is where they bend back in a part of the cycle, or no such state is found.
+    It stays as it is where friction was found at its limit, they bend back in a part of the cycle,
+    or no such state is found.
 
     Parameters
     ----------
     cycle : Cycle
         In the state, with its Jacobian.
     """
-    if not bends_aside(cycle.body.model) or not only_bends_further(cycle):
+    if cycle.at_the_limit or not bends_aside(cycle.body.model) or not only_bends_further(cycle):
         return False
     growths, modes = np.linalg.eig(cycle.jacobian)
     slowest = int(np.argmin(np.abs(growths)))

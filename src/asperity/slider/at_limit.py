@@ -31,9 +31,11 @@ def bends_aside(model: Model) -> bool:
     """Whether asperities come to their limit by a power of time wherever the slip goes.
 
     Of law ``unsplit``, whose size grows with the slip along them whatever their direction does: a
-    vibration across turns friction aside, and its mean along the drive is below the limit.
+    vibration across turns friction aside, and its mean along the drive is below the limit. Under a
+    load that swings the limit does too.
     """
-    return bends_ever_more(model) and model.friction.law == "unsplit" and model.normal is None
+    loads_alike = model.normal is None or model.elevation == 0.0
+    return bends_ever_more(model) and model.friction.law == "unsplit" and loads_alike
 
 
 def comes_to_its_limit(model: Model, sums: np.void, state: np.void) -> bool:
@@ -100,6 +102,8 @@ def bends_only(
     q: Any,
 ) -> bool:
     """Whether of a disturbance, its most being 1, nothing rings: neither drive nor contact.
+
+    What law ``unsplit`` has of the body's to and fro, in a real mode, is no ring.
 
     Parameters
     ----------

@@ -16,6 +16,7 @@ import numpy as np
 from asperity.arrays import FloatArray
 from asperity.errors import ConvergenceError
 from asperity.runs.tree import Tree
+from asperity.slider.at_full_bend import bend_to_limit
 from asperity.slider.cycle_map import UNSTABLE, Cycle
 from asperity.slider.from_rest import Elsewhere, from_rest, takes_too_long
 from asperity.slider.model import Model
@@ -58,6 +59,8 @@ class Walk:
         else:
             _take_over(cycle, *self._last)
             cycle, found, growth = _from_there(cycle, model, steps, step)
+            if found:
+                bend_to_limit(cycle)
         if model.finer == 1:
             self._last = model, cycle
         if not found:

@@ -147,9 +147,10 @@ def _by_the_power(model: Model, left: float) -> float:
     span: float = (model.duration - model.start) * max(left / (_LEFT * FAR), 1.0) ** slower
     half = 0.5 * min(model.window, WINDOW_SHARE * span)
     early, late = (1.0 - share * half / span for share in (1.5, 0.5))
-    differ = min(left, _LEFT * FAR) * (early ** (-1.0 / slower) - late ** (-1.0 / slower))
+    # What differs is that by (early^(-1/slower) - late^(-1/slower)), which overflows next to 1.
+    differs = min(left, _LEFT * FAR) * (1.0 - (early / late) ** (1.0 / slower))
     steady = SURELY * min(UNSTEADY, NEAR_LIMIT * half / (slower * span))
-    longer: float = max(differ / steady, 1.0) ** slower
+    longer: float = max((differs / steady) ** slower / early, 1.0)
     return model.start + span * longer
 
 

@@ -321,7 +321,7 @@ def _at_the_limit(body: Cycle, cycle: Cycle, least: FloatArray) -> bool:
     """Whether a body is on its way to friction at its limit: its asperities only bend further."""
     if least.min() >= float(cycle.body.sums["friction_x_min"]) - _REVERSES_NO_MORE:
         return True
-    if bends_aside(body.body.model):
+    if bends_aside(body.body.model) and not cycle.at_the_limit:
         # What is left of the limit is left of the mean.
         mean = ratio_of(body) / size_of(body.body.state)
         return abs(mean - ratio_of(cycle)) <= _NEAR and only_bends_further(body)

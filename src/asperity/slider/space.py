@@ -171,11 +171,13 @@ def too_few_springs(model: Model) -> tuple[str, ...]:
     """Return a note that a contact's springs may be too few to tell friction by, if they may be."""
     assert model.normal is not None
     count = model.friction.springs
-    within = missed_limit(model.normal.law, count, model.deepest)
+    law, deepest = model.normal.law, model.deepest
+    within = missed_limit(law, count, deepest)
     if within <= _WITHIN:
         return ()
-    enough = min(16 * math.ceil(count * math.sqrt(within / _WITHIN) / 16), MOST_SPRINGS)
-    left = max(within * (count / enough) ** 2, _WITHIN)
+    more = {n: missed_limit(law, n, deepest) for n in range(16, MOST_SPRINGS + 1, 16)}
+    enough = next((n for n in more if n > count and more[n] <= _WITHIN), MOST_SPRINGS)
+    left = max(more[enough], _WITHIN)
     other = f": friction.springs = {enough} tells it to {left:.2g}" if enough > count else ""
     return (
         f"of {count} springs friction is known to within {within:.2g} of mu F_N where the load "
