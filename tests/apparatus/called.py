@@ -2,6 +2,7 @@
 
 import contextlib
 import copy
+from collections import defaultdict
 
 import numpy as np
 
@@ -17,14 +18,17 @@ LINE = 64  # bytes
 
 
 @contextlib.contextmanager
-def recorded(most=20):
-    """Give a list of (kernel, arguments as they were before the call), some of each kernel."""
-    calls, counts, before = [], {}, _Lazy.__call__
+def recorded(most=20, of=lambda kernel, arguments: id(kernel)):
+    """Give lists of (kernel, arguments as they were before the call), some of what they are of.
+
+    That is each kernel; what calls are of otherwise, or None of those that are left out, is given.
+    """
+    calls, before = defaultdict(list), _Lazy.__call__
 
     def call(self, *arguments):
-        counts[id(self)] = counts.get(id(self), 0) + 1
-        if counts[id(self)] <= most:
-            calls.append((self, copied(arguments)))
+        which = of(self, arguments)
+        if which is not None and len(calls[which]) < most:
+            calls[which].append((self, copied(arguments)))
         return before(self, *arguments)
 
     _Lazy.__call__ = call

@@ -3,15 +3,13 @@
 import contextlib
 import json
 import time
-from collections import defaultdict
 
 import numpy as np
 import pytest
 from apparatus import rigs
-from apparatus.called import copied, moved, words
+from apparatus.called import copied, moved, recorded, words
 from observe import observe
 
-from asperity.kernels.compiled import _Lazy
 from asperity.kernels.native.entries import listed
 from asperity.kernels.native.types import UnlistedTypeError, types_of
 
@@ -79,24 +77,17 @@ def test_every_entry_of_the_list_is_compared_or_left_out_with_a_reason():
     assert all(owned().values())
 
 
-@contextlib.contextmanager
-def recorded(most=20):
-    """Give what entries are called with, by their numbers: some calls of each, kernel and all."""
+def entry_of():
+    """Return what tells the number of the entry that a call is of, or None."""
     numbers = {(each.name, json.dumps(each.arguments)): each.number for each in listed().entries}
-    calls, before = defaultdict(list), _Lazy.__call__
 
-    def call(self, *arguments):
+    def number(kernel, arguments):
         with contextlib.suppress(UnlistedTypeError):
-            key = f"{self.__module__}.{self.__qualname__}", json.dumps(types_of(arguments))
-            if key in numbers and len(calls[numbers[key]]) < most:
-                calls[numbers[key]].append((self, copied(arguments)))
-        return before(self, *arguments)
+            types = json.dumps(types_of(arguments))
+            return numbers.get((f"{kernel.__module__}.{kernel.__qualname__}", types))
+        return None
 
-    _Lazy.__call__ = call
-    try:
-        yield calls
-    finally:
-        _Lazy.__call__ = before
+    return number
 
 
 @pytest.mark.slow
@@ -105,7 +96,7 @@ def recorded(most=20):
 def test_a_thousand_calls_of_an_entry_answer_as_numba_does(line, monkeypatch, tmp_path):
     monkeypatch.delenv("ASPERITY_NATIVE", raising=False)
     monkeypatch.chdir(tmp_path)
-    with recorded() as calls:
+    with recorded(of=entry_of()) as calls:
         if line == RIG:
             rigs.run(rigs.small_case(), tmp_path / "rig")
         else:
