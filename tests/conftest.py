@@ -109,6 +109,17 @@ def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool 
     return True if _ALL_SLOW.search(collection_path.read_text("utf-8")) else None
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_pycollect_makeitem(collector: pytest.Collector, obj: object) -> list[pytest.Item] | None:
+    # A third of all parameters are those of slow tests: no worker counts them where none is asked.
+    config = collector.config
+    if config.option.markexpr != "not slow" or not hasattr(config, "workerinput"):
+        return None
+    marks = getattr(obj, "pytestmark", ())
+    is_slow = isinstance(marks, list) and any(mark.name == "slow" for mark in marks)
+    return [] if is_slow else None
+
+
 @pytest.hookimpl(wrapper=True, tryfirst=True)
 def pytest_collection_modifyitems(
     config: pytest.Config, items: list[pytest.Item]

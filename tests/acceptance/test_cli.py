@@ -195,6 +195,7 @@ def test_a_sweep_prints_one_object_and_writes_what_it_found(asperity, tmp_path):
     assert json.loads((tmp_path / "sweep.json").read_text())["ratio"] == answer["ratio"]
 
 
+@pytest.mark.slow
 def test_a_sweep_is_readable_as_a_matrix_or_a_list(asperity):
     sweep = ["sweep", "table-4.4", "--set", "solve.method=periodic"]
     code, output, _ = asperity(
@@ -233,6 +234,7 @@ def test_the_thesis_makes_one_figure_when_asked_for_one(asperity, tmp_path):
     assert (tmp_path / "index.html").is_file()
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["-h"]])
 def test_without_a_command_there_is_help(asperity, arguments):
     code, output, errors = asperity(*arguments)
@@ -245,6 +247,7 @@ def test_the_version_is_told(asperity):
     assert asperity("--version") == (0, "asperity 0.1.0\n", "")
 
 
+@pytest.mark.ordinary(14)
 @pytest.mark.parametrize(
     ("arguments", "parts"),
     [

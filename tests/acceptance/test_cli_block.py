@@ -94,6 +94,7 @@ def check_same(folder, uninterrupted):
         assert ours[name].identical(whole[name]), name
 
 
+@pytest.mark.slow
 def test_one_json_object_holds_everything_the_sliding_body_says_and_the_contact(asperity):
     code, output, errors = asperity(*SHORT, "--json")
     assert (code, errors) == (0, "")
@@ -192,6 +193,7 @@ TIPPING = (
 )  # fmt: skip
 
 
+@pytest.mark.ordinary(21)
 @pytest.mark.parametrize(
     ("setting", "line"),
     [

@@ -98,7 +98,7 @@ def test_a_duty_that_lacks_something_is_refused_by_its_file(asperity, tmp_path, 
     assert errors.count("\n") <= 1
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "life",
     [
@@ -197,6 +197,7 @@ def test_a_duty_asks_how_far_the_ratio_may_be_off_and_in_which_units(
     assert {one["wheel_teeth"] for one in json.loads(output)["proposals"]} == {50}
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize(
     ("duty", "answers", "housing"),
     [

@@ -69,6 +69,7 @@ def test_json_has_every_number_for_one_flank_and_for_both(nominal):
     assert nominal["mesh"].keys() >= {"nodes", "elements", "scaled_jacobian_min"}
 
 
+@pytest.mark.slow
 def test_the_numbers_are_those_of_the_gearset_and_its_oversized_tilted_hob(nominal):
     assert nominal["lead_angle_deg"] == pytest.approx(25.463, abs=1e-3)
     assert nominal["base_radius_mm"] == pytest.approx(6.9041, abs=1e-4)

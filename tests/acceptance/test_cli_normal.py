@@ -59,7 +59,7 @@ def test_a_vibration_that_drives_the_body_tells_its_thrust(asperity):
     assert "thrust_N" not in answer
 
 
-@pytest.mark.ordinary(4)
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     "axis",
     [

@@ -54,6 +54,7 @@ def one_object(output):
     return json.loads(output, parse_constant=lambda name: pytest.fail(f"{name} is no JSON"))
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("name", ["gearset-2", "gearset-3", "gearset-3b"])
 def test_gearsets_that_ship_print_one_object_with_the_keys_of_the_contract(asperity, name):
     code, output, errors = asperity("rate", name, "--json")
@@ -117,6 +118,7 @@ def test_table_names_symbol_value_unit_equation_and_trust(asperity):
     assert any(line.startswith("Self-locking at a lead angle of 26") for line in lines)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("case", ["gearset-2", "gearset-3", "gearset-3b"])
 def test_one_screen_says_whether_it_holds(asperity, case):
     code, output, errors = asperity("rate", case)
@@ -171,6 +173,7 @@ def test_a_thicker_oil_is_looked_at_a_grade_away(asperity, own):
     assert levers["oil viscosity"] > 1.0
 
 
+@pytest.mark.slow
 def test_the_better_oil_and_wheel_give_what_choosing_them_does(asperity):
     before = one_object(asperity("rate", "gearset-2", "--json")[1])
     assert before["verdict"]["first"] == "iso14521.safety_wear"
@@ -440,6 +443,7 @@ def _of_the_docs(asperity, folder, text):
     return one_object(output)
 
 
+@pytest.mark.slow
 def test_the_materials_and_the_oil_of_the_docs_rate_a_gearset(asperity, tmp_path):
     page = (Path(__file__).parents[2] / "docs" / "rating.rst").read_text("utf-8")
     own = page.partition("Materials and oils of your own\n")[2].partition("\nEditions\n")[0]

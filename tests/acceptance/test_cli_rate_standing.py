@@ -90,6 +90,7 @@ def _top(asperity):
     return " ".join(" ".join(shown.splitlines()[2:8]).split())
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("text", "said", "holds"), SAID.values(), ids=SAID)
 def test_first_lines_name_every_standard_that_cannot_tell_or_rates_outside(
     asperity, here, text, said, holds

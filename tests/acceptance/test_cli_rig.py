@@ -63,6 +63,7 @@ def test_a_reduction_has_the_keys_of_the_contract(reduced):
     assert [list(one) for one in reduced["segments"]] == [KEYS, KEYS]
 
 
+@pytest.mark.slow
 def test_segments_hold_what_was_put_in(reduced):
     for one, frequency, ratio in zip(reduced["segments"], FREQUENCIES, RATIOS, strict=True):
         assert one["frequency_Hz"] == pytest.approx(frequency, rel=1e-4)
@@ -255,6 +256,7 @@ def budgeted(asperity, recording):
     return json.loads(output)
 
 
+@pytest.mark.slow
 def test_a_budget_adds_up_to_the_interval_that_is_told(budgeted):
     for segment, told in zip(budgeted["segments"], budgeted["budgets"], strict=True):
         numbers = {one["number"]: one for one in told["numbers"]}

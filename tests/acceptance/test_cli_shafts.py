@@ -77,6 +77,7 @@ def test_shafts_leaves_a_report_a_picture_and_files_that_are_read_back(run, tmp_
     assert saved.figure("shafts").axes
 
 
+@pytest.mark.slow
 def test_rate_has_a_row_for_each_part_of_a_case_with_shafts(run):
     done = run("rate", CASE)
     assert "ISO 281 worm bearing A   " in done.stdout

@@ -51,6 +51,7 @@ def test_what_is_set_of_a_gearset_is_held_by_every_proposal(asperity, here, key)
     assert f"held as it is set: gearset.{key}" in answer["notes"]
 
 
+@pytest.mark.slow
 def test_a_proposal_that_holds_is_the_case_that_it_writes(asperity, here):
     settings = ("--set", "gearset.worm_pitch_diameter=45 mm", "--set", "gearset.profile_shift=0.1")
     code, _, errors = asperity(*SIZE, *settings, "--out", "out")
@@ -123,6 +124,7 @@ def test_an_optimum_says_what_it_unlocks_and_keeps_what_is_to_be_kept(asperity, 
     assert any(limit["active"] for limit in held)
 
 
+@pytest.mark.slow
 def test_a_wheel_that_is_best_listed_tells_what_it_changes(asperity, here):
     settings = (
         "--set",

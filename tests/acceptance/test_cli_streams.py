@@ -52,7 +52,7 @@ def test_an_answer_that_cannot_be_printed_ends_with_2_and_a_line(shell, command,
     )
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "code", "error"),
     [
@@ -103,6 +103,7 @@ main(sys.argv[2:])
 """
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("while_importing", "command"),
     [

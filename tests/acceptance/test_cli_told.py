@@ -21,7 +21,7 @@ UNITS = {"mm", "um", "deg", "rad", "N", "W", "degC"}
 CLASS = "spectrum.duty_class=EN 15714-2 A"
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "first", "later", "table"),
     [
@@ -145,6 +145,7 @@ def test_a_life_that_takes_the_place_of_a_duty_cycle_is_told_once(asperity):
         assert errors.count(told) == 1, command
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("given", "option", "gives"),
     [
@@ -223,6 +224,7 @@ def test_cases_side_by_side_are_the_same_in_netcdf_and_json(asperity, tmp_path, 
     )
 
 
+@pytest.mark.slow
 def test_a_comparison_tells_lists_of_tables_in_words_and_units(asperity):
     code, output, errors = asperity("compare", "actuator-duty", "actuator-shafts", "--json")
     assert code == 0, errors

@@ -85,6 +85,7 @@ def test_a_body_has_a_report_too_with_its_picture_and_what_was_set(asperity, tmp
     assert all(place.startswith("data:") for place in page.asked)
 
 
+@pytest.mark.slow
 def test_a_report_asks_for_nothing(rated):
     _, page, _ = rated
     assert all(place.startswith("data:") for place in page.asked)

@@ -188,6 +188,7 @@ def test_a_package_is_what_datacite_asks_for(package):
     assert told["identifiers"][0]["identifierType"] == "URN"
 
 
+@pytest.mark.slow
 def test_a_package_is_an_ro_crate_with_its_instruments(package):
     entities = check_crate(_json(package / "ro-crate-metadata.json"), package)
     devices = [one for one in entities.values() if one["@type"] == "IndividualProduct"]
@@ -239,6 +240,7 @@ def test_an_archive_holds_the_same_files(asperity, run, package, tmp_path):
     check_crate(_json(tmp_path / "open" / "ro-crate-metadata.json"), tmp_path / "open")
 
 
+@pytest.mark.ordinary(4)
 @pytest.mark.parametrize(
     ("settings", "words"),
     [
@@ -366,6 +368,7 @@ def test_a_report_has_what_a_standard_asks_for(asperity, run, tmp_path, standard
     assert "Coefficient of friction" in page
 
 
+@pytest.mark.slow
 def test_what_a_channel_measured_is_told_in_its_unit(tmp_path):
     line = 'channels.temperature={channel="T", points=[["0 V","0 degC"],["1 V","100 degC"]]}'
     case = read_case("rig-final", case_tables(), [line])

@@ -34,7 +34,7 @@ def registry():
     return pint.UnitRegistry(autoconvert_offset_to_baseunit=True)
 
 
-@pytest.mark.ordinary(15)
+@pytest.mark.ordinary(6)
 @pytest.mark.parametrize("unit", US)
 def test_factors_are_those_of_pint(unit):
     quantity = registry().Quantity(37.25, GIVEN.get(unit, unit))

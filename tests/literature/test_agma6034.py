@@ -278,6 +278,7 @@ def largest_step(formula, lower, upper, points, known):
     return np.abs(np.diff(values) / values[:-1])[~spans_known].max()
 
 
+@pytest.mark.ordinary(5)
 @pytest.mark.parametrize(
     ("name", "formula", "lower", "upper"),
     [

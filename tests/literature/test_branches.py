@@ -73,6 +73,7 @@ def test_from_rest_a_body_finds_one_of_the_two():
     assert alone == pytest.approx([states[0].ratio, states[3].ratio], abs=1e-7)
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize(
     ("key", "values"),
     [

@@ -144,6 +144,7 @@ def test_tables_hold_their_points_and_are_linear_between():
     assert bs721.torque.friction(50.0) == 0.016
 
 
+@pytest.mark.slow
 def test_life_factors_and_friction_have_no_jumps():
     def largest_step(formula, points):
         values = formula(np.linspace(0.0, 40.0, points))

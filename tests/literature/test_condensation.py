@@ -193,6 +193,7 @@ def test_a_tied_body_s_modes_are_those_of_one_whose_tied_nodes_stand_still():
     assert condensed.rigid.shape == (27 if mesh.order == 2 else 18, 6)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("tied", [None, "top"])
 def test_modes_bring_a_vibrating_body_near_the_whole_one_the_more_the_lower_the_frequency(tied):
     mesh = block("hex8", (4, 3, 3))

@@ -124,7 +124,7 @@ def loads_of(problem, whole):
     return gravity, problem.nodal_loads
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "settings",
     [

@@ -206,6 +206,7 @@ def test_incompatible_modes_bend_a_cuboid_exactly():
     assert energy == pytest.approx(0.5 * 2e11 * (1.0 / 12.0) * 2.0, rel=1e-12)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("element", ELEMENTS)
 def test_a_free_rod_rings_at_multiples_of_its_wave_speed_over_twice_its_length(element):
     material = ElasticMaterial(2e11, 0.0, 8000.0)

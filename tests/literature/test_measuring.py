@@ -79,6 +79,7 @@ def test_a_zi_worm_over_pins_is_that_of_the_closed_form(starts, thinned):
         assert groove.over(diameter).dimension == pytest.approx(expected, abs=1e-9)
 
 
+@pytest.mark.ordinary(4)
 @pytest.mark.parametrize("flank", ["ZI", "ZA", "ZN", "ZK", "ZC"])
 def test_a_pin_touches_both_flanks_and_stands_further_out_when_turned(flank):
     worm = pair(flank=flank).worm

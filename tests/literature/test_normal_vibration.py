@@ -108,6 +108,7 @@ def test_in_the_plane_the_normal_freedom_changes_nothing(k, plain):
     assert marches[0] == pytest.approx(marches[1], rel=1e-9)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("k", "elevation", "law", "control", "duration"),
     [
@@ -126,6 +127,7 @@ def test_a_march_settles_in_the_periodic_state(k, elevation, law, control, durat
     assert walked.normal.wear_integral == pytest.approx(state.normal.wear_integral, rel=1e-5)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("azimuth", "lateral", "ratio"),
     [
@@ -330,6 +332,7 @@ def test_asperities_that_yield_lag_behind_a_rising_load_and_not_behind_a_falling
     assert 1.0 - answer.ratio == pytest.approx(4e3 * LIMIT / 0.5 * swing, rel=0.03)
 
 
+@pytest.mark.slow
 def test_friction_that_follows_the_area_of_a_ball_is_reduced_by_at_most_a_tenth():
     resonance = math.sqrt(SLOPE / 0.5) / (2.0 * math.pi)
     held, lost = 60e-9, 120e-9

@@ -121,6 +121,7 @@ def tuned(velocity, share):
     return answer.ratio
 
 
+@pytest.mark.slow
 def test_above_the_critical_velocity_vibration_takes_nothing_but_at_resonance():
     resonant = [tuned(velocity, 1.0) for velocity in (0.5, 2.0, 5.0)]
     assert resonant == pytest.approx([0.6978, 0.8293, 0.9679], abs=1e-3)

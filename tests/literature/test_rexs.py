@@ -73,6 +73,7 @@ def same(one, other):
     assert other.worm_roughness == pytest.approx(one.worm_roughness, rel=1e-12)
 
 
+@pytest.mark.ordinary(5)
 @DESCRIPTIONS
 def test_what_is_read_back_is_the_same_gearset(name, settings, tmp_path):
     case, path = written(name, tmp_path, settings)
@@ -88,7 +89,7 @@ def test_what_is_read_back_is_the_same_gearset(name, settings, tmp_path):
             assert back == (pytest.approx(given, rel=1e-12) if isinstance(given, float) else given)
 
 
-@pytest.mark.ordinary(4)
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("settings", [(), *MORE])
 @pytest.mark.parametrize("name", CASES)
 def test_what_is_read_back_rates_the_same(name, settings, tmp_path):
@@ -125,7 +126,7 @@ def schema():
     return xmlschema.XMLSchema(FILES / "rexs-file.xsd")
 
 
-@pytest.mark.ordinary(2)
+@pytest.mark.slow
 @DESCRIPTIONS
 def test_what_is_written_validates_against_the_schema_of_the_format(name, settings, tmp_path):
     pytest.importorskip("xmlschema")
@@ -133,6 +134,7 @@ def test_what_is_written_validates_against_the_schema_of_the_format(name, settin
     schema().validate(path)
 
 
+@pytest.mark.ordinary(7)
 @DESCRIPTIONS
 def test_components_attributes_units_and_relations_are_those_of_version_1_5(
     name, settings, tmp_path

@@ -110,6 +110,7 @@ SINES = {
 }
 
 
+@pytest.mark.ordinary(9)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize(("k", "theta"), SINES)
 def test_every_law_goes_to_the_closed_form_of_the_sine(k, theta, law):
@@ -123,6 +124,7 @@ def test_every_law_goes_to_the_closed_form_of_the_sine(k, theta, law):
         assert abs(extrapolated) < 2e-5
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize(
     ("place", "law"),
     grid(

@@ -105,6 +105,7 @@ def test_the_quoted_vibration_would_need_28_metres_a_second(comparison):
     assert needed.amplitude == pytest.approx(221e-6, rel=2e-3)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("name", "gain"), [("gearset-2", 7.6), ("gearset-3", 5.6)])
 def test_the_optimum_has_30_degrees_and_the_smoothest_worm(name, gain):
     design = best(name).gearset

@@ -46,12 +46,14 @@ TRANSVERSE = {
 }
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("k", LONGITUDINAL)
 def test_longitudinal_ratios_of_the_two_phase_scheme(k):
     answer = solved("table-4.3", speed(k), "solve.scheme=two-phase")
     assert answer.ratio == pytest.approx(LONGITUDINAL[k][0], rel=1e-3)
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize(
     ("k", "law", "method"), grid(LONGITUDINAL, LAWS, METHODS, ordinary=spread_over(LONGITUDINAL))
 )
@@ -60,12 +62,14 @@ def test_longitudinal_ratios_of_every_law(k, law, method):
     assert answer.ratio == pytest.approx(LONGITUDINAL[k][1], rel=1e-3)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("k", TRANSVERSE)
 def test_transverse_ratios_of_the_two_phase_scheme(k):
     answer = solved("table-4.4", speed(k), "solve.scheme=two-phase")
     assert answer.ratio == pytest.approx(TRANSVERSE[k]["two-phase"], rel=1e-3)
 
 
+@pytest.mark.ordinary(4)
 @pytest.mark.parametrize(
     ("k", "law", "method"), grid(TRANSVERSE, LAWS, METHODS, ordinary=spread_over(TRANSVERSE))
 )
@@ -74,6 +78,7 @@ def test_transverse_ratios_law_by_law(k, law, method):
     assert answer.ratio == pytest.approx(TRANSVERSE[k][law], rel=1e-3)
 
 
+@pytest.mark.ordinary(5)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
     ("row", "force"),
@@ -87,6 +92,7 @@ def test_mean_drive_forces_of_table_4_1(row, force, method):
 COUPLED = {0: 0.13839, 45: 0.20336, 90: 0.40488}
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize("theta", [0, 45, 90, 135, 180, 225, 270, 315])
 def test_coupled_ratios_are_symmetric_about_both_axes(theta):
     answer = solved("table-4.4", f"vibration.direction={theta} deg", "solve.scheme=two-phase")
@@ -100,6 +106,7 @@ def test_the_coupled_ratio_tells_that_the_increment_of_the_base_is_stored():
     assert abs(answer.ratio - 0.20336) < 0.05 * abs(answer.ratio - 0.20399)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("scheme", ["two-phase", "exponential"])
 @pytest.mark.parametrize(("case", "time"), [("table-4.3", 0.11526), ("table-4.4", 0.10650)])
 def test_breakaway_times(case, time, scheme):
@@ -178,6 +185,7 @@ def test_a_free_body_drifts_sideways_under_a_coupled_vibration():
     assert np.all(guided.position[:, 1] == 0.0)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("k", "change"), [(6, 0.082), (20, 0.251)])
 def test_guiding_the_body_raises_a_coupled_ratio(k, change):
     settings = speed(k), "vibration.direction=45 deg", "solve.scheme=two-phase"
@@ -199,6 +207,7 @@ def test_longitudinal_vibration_is_not_best_at_every_speed():
     assert difference(1.203) > 0.0 > difference(1.206)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("k", "ratio"), [(2, 0.383), (6, 0.1075)])
 def test_with_compliance_and_mass_a_stiff_contact_stays_above_the_closed_form(k, ratio):
     # One nanometre; from there on the contact's own ringing on the mass matters.

@@ -104,7 +104,7 @@ def test_nothing_unstable_is_said_of_a_state_in_which_a_march_stays(tmp_path, st
     assert not answer.notes
 
 
-@pytest.mark.ordinary(2)
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", ["linear", "hertz", "rough"])
 @pytest.mark.parametrize("ratio", [2, 6, 12])
 def test_a_state_of_a_contact_without_damping_is_one_of_many(ratio, law):
@@ -153,6 +153,7 @@ def test_bodies_that_are_marched_together_tell_of_a_contact_without_damping():
         assert any("rings as the vibration began" in note for note in together.notes)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("ratio", [2, 6, 12])
 def test_one_with_damping_is_the_one_that_a_march_comes_to(ratio):
     settings = f"vibration.velocity_ratio={ratio}", "normal.damping_ratio=0.05"

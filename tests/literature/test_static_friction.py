@@ -32,6 +32,7 @@ def pressed(**settings):
     return static(**NORMAL | settings)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("exponent", "law", "control", "ratio", "expected"),
     [
@@ -66,6 +67,7 @@ def test_vibration_along_the_normal_leaves_the_least_load(law, control, ratio, e
     assert found.creep > 0.0
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("model", ["lugre", "coulomb"])
 def test_every_friction_holds_at_the_least_load(model):
     found = pressed(**{"friction.model": model, "normal.law": "hertz"})

@@ -33,6 +33,7 @@ def exact(velocity):
     return 1.0022 + (1.51 - 1.0022) * math.exp(-((velocity / 1.0249e-3) ** 2)) + 0.38046 * velocity
 
 
+@pytest.mark.ordinary(10)
 @pytest.mark.parametrize("drive", DRIVES)
 @pytest.mark.parametrize("velocity", [1e-5, 3e-4, 2e-3, 0.1])
 @pytest.mark.parametrize("method", ["periodic", "homogenised"])
@@ -70,6 +71,7 @@ def shaken(ratio, *settings):
     return solve(Model.from_case(case), history=False)
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize(("law", "way"), grid([*LAWS], [*WAYS], ordinary=3))
 def test_a_vibration_of_nothing_changes_nothing(law, way):
     settings = "solve.method=periodic", *LAWS[law], *WAYS[way]
@@ -133,6 +135,7 @@ def test_a_contact_that_nothing_damps_rings_on_next_to_the_limit_too(ratio, expo
     assert "one of many" in ringing.settled_by
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("exponent", [3, 5, 10])
 @pytest.mark.parametrize("off", [0.3, -0.3])
 def test_from_above_and_below_asperities_come_to_their_limit_by_the_power(off, exponent):
@@ -161,6 +164,7 @@ def test_nor_does_it_settle_what_sticks_and_slips():
         assert not shaken(ratio, *falls).settled
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize("law", ["linear", "hertz", "rough"])
 @pytest.mark.parametrize("elevation", ["0 deg", "90 deg"])
 def test_springs_slide_steadily_at_their_limit_shaken_by_nothing(law, elevation):

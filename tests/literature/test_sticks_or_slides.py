@@ -70,6 +70,7 @@ def test_another_integrator_stays_in_either_state():
     assert shown == pytest.approx(swing, rel=0.05)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("method", ["periodic", "march"])
 def test_of_two_states_that_last_the_one_from_rest_is_shown_and_the_other_told(method):
     found = solve(body(0.012, method, duration=0.3), history=False)

@@ -109,6 +109,7 @@ def test_identical_hob_transmits_evenly_without_play_and_bears_all_over(identica
         assert flank.pattern.area_fraction > 0.95
 
 
+@pytest.mark.ordinary(5)
 @pytest.mark.parametrize("hob", [OVERSIZE, TILTED, Hob(oversize=1.3)], ids=["0", "2 deg", "30 %"])
 @pytest.mark.parametrize("mount", [None, OUT_OF_PLACE], ids=["in place", "out of place"])
 def test_zi_with_a_hob_of_equal_normal_base_pitch_runs_evenly_in_any_position(hob, mount):
@@ -156,6 +157,7 @@ def test_blue_dye_shows_a_pattern_near_the_face_edge_and_tilting_the_hob_brings_
         assert np.abs(second.grid.z[middle.marked]).max() < half_face * 0.75
 
 
+@pytest.mark.slow
 def test_threads_of_nominal_thickness_interfere_by_the_known_amount(tilted):
     assert 1e3 * tilted.play.axial == pytest.approx(-19.9, abs=0.05)
 
@@ -217,6 +219,7 @@ def test_left_hand_is_the_mirror_image_of_right_hand():
         np.testing.assert_allclose(b["transmission_error"], a["transmission_error"], atol=1e-15)
 
 
+@pytest.mark.slow
 def test_normal_force_of_zi_is_that_of_a_rack(identical):
     # Every normal of an involute helicoid leans to its axis by the base lead angle.
     g = identical.pair.geometry

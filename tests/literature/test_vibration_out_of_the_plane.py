@@ -229,6 +229,7 @@ def test_the_critical_velocity_is_where_the_load_outruns_the_drive():
 PHASES = (0.0, 0.7, math.pi / 2.0, 3.0, -2.0)
 
 
+@pytest.mark.ordinary(78)
 @pytest.mark.parametrize("phase", PHASES)
 @pytest.mark.parametrize("theta", [0.0, 0.02, math.pi / 4.0, math.pi / 2.0, 2.5, math.pi])
 @pytest.mark.parametrize("k", [0.4, 1.0, 1.7, 6.0])

@@ -72,6 +72,7 @@ def test_counts_say_beforehand_what_the_mesh_has(wheel):
         assert (len(made.points), len(made.cells)) == (number.nodes(order), number.elements)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("order", [1, 2])
 @pytest.mark.parametrize("side", [1, -1])
 def test_nodes_of_the_flank_lie_on_the_exact_flank(wheel, order, side):
@@ -145,6 +146,7 @@ def test_volume_of_a_tooth_converges_with_the_order_of_the_elements(wheel, order
     assert np.log2(change[0] / change[1]) == pytest.approx(expected, abs=0.6)
 
 
+@pytest.mark.slow
 def test_volume_of_8_node_elements_is_within_1e_4_of_the_exact_one_at_the_default(wheel):
     exact = mesh.tooth(wheel, 0.8, order=2).volume()
     assert mesh.tooth(wheel).volume() == pytest.approx(exact, rel=1e-4)

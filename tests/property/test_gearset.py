@@ -52,6 +52,7 @@ def test_any_three_numbers_complete_to_the_same_gearset(m, q, z2, x2):
         assert complete(z2, **three) == pytest.approx((m, q, x2), rel=1e-10, abs=1e-10)
 
 
+@pytest.mark.slow
 @hypothesis.given(
     m=modules, q=factors, z2=teeth, x2=shifts, error=st.floats(-0.1, 0.1).filter(bool)
 )
@@ -72,6 +73,7 @@ def test_a_fourth_number_is_refused_beyond_the_tolerance_only(m, q, z2, x2, erro
             complete(z2, **given)
 
 
+@pytest.mark.slow
 @hypothesis.given(
     z1=starts,
     m=modules,
@@ -160,6 +162,7 @@ def test_a_change_of_units_changes_nothing(module, q, z2, unit, alpha, hand):
     assert other.geometry == millimetres.geometry
 
 
+@pytest.mark.slow
 @hypothesis.given(z1=starts, m=modules, q=factors, z2=teeth)
 def test_the_hand_of_the_worm_changes_no_length_and_no_angle(z1, m, q, z2):
     right, left = (
@@ -178,6 +181,7 @@ def test_the_hand_of_the_worm_changes_no_length_and_no_angle(z1, m, q, z2):
     assert right.hand_sign == -left.hand_sign == 1
 
 
+@pytest.mark.slow
 @hypothesis.given(
     m=st.lists(modules, min_size=1, max_size=5), q=factors, z2=teeth, x2=shifts, z1=starts
 )

@@ -126,6 +126,7 @@ def test_most_keys_are_tried_and_all_that_are_a_quantity():
                 assert key.name in tried or "properties" in str(key.schema), (model, key.name)
 
 
+@pytest.mark.ordinary(23)
 @pytest.mark.parametrize("name", list(models()))
 def test_no_key_takes_a_number_of_three_hundred_digits(name):
     model = models()[name]

@@ -118,6 +118,7 @@ def variants(rng):
     return q, z1, m, lead, d2, v
 
 
+@pytest.mark.slow
 def test_arrays_give_what_their_numbers_give():
     q, z1, m, lead, d2, v = variants(np.random.default_rng(6034))
     phi = np.full(VARIANTS, math.radians(20.0))

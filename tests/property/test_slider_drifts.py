@@ -62,6 +62,7 @@ def goes(answer):
     return float(words[words.index("about") + 1]), float(duration[0]) if duration else None
 
 
+@pytest.mark.slow
 def test_a_mean_that_still_goes_further_than_a_thousandth_of_its_ratio_says_where():
     late = solve(lasting(SLOW, 8.0), history=False)
     early = solve(lasting(SLOW, 0.8), history=False)

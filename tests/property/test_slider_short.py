@@ -137,6 +137,7 @@ def test_a_ratio_far_from_the_mean_that_its_words_tell_is_seen(tmp_path, monkeyp
     assert not short_marches((1, 16), [0], tmp_path)[0]
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("part", "member"),
     [(1, 0), (4, 8), (6, 27), (2, 1), (1, 8), (9, 37), (3, 23), (5, 35), (9, 11), (8, 10)],

@@ -57,12 +57,14 @@ def unsettled(members, folder):
     return tried, failed
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("member", [22, 66, 72, 77, 94, slow(166), slow(208), 383])
 def test_durations_told_by_the_law_of_asperities_do(tmp_path, member):
     """Still ones, of laws that fall, under contacts: each was told a duration that did not do."""
     assert unsettled([member], tmp_path) == (1, [])
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("member", [75, 418, 437])
 def test_far_from_their_state_bodies_are_not_told_by_its_modes_alone(tmp_path, member):
     """By these it would be 39 s for asperities with an exponent of 1.5, by whose law 0.81 s does.
@@ -72,6 +74,7 @@ def test_far_from_their_state_bodies_are_not_told_by_its_modes_alone(tmp_path, m
     assert unsettled([member], tmp_path) == (1, [])
 
 
+@pytest.mark.slow
 def test_asperities_far_from_their_state_that_bend_ever_more_are_told_nothing_by_its_modes(
     tmp_path,
 ):

@@ -46,6 +46,7 @@ def made(make, *arguments):
     return None
 
 
+@pytest.mark.slow
 @hypothesis.settings(max_examples=40)
 @hypothesis.given(geometry=geometries, kind=st.sampled_from(TYPES), change=modifications)
 def test_on_a_worms_own_surface_the_distance_is_zero(geometry, kind, change):

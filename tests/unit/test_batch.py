@@ -211,7 +211,7 @@ def test_a_body_that_cannot_be_solved_leaves_its_error_in_its_place():
     assert_same(answers[2], solve(models[2], history=False))
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 def test_the_mirror_image_of_a_direction_is_exact_in_a_batch(law):
     directions = np.radians(np.arange(0.0, 181.0, 15.0))
@@ -230,6 +230,7 @@ def test_the_mirror_image_of_a_direction_is_exact_in_a_batch(law):
         assert there.friction_mean[1] == pytest.approx(-here.friction_mean[1], abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_batch_that_is_told_to_stop_stops_between_blocks():
     stop = np.zeros(1, dtype=np.int64)
     models = [body(duration=60.0, vibration={"direction": d}) for d in (0.0, 0.5, 1.0)]
@@ -423,6 +424,7 @@ def test_lanes_that_are_marched_anew_are_told_no_duration_beforehand(monkeypatch
     assert len(anew) == 2
 
 
+@pytest.mark.slow
 def test_pressed_bodies_that_a_batch_cannot_take_are_solved_alone_in_their_place():
     tilts = [{"vibration.elevation": tilt} for tilt in (0.3, 1.2)]
     models = pressed(tilts)

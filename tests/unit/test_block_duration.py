@@ -63,6 +63,7 @@ class Heard(Run):
         self.between()
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("duration", "ratio"), [("1.5 ms", 2), ("1.5 ms", 6), ("2 ms", 2), slow("2 ms", 6)]
 )

@@ -125,6 +125,7 @@ def test_friction_that_follows_the_pressure_late_rocks_a_block_up_as_it_does_a_r
     assert abs(growths["deflection"]) < 0.02 * alone
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("coordinate", "share"), [(BOUNCE, 1.0), (ROCKING, LENGTH / np.hypot(LENGTH, HEIGHT))]
 )

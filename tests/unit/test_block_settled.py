@@ -136,6 +136,7 @@ def test_a_block_settles_to_what_its_march_comes_to_in_thirty_times_the_incremen
     assert prepare(case(at)).timetable.steps > 30 * quick.increments
 
 
+@pytest.mark.slow
 def test_a_settled_block_is_saved_and_read(found, tmp_path):
     path = tmp_path / "block.nc"
     found.save(path)

@@ -33,6 +33,7 @@ def problem(*settings, of=SMALL):
     return BlockProblem.from_case(read_case("block-longitudinal", case_tables(), [*of, *settings]))
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("modes", "rate", "kilohertz"),
     [(0, None, None), (20, 540.8, 67.44), (40, None, None), (50, 1717.3, 121.26), (60, 5611, 137)],
@@ -58,6 +59,7 @@ def test_the_damping_that_is_named_holds_and_hardly_less_does_not():
     assert Stability(problem("block.modes=60", less, of=SIXTY)).flutter() is not None
 
 
+@pytest.mark.slow
 def test_a_coarse_step_holds_what_grows_in_time_and_the_note_says_so():
     block = problem("block.modes=60", "solve.step=1 us", of=SIXTY)
     flutter = Stability(block).flutter()

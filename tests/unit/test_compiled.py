@@ -132,7 +132,7 @@ def one_byte_changed(content):
     return content[:middle] + bytes([content[middle] ^ 0xFF]) + content[middle + 1 :]
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("suffix", "damage"),
     [
@@ -357,6 +357,7 @@ def test_of_a_cache_that_takes_no_more_what_stands_there_is_read(
     assert not caplog.messages
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("trouble", "lines"),
     [

@@ -289,6 +289,7 @@ def test_vibrating_the_body_or_the_base_gives_the_same_ratio():
     assert body.ledger.vibration == pytest.approx(base.ledger.vibration, rel=2e-3)
 
 
+@pytest.mark.slow
 def test_a_mirrored_vibration_mirrors_the_lateral_friction():
     left, right = (
         solve_block(problem(f"vibration.direction={angle} deg"), history=False)
@@ -298,6 +299,7 @@ def test_a_mirrored_vibration_mirrors_the_lateral_friction():
     assert left.friction_max[1] == pytest.approx(-right.friction_min[1], rel=1e-7)
 
 
+@pytest.mark.slow
 def test_an_increment_that_fails_is_taken_in_halves(monkeypatch):
     block = problem()
     whole = solve_block(block, history=False)
@@ -383,7 +385,7 @@ def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path)
         assert np.array_equal(frame.traction, other.traction)
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
 def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_one(
     monkeypatch, error

@@ -74,12 +74,13 @@ def decks(settings):
     return [Deck(files(setup)["block.inp"]) for files in (abaqus_files, calculix_files)]
 
 
-@pytest.mark.ordinary(4)
+@pytest.mark.ordinary(2)
 def test_the_same_case_gives_the_same_files(settings):
     assert abaqus_files(setup_of(*settings)) == abaqus_files(setup_of(*settings))
     assert calculix_files(setup_of(*settings)) == calculix_files(setup_of(*settings))
 
 
+@pytest.mark.ordinary(8)
 def test_every_name_a_deck_uses_is_defined_in_it(settings):
     for deck in decks(settings):
         known = deck.names()
@@ -94,6 +95,7 @@ def test_every_name_a_deck_uses_is_defined_in_it(settings):
                 assert {row[0] for row in rows} <= known
 
 
+@pytest.mark.ordinary(10)
 def test_a_deck_keeps_within_what_the_programs_read(settings):
     for deck in decks(settings):
         for line in deck.text.splitlines():
@@ -263,6 +265,7 @@ def strained(points):
     return np.transpose([np.outer(field, axis).ravel() for field in fields for axis in np.eye(3)])
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("name", HELD)
 def test_in_abaqus_guide_and_rigid_drive_hold_the_mean_motion_of_the_mass(name):
     setup, held = held_setup(name)
@@ -290,6 +293,7 @@ def test_in_abaqus_guide_and_rigid_drive_hold_the_mean_motion_of_the_mass(name):
     np.testing.assert_allclose([float(x) for x in place], body.centre, atol=1e-12)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("element", ["hex27", "hex8i"])
 @pytest.mark.parametrize("name", HELD)
 def test_in_calculix_equations_hold_the_mean_motion_of_the_mass(name, element):

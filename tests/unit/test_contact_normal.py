@@ -139,6 +139,7 @@ def pressed(block, law, guide, place):
     return problem, move_to(IncrementSolver(problem), guide, place).contact
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize("stiffness", [E / SIZE, 10 * E / SIZE, 100 * E / SIZE])
 def test_hard_contact_leaves_no_overclosure_beyond_its_tolerance(block, stiffness):
     problem, contact = pressed(block, NormalLaw("hard", stiffness), BALL, DEEP)

@@ -37,6 +37,7 @@ def control(**keys):
     return Control(**{"on": "3 N m", "off": "2 N m", **keys})
 
 
+@pytest.mark.ordinary(5)
 @pytest.mark.parametrize("order", [1, 2, 5])
 @pytest.mark.parametrize("share", [0.3, 1.0, 4.0])
 def test_low_passes_leave_of_a_tone_what_their_formula_says(order, share):

@@ -56,6 +56,7 @@ def lacking(ask, case):
     return listed.split("; ")
 
 
+@pytest.mark.ordinary(6)
 @pytest.mark.parametrize(
     ("ask", "settings", "count"),
     [

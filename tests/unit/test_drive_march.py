@@ -429,6 +429,7 @@ def test_a_cycle_marched_in_parts_is_the_same_cycle(monkeypatch):
     assert parts.steps == whole.steps
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "settings",
     [

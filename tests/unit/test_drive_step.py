@@ -108,6 +108,7 @@ def of_a_quarter_of_its_step(number):
 
 
 # A Coulomb screw, Dahl along the wheel's axis, LuGre about the worm's.
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("number", [15, 17, 23])
 def test_a_finer_step_changes_no_second_digit_of_a_drive(number):
     one, finer = of_a_quarter_of_its_step(number)

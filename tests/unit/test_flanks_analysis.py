@@ -94,6 +94,7 @@ def brute_force(search, beta):
     return dense.lead(beta, np.full(beta.size, -math.inf))[:, 0]
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("hob", "mount", "side", "face", "tip"),
     [
@@ -133,6 +134,7 @@ def test_pattern_never_reaches_into_the_worm(tilted):
         assert flank.pattern.gap.min() > -1e-9
 
 
+@pytest.mark.slow
 def test_pattern_grows_with_the_compound(tilted):
     mesh, grid = tilted.flanks[1].transmission, tilted.flanks[1].grid
     shares = [pattern(mesh, grid, um * 1e-3).area_fraction for um in (2.0, 6.0, 20.0, 1000.0)]
@@ -237,6 +239,7 @@ def test_what_leaves_no_thread_is_named_by_what_there_is_of_it(relief, error, sa
         analyse(pair, Wheel.cut(pair), rows=5, columns=5, samples=8)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("wanted", [0.28, 0.6])
 def test_room_between_the_wheels_tips_and_the_worms_core_does_not_bound_the_backlash(wanted):
     # The worm stands off the middle: one edge of the face is 0.26 mm from the core.
@@ -296,6 +299,7 @@ def test_what_is_below_what_the_method_resolves_is_shown_as_zero(tilted):
     assert not plus["transmission_error_mean_rad"].startswith("0 within ")
 
 
+@pytest.mark.slow
 def test_flanks_without_a_base_cylinder_say_so():
     gearset = read_case("gearset-3b", case_tables(), ("gearset.flank=ZN",)).require(Gearset)
     pair = Pair.of(gearset, TILTED)

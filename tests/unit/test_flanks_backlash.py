@@ -119,7 +119,7 @@ def test_what_is_the_same_everywhere_is_looked_at_nowhere_else():
     assert least_between(np.full(SAMPLES, 0.3), 0.1, None) == 0.3
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("thinner", [0.0, 0.3])
 def test_a_thinner_thread_turns_further_by_as_much_wherever_it_touches(thinner):
     """Turned by the angle that it is thinner, a helicoid's flank is where it was."""

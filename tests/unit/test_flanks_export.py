@@ -253,6 +253,7 @@ def test_step_names_the_body_and_prints_nothing(tmp_path, capfd):
     assert "'asperity'" in path.read_text()
 
 
+@pytest.mark.slow
 def test_what_open_cascade_keeps_is_put_back(tmp_path):
     from OCP.Interface import Interface_Static
     from OCP.Message import Message

@@ -153,6 +153,7 @@ def test_the_map_of_line_load_is_the_load_when_the_line_passes():
         assert np.abs(there - lines.load).max() < 0.15 * lines.load.max()
 
 
+@pytest.mark.slow
 def test_layers_are_those_of_the_study():
     answer, content = made("right")
     header, arrays = opened(content)
@@ -182,6 +183,7 @@ def test_without_a_load_there_is_neither_line_load_nor_sliding():
     assert not any("line_load" in name for name in arrays)
 
 
+@pytest.mark.slow
 def test_the_whole_is_small_enough_for_a_page():
     for hand in ("right", "left"):
         content = made(hand)[1]

@@ -119,6 +119,7 @@ def _facets(points):
     return float(0.5 * np.sum(np.linalg.norm(np.cross(a, b), axis=-1)))
 
 
+@pytest.mark.ordinary(1)
 def test_area_of_facets_converges_with_order_two_to_that_of_the_flank(flank):
     exact = flank.area()
     assert flank.area(10) == pytest.approx(exact, rel=1e-7)
@@ -183,6 +184,7 @@ def test_every_case_of_a_usual_wheel_is_cut():
             assert not Wheel.cut(Pair.of(gearset)).undercut
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("cause", "flank", "starts", "teeth", "angle", "shift", "tilt"),
     [

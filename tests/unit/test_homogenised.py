@@ -148,7 +148,7 @@ def test_one_velocity_has_the_force_that_it_has_among_others(law):
         law(math.nan)
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("times", "force"), [(0.5, 3.14), (6.0, None)])
 def test_a_body_that_friction_could_carry_along_is_told_to_have_another_state(times, force):
     # Its inertia is 2 pi 4000/s 0.5 kg v_a; friction has 5.5 N at most.
@@ -477,6 +477,7 @@ def test_without_a_finite_answer_there_is_none(monkeypatch):
         solve(body("table-4.3", "solve.method=homogenised"))
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "still",
     [{"vibration.velocity_ratio": 0.0}, {"vibration.velocity_ratio": None,
@@ -569,6 +570,7 @@ def test_a_body_the_vibration_keeps_from_full_friction_never_breaks_away():
     assert answer.breakaway_time is None
 
 
+@pytest.mark.slow
 def test_on_a_rigid_drive_and_without_vibration_there_is_a_history_to_draw():
     rigid = {"slider.drive_stiffness": None, "slider.drive_damping": None}
     for settings, values in ((), rigid), (("vibration.velocity_ratio=0",), {}):

@@ -111,6 +111,7 @@ def test_numbers_give_a_float_and_arrays_the_same_numbers(formula, numbers):
             assert result == pytest.approx(expected, rel=1e-13)
 
 
+@pytest.mark.ordinary(48)
 @pytest.mark.parametrize(("formula", "numbers"), FORMULAS.items(), ids=NAMES)
 def test_nonsense_raises_with_the_arguments_name_or_is_masked_with_a_reason(formula, numbers):
     names = list(inspect.signature(formula).parameters)

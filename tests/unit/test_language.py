@@ -136,7 +136,7 @@ def test_the_shipped_duties_are_looked_at():
     assert {case for case, *_ in DUTIES} >= {"actuator-duty", "actuator-shafts"}
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "given", [slow(one) if one[1] == "rexs" or not one[2] else one for one in DUTIES], ids=str
 )
@@ -177,7 +177,7 @@ WORDY = [
 ]  # fmt: skip
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("given", WORDY, ids=lambda given: given[-1])
 def test_all_that_a_rating_tells_in_full_leaves_nothing_english(given):
     _, result = answer_of(*given)
@@ -270,6 +270,7 @@ def test_an_equation_that_has_words_is_shown_in_the_language(words):
     assert words.missing == {"symbol", "equation", "axle"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", FEW_CASES, ids=" ".join)
 def test_a_german_report_has_the_numbers_of_the_english_one(given):
     _, result = answer_of(*given)
@@ -293,6 +294,7 @@ def test_inches_are_the_same_in_both_languages():
     assert sum("hp" in each for each in english) >= 2
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("command", "given"),
     [

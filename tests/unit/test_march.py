@@ -102,11 +102,13 @@ def test_the_breakaway_is_the_first_time_at_full_force():
     assert fine.breakaway_time == pytest.approx(answer.breakaway_time, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_body_that_never_needs_full_force_does_not_break_away():
     assert solved("table-4.3", "vibration.start=0 s").breakaway_time is None
     assert solved("table-4.1-L4").breakaway_time is None
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", LAWS)
 def test_vibration_from_the_first_moment_ends_in_the_same_state(law):
     early = solved("table-4.3", "vibration.start=0 s", f"friction.law={law}")
@@ -142,6 +144,7 @@ def test_a_longitudinal_vibration_moves_nothing_sideways():
     assert np.all(history.friction[:, 1] == 0.0)
 
 
+@pytest.mark.ordinary(4)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("theta", [0, 50, 90, 230])
 def test_to_a_guided_body_on_a_rigid_drive_it_is_the_same_whoever_is_shaken(theta, law):
@@ -156,6 +159,7 @@ def test_to_a_guided_body_on_a_rigid_drive_it_is_the_same_whoever_is_shaken(thet
     assert moved.ledger.vibration == pytest.approx(base.ledger.vibration, rel=1e-10)
 
 
+@pytest.mark.ordinary(5)
 @pytest.mark.parametrize(("theta", "exponent", "law"), grid([0, 60], EXPONENTS, LAWS, ordinary=4))
 def test_every_exponent_marches_inside_the_limit(exponent, law, theta):
     answer = solved(
@@ -169,6 +173,7 @@ def test_every_exponent_marches_inside_the_limit(exponent, law, theta):
     assert answer.ledger.residual < 1e-9
 
 
+@pytest.mark.ordinary(6)
 @pytest.mark.parametrize(
     ("waveform", "applied_to", "lateral", "law"),
     grid(["sine", "triangle", "square"], ["base", "body"], ["free", "guided"], LAWS, ordinary=5),
@@ -231,6 +236,7 @@ def test_a_stiff_contact_is_divided_until_the_march_is_stable():
     assert answer.ledger.residual < 1e-6
 
 
+@pytest.mark.slow
 def test_two_phase_numbers_that_leave_the_finite_are_reported():
     # An overshoot of the limit that grows, below the bound of the linear stability.
     shaken = (
@@ -275,6 +281,7 @@ def test_the_history_ends_with_the_march_and_shows_its_last_cycles_step_by_step(
     assert len(history.time) < 10_000
 
 
+@pytest.mark.slow
 def test_the_history_changes_nothing():
     with_history = solved("table-4.4", history=True)
     without = solved("table-4.4")

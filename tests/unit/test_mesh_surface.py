@@ -22,6 +22,7 @@ def barrel(order, unit="mm"):
     return HexMesh(mesh.points * np.hstack([scale, scale, 1 + 0 * scale]), mesh.cells, unit=unit)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("order", [1, 2])
 def test_the_skin_of_a_mesh_is_a_closed_surface_with_its_outside_outside(order):
     import trimesh

@@ -144,6 +144,7 @@ def test_most_types_of_arguments_are_called():
     assert SPECS.keys() - CALLED.keys() == {"unsigned", "float32", "int32", "uint64", "complex"}
 
 
+@pytest.mark.ordinary(32)
 @pytest.mark.parametrize("taken", CALLED)
 def test_arguments_fit_where_numba_sees_the_same_type(taken):
     spec = CALLED[taken]
@@ -205,6 +206,7 @@ def test_a_float_keeps_its_bits(value):
     assert struct.pack("d", echo([["d"]], ["d"])((odd,))) == struct.pack("d", odd)
 
 
+@pytest.mark.ordinary(23)
 @pytest.mark.parametrize("power", range(64))
 def test_an_int_keeps_its_bits(power):
     call = echo([["q"]], ["q"])
@@ -270,6 +272,7 @@ def test_tuples_and_named_tuples_come_back_with_their_classes():
     assert type(back[1].second[0]) is bool
 
 
+@pytest.mark.ordinary(12)
 @pytest.mark.parametrize(
     "name",
     [
@@ -412,6 +415,7 @@ def test_a_signature_of_unknown_types_is_left_out():
     assert library([good], function(good)).entry("another") is None
 
 
+@pytest.mark.slow
 def test_threads_do_not_see_each_others_arguments():
     spec = ["T", [["q"], ["q"], array(ndim=2)]]
     call = echo([["q"], ["q"], array(ndim=2)], spec)

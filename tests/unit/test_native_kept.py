@@ -391,6 +391,7 @@ def test_one_process_goes_on_to_what_is_called_next_and_the_others_to_the_deares
     assert others != dearest
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize("processes", [1, 2, 3, 20])
 def test_of_all_each_process_makes_whole_rooms_first_and_helps_with_the_others(
     processes, tmp_path, monkeypatch

@@ -303,6 +303,7 @@ def test_a_library_that_needs_what_was_loaded_before_is_none(objects, tmp_path, 
         link.linked(tmp_path, objects)
 
 
+@pytest.mark.ordinary(1)
 @needs_compiler
 @pytest.mark.parametrize("text", ["kill(getpid(), SIGKILL);", "sleep(20);"])
 def test_trouble_at_loading_that_may_pass_keeps_nothing(

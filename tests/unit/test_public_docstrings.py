@@ -100,6 +100,7 @@ def test_a_docstring_that_says_all_has_no_fault(faults):
     assert faults(GOOD) == []
 
 
+@pytest.mark.ordinary(6)
 @pytest.mark.parametrize("what", WRONG)
 def test_what_a_docstring_leaves_out_is_found(faults, what):
     old, new, code = WRONG[what]

@@ -212,7 +212,7 @@ def test_variants_that_are_rated_block_by_block_are_those_of_one_block(monkeypat
         assert parts[key].tolist() == whole[key].tolist(), key
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize("varied", [
     {"diameter_factor": np.linspace(12.0, 13.5, 17)},
     {"diameter_factor": [12.0, 12.5, 13.5]},

@@ -34,6 +34,7 @@ def test_a_mount_that_thins_the_threads_counts():
     assert parts["hob and worm"].least == pytest.approx(106.0, rel=0.02)
 
 
+@pytest.mark.slow
 def test_a_worm_that_overhangs_has_no_deflection_by_the_standard_and_the_beam_has_it():
     between, over = (
         asperity.rate("actuator-shafts", settings=settings) for settings in ((), (OVERHUNG,))

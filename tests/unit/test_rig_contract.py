@@ -120,6 +120,7 @@ def test_a_scope_hands_out_every_sample_of_every_input_once(scope):
     made.close()
 
 
+@pytest.mark.ordinary(1)
 def test_a_stream_of_any_scope_is_whole(scope):
     stream = Stream(scope.instrument, 2.5e-4, BLOCK, 0.0)
     for _ in range(10):
@@ -146,6 +147,7 @@ def test_a_vibration_drive_is_off_when_it_is_safe(vibration):
     assert vibration.is_on() in (False, None)
 
 
+@pytest.mark.ordinary(2)
 def test_a_supply_is_off_when_it_is_safe(supply):
     made = supply.instrument
     assert isinstance(made, protocols.Supply)

@@ -443,6 +443,7 @@ def test_whatever_ends_it_everything_is_off(made, way):
     assert "read back to be off" in one.said[-1]
 
 
+@pytest.mark.ordinary(4)
 @pytest.mark.parametrize(
     ("fault", "said"),
     [("stuck on", "state is on"), ("welded", "2.4 A measured"), ("garbling", "answers half"),

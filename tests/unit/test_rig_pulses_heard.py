@@ -61,6 +61,7 @@ def test_a_count_of_its_own_pulses_is_not_told(seed):
     assert [*pulses.findings(rig(shown_by(100, 0.8, seed, noise=5e-3), *told))] == []
 
 
+@pytest.mark.ordinary(9)
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("gain", [0.5, 0.7, 0.8, 1.3, 1.5, 1.7])
 def test_another_scale_is_told_by_its_steps(gain, seed):

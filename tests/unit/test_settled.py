@@ -112,6 +112,7 @@ def longer(answer):
     return f"solve.duration={said.removeprefix('a solve.duration of ').partition(' s ')[0]} s"
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(("ratio", "duration"), grid([0.5, 2, 6], ["40 ms", "0.1 s"]))
 def test_a_march_that_is_too_short_says_what_duration_would_do_and_that_does(duration, ratio):
     given = "vibration.start=10 ms", f"vibration.velocity_ratio={ratio}"

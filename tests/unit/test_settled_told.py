@@ -100,6 +100,7 @@ def test_heads_are_the_names_of_files_that_are_not_named_alike(tmp_path):
             assert [column.heading for column in table.columns][-2:] == list(map(str, heads))
 
 
+@pytest.mark.slow
 def test_points_that_have_not_settled_are_whole_in_a_picture_and_marches_asked_for_are_no_news():
     soft = "solve.method=march", "solve.duration=0.1 s", "slider.drive_stiffness=20000 N/m"
     over = ["vibration.velocity_ratio=2,20"]

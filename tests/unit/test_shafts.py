@@ -321,6 +321,7 @@ def test_a_step_with_a_rotation_of_its_own_has_it_in_every_case():
         assert case[1].condition.drives == "load"
 
 
+@pytest.mark.slow
 def test_many_loads_have_what_each_has_alone():
     step = "{duration='10 h',output_torque='%g N m',worm_speed='%g rpm'}"
     loads = [(250.0 - 4.0 * place, 1400.0 - 20.0 * place) for place in range(20)]

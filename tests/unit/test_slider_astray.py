@@ -106,6 +106,7 @@ def test_a_vibration_across_that_the_contact_does_not_see_keeps_no_body_straight
     assert sum(LEAVES in note for note in answer.notes) == 1
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("direction", ["3.1415926535 rad", "1e-9 deg", "1e-4 deg"])
 def test_a_way_that_is_nearly_straight_is_looked_at_too(direction):
     """What grows slowly from nearly nothing has not settled, or is marched askew."""

@@ -45,6 +45,7 @@ def told_of(march, ratio):
     return judged(Standing(True, "halves"), march._body, march.table, sums)
 
 
+@pytest.mark.slow
 def test_a_body_that_lands_in_five_cycles_is_told_by_their_mean():
     march = at_the_end("0.4 s", *BOUNCES)
     kept = march.state.copy()
@@ -81,6 +82,7 @@ def test_windows_of_a_body_that_never_repeats_itself_differ():
     assert 2e-3 < off < 0.05
 
 
+@pytest.mark.slow
 def test_a_lane_and_a_march_ask_whether_it_was_by_chance(monkeypatch):
     settings = "slider.drive_stiffness=20 MN/m", "solve.duration=0.6 s"
     models = [
@@ -260,6 +262,7 @@ def test_the_cycles_after_a_march_of_two_phases_are_those_that_it_goes_on_with()
         assert march.sums["drive_force"] / march.sums["steps"] == pytest.approx(ratio, rel=1e-9)
 
 
+@pytest.mark.slow
 def test_what_repeats_itself_a_window_later_is_not_told_that_it_wanders():
     """After nine cycles, from 1.3 s on; the 36 after 1.02 s do not repeat themselves."""
     answer = wanderer("settles", "1.02211 s")
@@ -269,6 +272,7 @@ def test_what_repeats_itself_a_window_later_is_not_told_that_it_wanders():
     assert wanderer("settles", "1.5 s").settled
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("body", "duration"),
     [("to its limit", "1.4864953913155228 s"), ("leaves its way", "1.145630708310306 s")],

@@ -138,6 +138,7 @@ def test_a_body_whose_friction_falls_with_the_speed_is_promised_no_end():
 DAMPED = "slider.mass=5 kg", "vibration.velocity_ratio=0.1"
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("damping", [0.5, 5])
 def test_a_ring_that_only_the_damper_damps_is_waited_for_no_longer_than_a_window_shows_it(damping):
     body = Model.from_case(

@@ -39,6 +39,7 @@ def test_a_contact_rings_for_one_over_damping_ratio_and_angular_frequency():
     assert ringing_time(model_of("normal-pin", "vibration.elevation=0 deg")) == 0.0
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("damping", [0.0, 1e-9])
 def test_next_to_no_damping_is_as_none(damping):
     answer = solved("normal-pin", f"normal.damping_ratio={damping}", "solve.method=march")
@@ -94,6 +95,7 @@ def test_a_ringing_lasts_by_what_is_marched(damping, duration, on):
     assert rings(model_of("normal-pin", f"normal.damping_ratio={damping}", *given)) == on
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(("damping", "settled"), [(0.0, False), (1e-9, False), (0.05, True)])
 def test_static_friction_knows_a_contact_that_rings(damping, settled):
     case = read_case("normal-pin", TABLES, [f"normal.damping_ratio={damping}"])
@@ -209,7 +211,7 @@ THROWN = (
 )  # fmt: skip
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(("ratio", "told"), [(189.871, True), (6.0, False)])
 def test_of_a_body_that_is_thrown_far_above_its_resonance_another_state_is_told(ratio, told):
     # Found by lot: at 2.8 times the resonance it bounces every cycle, or thrice in four.
@@ -283,6 +285,7 @@ def test_a_march_that_rings_about_the_state_found_has_come_to_no_other(damping, 
     assert answer.notes == ()
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("law", "friction", "follows"), [
     ("rough", "coulomb", False), ("hertz", "dahl", True),
 ])  # fmt: skip

@@ -85,6 +85,7 @@ def test_who_sticks_and_slips_is_sent_to_no_other_method_nor_to_a_longer_march(m
     assert not any(other in said for other in ("'periodic'", "'march'", "longer", "would do, by"))
 
 
+@pytest.mark.slow
 def test_a_window_of_few_slips_has_not_settled_though_its_halves_agree():
     """Where in a slip the window ends moves the mean by 0.7 %: two durations, two ratios."""
     sticks = (

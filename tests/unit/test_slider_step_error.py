@@ -260,6 +260,7 @@ def test_a_body_that_nothing_shakes_is_marched_again_in_longer_steps():
     assert told == pytest.approx(abs(mean(1) - mean(16)), rel=0.02)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("waveform", ["sine", "triangle"])
 def test_where_no_state_is_next_to_a_march_its_last_cycles_tell_its_error(monkeypatch, waveform):
     settings = ["slider.drive_stiffness=20 MN/m", f"vibration.waveform={waveform}"]
@@ -299,6 +300,7 @@ def test_where_none_is_found_at_all_a_note_says_what_it_was_taken_from(
     assert "is not known" in lost.notes[0]
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     "settings",
     [
@@ -406,6 +408,7 @@ def test_the_two_phase_scheme_tells_what_a_march_in_steps_twice_as_long_differs_
     assert short.step_error == pytest.approx(abs(long.ratio - short.ratio), rel=0.1)
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize(
     ("name", "settings", "straight"),
     [

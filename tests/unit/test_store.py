@@ -56,6 +56,7 @@ def test_a_dataset_comes_back_as_it_was_written(tmp_path, dataset):
     assert [file.name for file in tmp_path.iterdir()] == ["result.nc"]
 
 
+@pytest.mark.slow
 def test_a_file_that_was_read_can_be_replaced(tmp_path, dataset):
     path = write_dataset(dataset, tmp_path / "result.nc")
     before = read_dataset(path)
@@ -183,6 +184,7 @@ def test_a_place_that_cannot_be_written_is_named(tmp_path):
     assert [file.name for file in tmp_path.iterdir()] == ["file"]
 
 
+@pytest.mark.ordinary(3)
 @pytest.mark.parametrize(
     "damage",
     [

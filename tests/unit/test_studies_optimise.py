@@ -58,6 +58,7 @@ def samples(name, *settings):
     return {key: values[inside] for key, values in found.items()}
 
 
+@pytest.mark.ordinary(1)
 def test_no_design_of_many_that_keeps_the_load_capacity_is_better(name, best):
     found = samples(name)
     kept = np.ones(len(found["h_star"]), dtype=bool)
@@ -94,6 +95,7 @@ def test_what_is_not_free_stays(best):
     )
 
 
+@pytest.mark.ordinary(1)
 def test_the_same_call_gives_the_same_design(name, best):
     assert optimise(*gearset(name)).gearset == best.gearset
 
@@ -141,6 +143,7 @@ def test_a_gearset_outside_the_bounds_widens_them():
     assert best.gain > 0.0
 
 
+@pytest.mark.ordinary(1)
 def test_assumed_bounds_and_tables_from_memory_are_said(best):
     assert any("bounds are assumed" in note for note in best.notes)
     assert any("from memory" in note for note in best.notes)
@@ -194,6 +197,7 @@ def test_no_design_of_many_beats_the_curve(name, curve):
         assert efficiency > np.max(found["eta_z1_2"], where=strong, initial=0.0) - 1e-6
 
 
+@pytest.mark.slow
 def test_the_optimum_lies_on_the_curve_where_strength_decides(curve, best):
     torque = best.after.bs721["M_permissible_Nm"]
     nearby = np.interp(torque, curve.torque, curve.efficiency)

@@ -96,7 +96,7 @@ def test_the_trade_off_keeps_it_too():
     assert max(numbers["axial_module_mm"] * teeth) <= 166.5
 
 
-@pytest.mark.ordinary(1)
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("settings", "said"),
     [

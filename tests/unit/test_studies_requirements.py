@@ -59,6 +59,7 @@ def test_a_margin_of_self_locking_leaves_fewer():
     assert all(one.starts / one.diameter_factor * 1.12 <= 0.0897 for one in wide.found)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("key", ["centre_distance", "wheel_diameter", "worm_length"])
 def test_room_is_kept(key):
     def size(one):
@@ -91,6 +92,7 @@ def test_safeties_are_so_many_times_what_is_asked():
     assert all(one.margin >= 1.5 and one.holds for one in found)
 
 
+@pytest.mark.slow
 def test_sizes_follow_the_loads_of_a_life():
     constant = sized(operation={"life": "3500 h"})
     spectral = sized(spectrum={"step": STEPS})

@@ -293,6 +293,7 @@ def test_a_relative_samples_file_is_known_by_its_content(tmp_path):
     assert not np.allclose(first.arrays["ratio"], second.arrays["ratio"], rtol=1e-3)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("name", ["asperity", "numba", "numpy"])
 def test_a_worker_with_another_version_refuses_the_work_and_names_it(name):
     models = [Model.from_case(case("solve.method=periodic"))]

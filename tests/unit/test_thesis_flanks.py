@@ -53,6 +53,7 @@ def test_an_oversized_and_tilted_hob_gives_ellipses_within_the_face(formation):
     assert np.all(high < float(face.max()) - 2.0)
 
 
+@pytest.mark.slow
 def test_what_touches_the_wheel_lies_on_the_worms_thread(formation):
     touching = formation["worm_radius"].where(formation["gap"] < float(formation["film"]))
     # The film reaches past the end of the worm's flank by less than its tip is rounded.

@@ -55,7 +55,7 @@ def holds(found, columns, tolerance=1e-4):
         assert values == pytest.approx(wanted, abs=tolerance)
 
 
-@pytest.mark.ordinary(30)
+@pytest.mark.ordinary(28)
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "utf-16-le", "latin-1"])
 @pytest.mark.parametrize("program", TEXTS)
 def test_text_is_read_to_the_value(tmp_path, program, encoding):

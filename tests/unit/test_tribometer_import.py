@@ -175,6 +175,7 @@ REFUSED = {
 }  # fmt: skip
 
 
+@pytest.mark.ordinary(13)
 @pytest.mark.parametrize("name", REFUSED)
 def test_what_cannot_be_imported_is_refused_with_row_and_reason(tmp_path, name):
     change, parts = REFUSED[name]
@@ -349,7 +350,7 @@ DATED = {
 }
 
 
-@pytest.mark.ordinary(2)
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("how", DATED)
 def test_a_recording_is_dated_by_its_file_or_by_its_import_and_says_so(tmp_path, how):
     content, began = DATED[how]

@@ -103,6 +103,7 @@ def marched(model):
     return np.column_stack([history.drive_force, history.friction])
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(("theta", "exponent"), grid([0, 30, 90, 200, 270], [1.0, 1.5, 2.0]))
 def test_with_the_base_vibrated_it_is_table_4_2_as_printed(theta, exponent):
     model = body(
@@ -114,6 +115,7 @@ def test_with_the_base_vibrated_it_is_table_4_2_as_printed(theta, exponent):
     assert marched(model) == pytest.approx(expected, abs=1e-9 * model.full_friction)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(("theta", "exponent"), grid([0, 30, 90, 200], [1.0, 2.0]))
 def test_with_the_body_vibrated_it_is_table_7_3_with_the_stored_y(theta, exponent):
     model = body(

@@ -118,7 +118,7 @@ CASES = {
 }
 
 
-@pytest.mark.ordinary(3)
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("given", CASES.values(), ids=CASES)
 def test_a_workbook_calculated_anew_is_the_rating(given, tmp_path):
     found = rated(**given)

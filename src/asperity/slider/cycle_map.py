@@ -100,7 +100,7 @@ class Cycle:
         """Return the same over half the steps, which end nearer to corners that steps miss."""
         if self._straight:
             along = _halved(self.increments)
-            return along, (along if self.rises is self.increments else _halved(self.rises))
+            return along, (np.zeros(along.size) if self.q is None else along)
         steps = (self.increments.size - 1) // self.period
         along, up = self.waves(2 * steps, 0.5 * self.step)
         if self.period == 1:

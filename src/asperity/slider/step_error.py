@@ -147,7 +147,7 @@ def error_of_state(cycle: Cycle, model: Model) -> OfState:
 
 
 def _of_state(cycle: Cycle, model: Model) -> OfState:
-    jacobian, slopes = map(np.ascontiguousarray, (cycle.jacobian, cycle.slopes))
+    jacobian, slopes = np.ascontiguousarray(cycle.jacobian), np.ascontiguousarray(cycle.slopes)
     here, part = _ratio(cycle), part_of_difference(model)
     other, hidden = closed_beside(cycle, jacobian, slopes, here, part)
     if other is None:
