@@ -44,8 +44,11 @@ for _name, _default in {
         signal.signal(_number, _default)
 
 # Without a deadline, because the first example may load a unit registry or compile a kernel; the
-# same examples every time, so that a failure is about the change at hand.
-hypothesis.settings.register_profile("asperity", deadline=None, derandomize=True, database=None)
+# same examples every time, so that a failure is about the change at hand. Many others are tried with
+# ``--hypothesis-profile thorough``.
+_ALWAYS = {"deadline": None, "database": None}
+hypothesis.settings.register_profile("asperity", **_ALWAYS, max_examples=40, derandomize=True)
+hypothesis.settings.register_profile("thorough", **_ALWAYS, max_examples=1000)
 hypothesis.settings.load_profile("asperity")
 
 # Programs of others that some tests compare with: name of the program, files of tests.

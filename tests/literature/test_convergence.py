@@ -129,6 +129,7 @@ def test_vector_converges_with_order_two(exponent):
     assert orders == pytest.approx(2.0, abs=0.05)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("law", "exponent"),
     grid(["split", "unsplit"], [1.0, 1.5, 2.0], ordinary=[("split", 2.0), ("unsplit", 1.0)]),

@@ -174,6 +174,7 @@ def test_wheels_of_few_teeth_and_14_5_degrees_are_flagged(teeth):
     assert wheel.flank(1).undercut_map(20, 13).undercut
 
 
+@pytest.mark.ordinary(1)
 @HOBS
 def test_gearset_3_has_no_undercut(hob):
     wheel = _wheel(hob)

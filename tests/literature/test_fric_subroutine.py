@@ -213,6 +213,7 @@ def properties(compiled, exponent):
     return values
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", SOME)
 def test_stress_and_state_are_those_of_the_package_over_random_histories(build, law):
     model, fric = build(*LAWS[law], side=1)
@@ -302,6 +303,7 @@ def test_a_point_without_pressure_has_no_stress_and_keeps_its_asperities(build, 
     np.testing.assert_array_equal(free.by_pressure, loaded.by_pressure)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", LAWS)
 def test_no_slip_and_a_huge_slip_have_finite_answers(build, law):
     model, fric = build(*LAWS[law])
@@ -374,6 +376,7 @@ WAVES = {
 }
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("wave", ["sine", slow("triangle"), slow("square"), "sampled"])
 def test_the_law_knows_the_motion_of_the_base_whatever_its_waveform(build, tmp_path, wave):
     settings = [*WAVES[wave], "friction.law=split", "vibration.direction=90 deg"]

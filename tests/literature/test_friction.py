@@ -64,6 +64,7 @@ def test_from_rest_split_and_unsplit_go_to_dahls_curve_with_order_two(law, expon
     assert np.log2(np.divide(errors[:-1], errors[1:])) == pytest.approx(2.0, abs=0.1)
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 @pytest.mark.parametrize("amplitude", [0.2, 1.0, 5.0])
 def test_the_steady_loop_has_dahls_peak_and_area(law, amplitude):
@@ -114,6 +115,7 @@ def test_for_a_long_slip_dahl_friction_is_coulomb_friction(law):
     assert share == pytest.approx(project(*slip, 0.0, 0.0, 0.0, 0.0), abs=1e-12)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("exponent", [slow(1.5), 2.0, slow(3.0), 4.0])
 def test_an_asperity_near_its_limit_that_the_slip_turns_bends_as_in_fine_steps(exponent):
     """It comes to the limit as a power of the slip, and no step may put it there."""

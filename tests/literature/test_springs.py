@@ -102,6 +102,7 @@ def flat_reduction(velocity):
     return (math.sin(last) - math.sin(first) + c * span - v * span**2 / 2) / (2 * math.pi)
 
 
+@pytest.mark.ordinary(5)
 @pytest.mark.parametrize("swing", [0.1, 0.5, 0.9])
 @pytest.mark.parametrize("velocity", [0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9])
 def test_a_flat_contact_meets_the_master_curve(velocity, swing):
@@ -117,6 +118,7 @@ def test_above_the_critical_velocity_friction_follows_the_load(law, velocity):
     assert shares == pytest.approx(load, abs=3e-4)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize(
     ("law", "swing", "velocity", "mean"),
     [
@@ -134,6 +136,7 @@ def test_sixteen_springs_give_the_mean_friction_of_curved_contacts(law, swing, v
     assert vibrated(law, swing, velocity).mean() == pytest.approx(mean, abs=1e-3)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", ["linear", "hertz"])
 def test_a_force_below_the_least_load_is_held_without_creep(law):
     # Pulled to a deflection, then held under an oscillating load: after the first cycle no change.
@@ -170,6 +173,7 @@ def walk(sx, sy, slips, indentations, heights, weights):
     return share, least
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", DAHL)
 @pytest.mark.parametrize("paths", [100, slow(10_000)])
 def test_paths_of_indentation_and_slip_gain_nothing(law, paths):

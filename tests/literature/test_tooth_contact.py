@@ -79,6 +79,7 @@ def tilted():
     return analysed(TILTED)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("flank", ["ZI", "ZA", "ZN"])
 @pytest.mark.parametrize("side", [1, -1])

@@ -183,6 +183,7 @@ def in_matlab(model):
     return names["asperity_dahl"]
 
 
+@pytest.mark.ordinary(1)
 @compiled
 @pytest.mark.parametrize(("exponent", "keeps", "power"), KINDS)
 def test_the_law_in_c_is_the_law_of_the_package(exponent, keeps, power, tmp_path):
@@ -202,6 +203,7 @@ def test_the_lines_for_matlab_say_the_law_of_the_package(exponent, keeps, power)
         agree(marched(step, *past), ours(model, *past))
 
 
+@pytest.mark.ordinary(1)
 @compiled
 @pytest.mark.parametrize("exponent", [0.0, slow(0.5), slow(1.0), 2.0])
 def test_from_any_state_a_step_is_that_of_the_package(exponent, tmp_path):

@@ -535,6 +535,7 @@ def test_far_beyond_the_vibration_viscous_friction_adds_to_full_friction(with_lu
     assert law(-5.0) == pytest.approx(-5.5 - 500.0, rel=1e-6)
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.usefixtures("plain_kernels")
 @pytest.mark.parametrize("name", ["law", "with_lugre"])
 def test_the_slope_of_the_law_is_its_derivative(request, name):

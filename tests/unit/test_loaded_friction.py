@@ -43,6 +43,7 @@ def random_path(random, steps=40):
     return limits, sizes * random.standard_normal((steps, 4))
 
 
+@pytest.mark.ordinary(10)
 @pytest.mark.parametrize("keeps", KEEPS.values(), ids=KEEPS)
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 @pytest.mark.parametrize("exponent", EXPONENTS)
@@ -155,6 +156,7 @@ def tangents(s, varied, limit_0, exponent, law, keeps):
     return np.column_stack([np.reshape(first, (2, 2)), np.reshape(second, (2, 2)), slope])
 
 
+@pytest.mark.ordinary(2)
 @pytest.mark.parametrize(
     ("law", "exponent", "keeps"), grid(LAWS.values(), EXPONENTS, KEEPS.values(), ordinary=5)
 )

@@ -11,6 +11,7 @@ LIMIT = 1e-5
 STEP = 1e-3
 
 
+@pytest.mark.ordinary(1)
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_tangent_equals_finite_differences(law):
     rng = np.random.default_rng(2)
