@@ -44,7 +44,7 @@ for _name, _default in {
         signal.signal(_number, _default)
 
 # Without a deadline, because the first example may load a unit registry or compile a kernel; the
-# same examples every time, so that a failure is about the change at hand. Many others are tried with
+# same examples every time, so that a failure is about the change at hand. Others are tried with
 # ``--hypothesis-profile thorough``.
 _ALWAYS = {"deadline": None, "database": None}
 hypothesis.settings.register_profile("asperity", **_ALWAYS, max_examples=40, derandomize=True)
