@@ -5,10 +5,12 @@ import pytest
 
 from asperity.casefile import read_case
 from asperity.friction.springs import REFERENCE_INDENTATION, load_and_slope, spring_profile
-from asperity.slider import TABLES, Model
+from asperity.runs import Run
+from asperity.slider import TABLES, Model, static
 from asperity.slider.space import missed_limit, too_few_springs
 
 DEEP = 2.0
+ROUGH = "normal.law=rough", "vibration.displacement_amplitude=2 um"
 
 
 @pytest.mark.parametrize("law", ["hertz", "rough"])
@@ -27,10 +29,16 @@ def told(*settings):
 
 
 def test_a_rough_contact_whose_load_swings_far_is_told_its_springs_are_few():
-    rough = "normal.law=rough", "vibration.displacement_amplitude=2 um"
     assert not told("normal.law=rough", "vibration.displacement_amplitude=1 nm")
-    (note,) = told(*rough)
+    (note,) = told(*ROUGH)
     assert "of 16 springs" in note
     assert "friction.springs = " in note
     enough = note.rpartition("springs = ")[2].split()[0]
-    assert not told(*rough, f"friction.springs={enough}")
+    assert not told(*ROUGH, f"friction.springs={enough}")
+
+
+def test_static_friction_tells_it_too():
+    few = "friction.model=springs", "friction.springs=4", "slider.mass=0.5 kg"
+    settings = ("normal.law=rough", "vibration.displacement_amplitude=1 um", *few)
+    found = static.answer(static.prepare(read_case("normal-machine", TABLES, settings)), Run())
+    assert any("of 4 springs friction is known to within" in note for note in found.notes)

@@ -18,6 +18,7 @@ from asperity.slider.model import Model
 from asperity.slider.pressed import friction_limit
 from asperity.slider.result import inputs
 from asperity.slider.ringing import lasting_ring, rings
+from asperity.slider.space import too_few_springs
 from asperity.vibration.waveform import SINE
 
 # Of mu W: how near the limit is found, how far above it the creep is told, where it is sought.
@@ -235,6 +236,8 @@ def _remarks(model: Model, creep: Creep) -> tuple[str, ...]:
             "under 1 % of mu W more the body finds no steady creep: it runs away, or never repeats "
             "itself",
         )
+    if model.friction.model == "springs":
+        notes += too_few_springs(model)
     if model.normal is not None and model.friction.keeps == "deflection":
         notes += (
             "with friction.keeps 'deflection' asperities gain energy under a changing normal "
