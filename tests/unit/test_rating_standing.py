@@ -6,7 +6,7 @@ import pytest
 
 import asperity
 from asperity.gearset import oil
-from asperity.rating.changes import says_less
+from asperity.rating.changes import changed_words, says_less
 from asperity.rating.iso14521.limits import PLAUSIBLE, VALIDITY, implausible
 from asperity.rating.power_words import power_lines
 from asperity.rating.standing import WIDTH, Standing, efficiency_outside
@@ -94,3 +94,25 @@ def test_more_lost_without_load_than_is_delivered_is_implausible(idle, said):
     sound = {key: 0.5 * (one.lower + one.upper) for key, one in PLAUSIBLE.items()}
     losses = {"loss_idle_W": 0.9 * idle, "loss_seal_W": 0.1 * idle, "output_power_W": 100.0}
     assert len(implausible({**sound, **losses})) == said
+
+
+def test_what_another_part_no_longer_holds_against_is_said_where_the_verdict_was_that_already():
+    def rated(word, **margins):
+        safeties = [
+            SimpleNamespace(
+                demand=SimpleNamespace(standard="iso14521", key=name, name=name),
+                holds=margin >= 1.0,
+            )
+            for name, margin in margins.items()
+        ]
+        standing = [SimpleNamespace(standard="iso14521", word=word, unrated=())]
+        verdict = SimpleNamespace(standing=standing, safeties=safeties)
+        return SimpleNamespace(verdict=verdict, self_locking=())
+
+    fails = "does not hold"
+    before = rated(fails, wear=0.5, pitting=1.1, root=0.9)
+    (said,) = changed_words(before, rated(fails, wear=2.0, pitting=0.7, root=0.8))
+    assert said == "ISO/TR 14521: no longer holds against pitting"
+    assert not changed_words(before, rated(fails, wear=0.4, pitting=1.0, root=2.0))
+    (said,) = changed_words(rated("holds", wear=1.5), rated(fails, wear=0.5))
+    assert said == "ISO/TR 14521: holds -> does not hold"

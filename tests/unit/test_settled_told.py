@@ -88,6 +88,23 @@ def test_a_comparison_marks_it_and_says_what_it_lacks():
     assert found.to_json()["settled"] == [True, False]
 
 
+def test_python_says_it_before_the_numbers():
+    loose = solve(body(*EARLY, "solve.duration=20 ms"))
+    assert repr(loose).startswith("SlideResult(not settled, drive_force=")
+    settled = solve(body("solve.method=periodic"))
+    assert repr(settled).startswith("SlideResult(drive_force=")
+
+
+def test_a_sweep_of_a_case_with_a_block_says_that_it_is_of_the_sliding_body():
+    def notes(name):
+        case = read_case(name, case_tables(), ["solve.method=periodic"])
+        return sweep(case, ["vibration.velocity_ratio=2"], cache=False).notes
+
+    (note,) = notes("block-longitudinal")
+    assert "`asperity block` solves its elastic block" in note
+    assert not notes("table-4.3")
+
+
 def test_heads_are_the_names_of_files_that_are_not_named_alike(tmp_path):
     paths = [tmp_path / "one" / "hard.toml", tmp_path / "one" / "soft.toml"]
     paths += [tmp_path / "other" / "soft.toml"]

@@ -36,13 +36,28 @@ def _standing(before: Rated, after: Rated) -> Iterator[str]:
     old = {one.standard: one for one in before.verdict.standing}
     for one in after.verdict.standing:
         was = old.get(one.standard)
-        if was is None or (was.word, was.unrated) == (one.word, one.unrated):
+        if was is None:
             continue
         if was.word != one.word:
             yield f"{NAMES[one.standard]}: {was.word} -> {one.word}"
+        # Where the verdict is that already, what it now is for as well.
+        elif fails := _lost(before, after, one.standard):
+            yield f"{NAMES[one.standard]}: no longer holds against {listed(fails)}"
         lost = [name for name in one.unrated if name not in was.unrated]
         if lost:
             yield f"{NAMES[one.standard]}: no answer for {listed(lost)} any more"
+
+
+def _lost(before: Rated, after: Rated, standard: str) -> list[str]:
+    """Names of what a standard's safety is enough against before, and not after."""
+    held = {one.demand.key for one in _of(before, standard) if one.holds}
+    return [
+        one.demand.name for one in _of(after, standard) if one.demand.key in held and not one.holds
+    ]
+
+
+def _of(rated: Rated, standard: str) -> list[Any]:
+    return [one for one in rated.verdict.safeties if one.demand.standard == standard]
 
 
 def _locking(before: Rated, after: Rated) -> Iterator[str]:

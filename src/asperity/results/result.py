@@ -92,6 +92,12 @@ class Result(Quantities):
         attributes = {"notes": "; ".join(self.notes), **self.inputs}
         return datasets.to_dataset(self, self.labels, attributes, title=self.title)
 
+    def __repr__(self) -> str:
+        text = super().__repr__()
+        # What has not settled is no prediction, in a session of Python as elsewhere.
+        loose = getattr(self, "settled", True) is False
+        return text.replace("(", "(not settled, ", 1) if loose else text
+
     def to_frame(self) -> Any:
         """Return the scalars as a data frame of pandas, indexed by key."""
         import pandas  # type: ignore[import-untyped]

@@ -6,7 +6,8 @@ from asperity.slider.model import Model
 _ORDER_HALF = 0.41
 ORDER_ONE = 1.0
 ORDER_TWO = 3.0
-_LEAST_EXPONENT = 0.5  # below it the friction of a turning slip is of order one
+_LEAST_EXPONENT = 0.5  # below it friction along one line is of order one
+_LEAST_WHERE_IT_TURNS = 0.7  # and that of a slip that turns
 _LEAST_TO_FOLLOW = 0.1  # exponent, below which friction turns at once
 _ALONG = 1e-9
 
@@ -27,13 +28,14 @@ def of_the_error(model: Model) -> float:
     friction = model.friction
     if model.solve.scheme == "two-phase":
         return ORDER_ONE
-    if friction.model == "dahl" and friction.exponent < _LEAST_EXPONENT:
+    if friction.model == "dahl" and friction.exponent < _LEAST_WHERE_IT_TURNS:
         # A body free sideways answers to a slip that turns; where friction turns with it at once
         # the step makes them chatter.
         turns = model.slider.free and abs(model.unit_direction[1]) > _ALONG
         if turns and friction.exponent < _LEAST_TO_FOLLOW:
             return _ORDER_HALF
-        if turns or not (smooth and friction.law == "vector"):
+        stiff = friction.exponent < _LEAST_EXPONENT and not (smooth and friction.law == "vector")
+        if turns or stiff:
             return ORDER_ONE
     # Where Coulomb friction stops a body after a corner, errors fall by four on average only.
     stops = friction.model == "coulomb" and not (model.slider.rigid and not model.slider.free)

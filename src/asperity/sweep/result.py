@@ -195,6 +195,7 @@ class SweepResult(Result):
             "title": self._of.title,
             "case": self.source,
             "failures": "; ".join(f"{point}: {why}" for point, why in self.failures.items()),
+            "notes": "; ".join(self.notes),
         }
         return xr.Dataset(variables, coordinates, attributes | dict(self.shared))
 
@@ -212,6 +213,7 @@ class SweepResult(Result):
             "cached": self.cached,
             "seconds": self.seconds,
             "file": None if self.file is None else str(self.file),
+            "notes": list(self.notes),
         }
 
     def heading(self) -> str:

@@ -24,6 +24,7 @@ from asperity.sweep.tasks import FAILED, REFUSED
 _CHUNK = 1024
 _LOOK_SECONDS = 5.0
 _LOOK = 3e-4  # to validate a point and look for it, s
+_OF_A_BLOCK = "swept is the sliding body of the case; `asperity block` solves its elastic block"
 
 
 def run(
@@ -108,6 +109,7 @@ def answer(problem: Problem, doing: Run) -> SweepResult:
             cached=grid.size - len(sweep.missing),
             seconds=time.perf_counter() - began,
             file=None if doing.folder is None else doing.folder / "sweep.nc",
+            notes=(_OF_A_BLOCK,) if "block" in problem.case.tables else (),
         )
 
     try:
