@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from asperity.flanks.sides import both
 from asperity.kernels.building import lean, link, making
 from asperity.kernels.native import kept, keys, table
 from asperity.kernels.native import makers as native_makers
@@ -371,6 +372,29 @@ def test_what_is_waited_for_is_asked_for_first(entry, tmp_path, monkeypatch):
     makers._running, makers._deaths = [Told()], 1
     makers.make([entry])
     assert told == [[keys.key(each) for each in (entry, *others)]]
+
+
+def test_a_flank_that_nobody_waits_for_does_not_wait_for_its_kernels(
+    entry, begun, tmp_path, monkeypatch
+):
+    """Ctrl-C in one flank left the other until its kernel was compiled, up to 16 s."""
+    programs, started = begun
+    programs.append("import time; time.sleep(600)")
+    monkeypatch.setattr(kept, "most_makers", lambda: 1)
+    makers, asked = kept._Makers(tmp_path), threading.Event()
+
+    def flank(side):
+        if side == 1:
+            assert asked.wait(60.0)
+            raise KeyboardInterrupt
+        threading.Timer(0.05, asked.set).start()
+        makers.make([entry])
+
+    with pytest.raises(KeyboardInterrupt):
+        both(flank)
+    makers.leave()
+    assert started
+    assert not makers._waited_for
 
 
 @pytest.mark.parametrize("begin", [False, True])

@@ -4,6 +4,7 @@ import os
 import signal
 import sys
 import threading
+from contextvars import ContextVar
 
 _SOON = 0.02
 
@@ -24,6 +25,9 @@ left_working: list[threading.Thread] = []
 
 Python's own end would take away under them what they need.
 """
+
+NOBODY_WAITS: ContextVar[threading.Event | None] = ContextVar("nobody_waits", default=None)
+"""Of a thread whose answer may be given up: set where it is, and what it waits for is as well."""
 
 
 def reraise_pending() -> None:

@@ -13,6 +13,7 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +25,7 @@ from asperity.kernels.native.makers import begun as _begun
 from asperity.kernels.native.makers import most_makers
 from asperity.kernels.native.target import FEATURES
 from asperity.kernels.native.types import UnlistedTypeError, types_of
+from asperity.processes.interrupts import NOBODY_WAITS
 
 UNFIT = "unfit"
 """Stands in place of machine code where there can be none; says why."""
@@ -249,7 +251,14 @@ class _Makers:
         self._lock = threading.Lock()
 
     def make(self, entries: Sequence[Entry]) -> None:
-        """Wait until entries are made, or cannot be; the first first."""
+        """Wait until entries are made, or cannot be; the first first.
+
+        Raises
+        ------
+        CancelledError
+            The answer of this thread is not waited for any more.
+        """
+        nobody_waits = NOBODY_WAITS.get()
         missing = {keys.key(entry): entry for entry in entries}
         with self._lock:
             self._waited_for += missing.values()
@@ -266,6 +275,8 @@ class _Makers:
                             self._waited_for.remove(missing.pop(key))
                     if not self._running:
                         return
+                if missing and nobody_waits is not None and nobody_waits.is_set():
+                    raise CancelledError
                 if missing:
                     # Who waits for many waits for long, and those who make them need the core.
                     time.sleep(_PATIENCE * min(len(missing), 10))
