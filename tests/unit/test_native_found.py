@@ -118,9 +118,18 @@ def test_what_others_may_have_written_is_not_loaded(name, mode, cache, parts, ha
     assert [half(3.0), half(3.0)] == [1.5, 1.5]
     (told,) = caplog.messages
     assert told.startswith(f"{folder / name} can be written to by others; kernels are compiled ")
-    assert told.endswith("remove it")
+    assert "`asperity cache kernels --clear` removes it" in told
     # It is for the user to look at.
     assert (folder / table.LIBRARY).exists()
+
+
+def test_of_many_that_others_may_have_written_one_line_is_said(cache, caplog):
+    for name in ("one", "two", "three"):
+        (cache / name).mkdir()
+        (cache / name).chmod(0o777)
+        assert not kept.kernel_folder.is_kept(cache / name)
+    (told,) = caplog.messages
+    assert told.startswith(f"{cache / 'one'} can be written to by others")
 
 
 def test_from_a_cache_that_others_may_write_to_nothing_is_loaded(cache, parts, half, caplog):

@@ -14,7 +14,13 @@ import shutil
 import time
 from pathlib import Path
 
-from asperity.files.folders import cache_root, is_ours_alone, require_room, standing_folder
+from asperity.files.folders import (
+    cache_root,
+    is_ours_alone,
+    require_room,
+    standing_folder,
+    trouble_with,
+)
 from asperity.files.store import reason
 
 _KEPT_DAYS = 30
@@ -81,9 +87,9 @@ def tell_unkept(trouble: OSError) -> bool:
     return is_unwritable
 
 
-def tell(line: str) -> None:
-    """Log a warning, once, in whatever numbers: several processes may find the same."""
-    if (words := re.sub(r"\d+", "", line)) not in _TOLD:
+def tell(line: str, of: str = "") -> None:
+    """Log a warning, once of the same: in whatever numbers, as several processes may find it."""
+    if (words := of or re.sub(r"\d+", "", line)) not in _TOLD:
         _TOLD.add(words)
         _log.warning("%s", line)
 
@@ -97,9 +103,17 @@ def is_kept(folder: Path) -> bool:
         if folder.stat().st_mode & 0o011:
             # Made for the user alone, it was opened since, and files are as the umask has them.
             places += folder.iterdir()
-        return all(is_ours_alone(place, _INSTEAD) for place in places)
+        found = ((place, trouble_with(place)) for place in places)
+        place, trouble = next((each for each in found if each[1]), (folder, ""))
     except OSError:
         return False
+    if trouble:
+        tell(
+            f"{place} {trouble}; {_INSTEAD} instead of read from it: `asperity cache kernels "
+            "--clear` removes it and others that are so",
+            of=trouble,
+        )
+    return not trouble
 
 
 def _remove_old(folder: Path) -> None:
