@@ -216,3 +216,18 @@ def test_a_contact_that_never_repeats_itself_holds_nothing_where_it_opens():
     assert found.normal.open_share > 0.1
     assert found.static_force == 0.0
     assert "does not repeat itself" in found.notes[0]
+
+
+@pytest.mark.slow
+def test_a_pull_that_is_put_on_at_once_is_told_to_leave_lugre_s_static_friction_early():
+    """Pulled up over 0.3 s, by equations of motion of another program, the body holds 1.49."""
+    lugre = {
+        "friction.model": "lugre",
+        "friction.static_mu": "0.15",
+        "friction.stribeck_velocity": "1 mm/s",
+        "normal.law": "hertz",
+        "vibration.velocity_ratio": "1e-6",
+    }
+    found = pressed(**lugre)
+    assert 1.2 < found.static_ratio < 1.4
+    assert any("pulled up slowly may hold more, up to 1.5 of mu W" in each for each in found.notes)

@@ -7,7 +7,7 @@ _ORDER_HALF = 0.41
 ORDER_ONE = 1.0
 ORDER_TWO = 3.0
 _LEAST_EXPONENT = 0.5  # below it friction along one line is of order one
-_LEAST_WHERE_IT_TURNS = 0.7  # and that of a slip that turns
+_LEAST_WHERE_IT_TURNS = 0.7  # and that of a slip that turns, or of a load that changes
 _LEAST_TO_FOLLOW = 0.1  # exponent, below which friction turns at once
 _ALONG = 1e-9
 
@@ -35,7 +35,7 @@ def of_the_error(model: Model) -> float:
         if turns and friction.exponent < _LEAST_TO_FOLLOW:
             return _ORDER_HALF
         stiff = friction.exponent < _LEAST_EXPONENT and not (smooth and friction.law == "vector")
-        if turns or stiff:
+        if turns or stiff or model.normal is not None:
             return ORDER_ONE
     # Where Coulomb friction stops a body after a corner, errors fall by four on average only.
     stops = friction.model == "coulomb" and not (model.slider.rigid and not model.slider.free)

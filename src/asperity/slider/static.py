@@ -160,7 +160,7 @@ def answer(model: Model, run: Run) -> StaticResult:
         settled_by=standing.settled_by,
         normal=_least_load(body, ratio),
         seconds=time.perf_counter() - began,
-        notes=body.notes + notes + _remarks(model, creep),
+        notes=body.notes + notes + _remarks(model, creep, ratio),
     )
 
 
@@ -229,16 +229,23 @@ def _bounded(pull: float) -> None:
         )
 
 
-def _remarks(model: Model, creep: Creep) -> tuple[str, ...]:
+def _remarks(model: Model, creep: Creep, ratio: float) -> tuple[str, ...]:
     notes: tuple[str, ...] = ()
     if not creep.steady:
         notes += (
             "under 1 % of mu W more the body finds no steady creep: it runs away, or never repeats "
             "itself",
         )
-    if model.friction.model == "springs":
+    friction = model.friction
+    most = (friction.static_mu or friction.mu) / friction.mu
+    if friction.model == "lugre" and most > 1.0 and ratio < most * (1.0 - _ABOVE):
+        notes += (
+            "the pull is put on at once, and LuGre's static friction is left before it is reached: "
+            f"a body that is pulled up slowly may hold more, up to {most:.3g} of mu W unshaken",
+        )
+    if friction.model == "springs":
         notes += too_few_springs(model)
-    if model.normal is not None and model.friction.keeps == "deflection":
+    if model.normal is not None and friction.keeps == "deflection":
         notes += (
             "with friction.keeps 'deflection' asperities gain energy under a changing normal "
             "force, and creep under any pull; 'stiffness' holds",

@@ -238,7 +238,7 @@ class SweepResult(Result):
                 f"{MARK} {told} not settled: no prediction; `{self._of.verb}` says of each what is "
                 "missing",
             )
-        remarks += self._other_states()
+        remarks += self._other_states() + self.notes
         beside = {self._of.beside[name]: self.arrays[name] for name in self.beside}
         columns = {self._of.column: self.arrays[self._of.shown], **beside}
         return (_table(self.axes, columns, remarks, loose),)
