@@ -29,8 +29,9 @@ for _library in ("OMP", "OPENBLAS", "MKL"):
 # them takes a tenth of the time. What is not theirs is still found, less often.
 gc.set_threshold(50_000, 20, 20)
 
-# pytest asks for it whatever a file of tests has imported, and a kernel would ask Numba.
+# pytest asks for these whatever a file of tests has imported, and a kernel would ask Numba.
 compiled._Lazy._mock_name = None
+compiled._Lazy.pytestmark = ()
 
 # What is started in the background of a script, or by nohup, ignores these signals, and so would
 # all that it starts; tests send them.

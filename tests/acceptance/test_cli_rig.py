@@ -256,7 +256,6 @@ def budgeted(asperity, recording):
     return json.loads(output)
 
 
-@pytest.mark.slow
 def test_a_budget_adds_up_to_the_interval_that_is_told(budgeted):
     for segment, told in zip(budgeted["segments"], budgeted["budgets"], strict=True):
         numbers = {one["number"]: one for one in told["numbers"]}

@@ -368,7 +368,6 @@ def test_a_report_has_what_a_standard_asks_for(asperity, run, tmp_path, standard
     assert "Coefficient of friction" in page
 
 
-@pytest.mark.slow
 def test_what_a_channel_measured_is_told_in_its_unit(tmp_path):
     line = 'channels.temperature={channel="T", points=[["0 V","0 degC"],["1 V","100 degC"]]}'
     case = read_case("rig-final", case_tables(), [line])

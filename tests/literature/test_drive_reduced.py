@@ -185,7 +185,6 @@ def test_where_a_rating_and_locking_differ_each_says_the_others_limit(mu):
         assert any("which ISO/TR 14521 leaves out, 0.087" in note for note in asked.notes)
 
 
-@pytest.mark.slow
 def test_a_gearset_holds_until_vibration_bends_its_flanks_to_full_friction(held):
     point = MeshPoint(lead=1.69492e-3 / 2.0, radius=9.5e-3, ratio=60.0, normal_z=0.0)
     tilt = math.cos(math.atan2(1.0, 10.8)) * math.cos(math.radians(20.0))

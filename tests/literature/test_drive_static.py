@@ -85,7 +85,6 @@ def test_one_tooth_takes_the_torque_of_another_implementation():
     assert found[2] == pytest.approx(15.32, abs=0.05)
 
 
-@pytest.mark.slow
 def test_the_torque_is_that_of_an_involute_worm_at_the_radius_of_its_force():
     model = model_of(*ONE_TOOTH)
     means = []

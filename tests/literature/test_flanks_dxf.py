@@ -43,7 +43,6 @@ def test_it_is_sound_and_in_millimetres(drawn):
     assert document.header["$INSUNITS"] == 4
 
 
-@pytest.mark.slow
 def test_dimensions_measure_the_geometry(drawn):
     g, document = drawn
     found = [one.get_measurement() for one in document.modelspace().query("DIMENSION")]

@@ -54,7 +54,6 @@ def test_the_body_breaks_away_when_it_slips(found):
     assert found.breakaway_time == pytest.approx(7.4581, abs=1e-3)
 
 
-@pytest.mark.slow
 def test_friction_and_spring_peak_as_in_the_paper(found):
     history = found.history
     assert history.friction_max[:, 0].max() == pytest.approx(1.47657, abs=1e-4)

@@ -48,7 +48,6 @@ def normals(own, fillet):
     return found / np.linalg.norm(found, axis=1, keepdims=True)
 
 
-@pytest.mark.slow
 def test_a_fillet_has_the_stress_of_its_strained_surface_that_nothing_presses_on():
     slope = 1e-4 * np.array([[1.0, -2.0, 0.5], [0.3, 0.7, -1.1], [0.9, 0.2, -0.4]])
     off = []

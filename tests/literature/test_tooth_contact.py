@@ -158,7 +158,6 @@ def test_blue_dye_shows_a_pattern_near_the_face_edge_and_tilting_the_hob_brings_
         assert np.abs(second.grid.z[middle.marked]).max() < half_face * 0.75
 
 
-@pytest.mark.slow
 def test_threads_of_nominal_thickness_interfere_by_the_known_amount(tilted):
     assert 1e3 * tilted.play.axial == pytest.approx(-19.9, abs=0.05)
 

@@ -39,7 +39,6 @@ def off_untold(seed, count, folder, **options):
     return off
 
 
-@pytest.mark.slow
 def test_a_few_bodies_on_soft_drives_tell_what_corners_cost(tmp_path):
     assert WANTED == 1e-3
     assert not off_untold(1, 4, tmp_path, models=("coulomb",), pressed=False, corners=True)

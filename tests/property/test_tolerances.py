@@ -160,7 +160,6 @@ def test_the_worst_assembly_is_the_least_of_the_interval(name, oversize):
     assert assembled(THREAD[1], TOOTH[1], off, **given) == pytest.approx(found.greatest, abs=1e-5)
 
 
-@pytest.mark.slow
 def test_a_rating_says_that_a_gearset_may_jam_where_its_worst_assembly_does():
     # By the formula, which knows no hob, 10 um are left.
     settings = ["tolerances.centre_distance=js9", 'tolerances.thread=["0 um", "-10 um"]',

@@ -230,7 +230,6 @@ def test_the_mirror_image_of_a_direction_is_exact_in_a_batch(law):
         assert there.friction_mean[1] == pytest.approx(-here.friction_mean[1], abs=1e-9)
 
 
-@pytest.mark.slow
 def test_a_batch_that_is_told_to_stop_stops_between_blocks():
     stop = np.zeros(1, dtype=np.int64)
     models = [body(duration=60.0, vibration={"direction": d}) for d in (0.0, 0.5, 1.0)]

@@ -385,7 +385,6 @@ def test_an_interrupted_march_goes_on_to_the_very_same_end(name, stop, tmp_path)
         assert np.array_equal(frame.traction, other.traction)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("error", [KeyboardInterrupt, RuntimeError])
 def test_a_march_stopped_in_the_middle_of_an_increment_stands_at_the_last_whole_one(
     monkeypatch, error

@@ -177,7 +177,6 @@ WORDY = [
 ]  # fmt: skip
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("given", WORDY, ids=lambda given: given[-1])
 def test_all_that_a_rating_tells_in_full_leaves_nothing_english(given):
     _, result = answer_of(*given)

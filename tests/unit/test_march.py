@@ -236,7 +236,6 @@ def test_a_stiff_contact_is_divided_until_the_march_is_stable():
     assert answer.ledger.residual < 1e-6
 
 
-@pytest.mark.slow
 def test_two_phase_numbers_that_leave_the_finite_are_reported():
     # An overshoot of the limit that grows, below the bound of the linear stability.
     shaken = (

@@ -415,7 +415,6 @@ def test_a_signature_of_unknown_types_is_left_out():
     assert library([good], function(good)).entry("another") is None
 
 
-@pytest.mark.slow
 def test_threads_do_not_see_each_others_arguments():
     spec = ["T", [["q"], ["q"], array(ndim=2)]]
     call = echo([["q"], ["q"], array(ndim=2)], spec)

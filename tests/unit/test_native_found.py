@@ -118,7 +118,7 @@ def test_what_others_may_have_written_is_not_loaded(name, mode, cache, parts, ha
     assert [half(3.0), half(3.0)] == [1.5, 1.5]
     (told,) = caplog.messages
     assert told.startswith(f"{folder / name} can be written to by others; kernels are compiled ")
-    assert "`asperity cache kernels --clear` removes it" in told
+    assert "remove it, or all kernels by `asperity cache kernels --clear`" in told
     # It is for the user to look at.
     assert (folder / table.LIBRARY).exists()
 

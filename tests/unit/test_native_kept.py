@@ -379,7 +379,7 @@ def test_a_flank_that_nobody_waits_for_does_not_wait_for_its_kernels(
 ):
     """Ctrl-C in one flank left the other until its kernel was compiled, up to 16 s."""
     programs, started = begun
-    programs.append("import time; time.sleep(600)")
+    programs.append("import time; time.sleep(30)")
     monkeypatch.setattr(kept, "most_makers", lambda: 1)
     makers, asked = kept._Makers(tmp_path), threading.Event()
 

@@ -91,6 +91,7 @@ def test_a_comparison_marks_it_and_says_what_it_lacks():
 def test_python_says_it_before_the_numbers():
     loose = solve(body(*EARLY, "solve.duration=20 ms"))
     assert repr(loose).startswith("SlideResult(not settled, drive_force=")
+    assert loose._repr_html_().startswith("<p>Not settled, no prediction: ")
     settled = solve(body("solve.method=periodic"))
     assert repr(settled).startswith("SlideResult(drive_force=")
 
@@ -98,7 +99,9 @@ def test_python_says_it_before_the_numbers():
 def test_a_sweep_of_a_case_with_a_block_says_that_it_is_of_the_sliding_body():
     def notes(name):
         case = read_case(name, case_tables(), ["solve.method=periodic"])
-        return sweep(case, ["vibration.velocity_ratio=2"], cache=False).notes
+        found = sweep(case, ["vibration.velocity_ratio=2"], cache=False)
+        assert found.tables()[0].remarks[1:] == found.notes
+        return found.notes
 
     (note,) = notes("block-longitudinal")
     assert "`asperity block` solves its elastic block" in note

@@ -109,8 +109,8 @@ def is_kept(folder: Path) -> bool:
         return False
     if trouble:
         tell(
-            f"{place} {trouble}; {_INSTEAD} instead of read from it: `asperity cache kernels "
-            "--clear` removes it and others that are so",
+            f"{place} {trouble}; {_INSTEAD} instead of read from it: remove it, or all kernels by "
+            "`asperity cache kernels --clear`",
             of=trouble,
         )
     return not trouble

@@ -14,9 +14,12 @@ Rated = Any
 """A `asperity.rating.rated.Rated`, whose module imports this one."""
 
 
-def changed_words(before: Rated, after: Rated) -> tuple[str, ...]:
-    """Return a sentence for each standard whose verdict, and each state whose locking, changes."""
-    return (*_standing(before, after), *_locking(before, after))
+def changed_words(before: Rated, after: Rated, *, each: bool = True) -> tuple[str, ...]:
+    """Return a sentence for each standard whose verdict, and each state whose locking, changes.
+
+    With ``each``, also for what a standard no longer holds against while its verdict stays.
+    """
+    return (*_standing(before, after, each), *_locking(before, after))
 
 
 def says_less(before: Rated, after: Rated) -> bool:
@@ -32,7 +35,7 @@ def says_less(before: Rated, after: Rated) -> bool:
     )
 
 
-def _standing(before: Rated, after: Rated) -> Iterator[str]:
+def _standing(before: Rated, after: Rated, each: bool) -> Iterator[str]:
     old = {one.standard: one for one in before.verdict.standing}
     for one in after.verdict.standing:
         was = old.get(one.standard)
@@ -40,8 +43,8 @@ def _standing(before: Rated, after: Rated) -> Iterator[str]:
             continue
         if was.word != one.word:
             yield f"{NAMES[one.standard]}: {was.word} -> {one.word}"
-        # Where the verdict is that already, what it now is for as well.
-        elif fails := _lost(before, after, one.standard):
+        # The verdict was that already: what fails now and held before.
+        elif each and (fails := _lost(before, after, one.standard)):
             yield f"{NAMES[one.standard]}: no longer holds against {listed(fails)}"
         lost = [name for name in one.unrated if name not in was.unrated]
         if lost:

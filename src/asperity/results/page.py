@@ -39,10 +39,13 @@ def environment() -> "Environment":
     return made
 
 
-def fragment(tables: "Iterable[Table]") -> str:
-    """Return tables as HTML without a page around them."""
+def fragment(tables: "Iterable[Table]", headline: "Iterable[str]" = ()) -> str:
+    """Return tables as HTML without a page around them, below sentences."""
+    from markupsafe import Markup
+
     made: Any = environment().get_template("tables.html.j2").module
-    return str(made.of([shown_table(table) for table in tables]))
+    above = [Markup("<p>{}</p>\n").format(_cell(sentence)) for sentence in headline]
+    return "".join([*above, str(made.of([shown_table(table) for table in tables]))])
 
 
 def data(number: Number) -> "Markup":

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
 from asperity.errors import AsperityError, InputError, StorageError
 from asperity.results import dataset as datasets
 from asperity.results.quantity import Entry, Label, Quantities
@@ -94,8 +96,9 @@ class Result(Quantities):
 
     def __repr__(self) -> str:
         text = super().__repr__()
-        # What has not settled is no prediction, in a session of Python as elsewhere.
-        loose = getattr(self, "settled", True) is False
+        # What has not settled is no prediction, at Python's prompt as elsewhere.
+        settled = getattr(self, "settled", True)
+        loose = np.ndim(settled) == 0 and not settled
         return text.replace("(", "(not settled, ", 1) if loose else text
 
     def to_frame(self) -> Any:
@@ -298,7 +301,7 @@ class Result(Quantities):
     def _repr_html_(self) -> str:
         from asperity.results.page import fragment
 
-        return fragment(self.tables())
+        return fragment(self.tables(), self.headline())
 
     def _with_answer(self) -> "xr.Dataset":
         answer = json.dumps(self.to_json(), allow_nan=False)

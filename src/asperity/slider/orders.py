@@ -29,13 +29,14 @@ def of_the_error(model: Model) -> float:
     if model.solve.scheme == "two-phase":
         return ORDER_ONE
     if friction.model == "dahl" and friction.exponent < _LEAST_WHERE_IT_TURNS:
-        # A body free sideways answers to a slip that turns; where friction turns with it at once
-        # the step makes them chatter.
+        # A body free sideways answers to a slip that turns, and friction to a load that changes;
+        # where it turns with the slip at once the step makes them chatter.
         turns = model.slider.free and abs(model.unit_direction[1]) > _ALONG
         if turns and friction.exponent < _LEAST_TO_FOLLOW:
             return _ORDER_HALF
         stiff = friction.exponent < _LEAST_EXPONENT and not (smooth and friction.law == "vector")
-        if turns or stiff or model.normal is not None:
+        loaded = model.vibrates and abs(model.unit_direction[2]) > _ALONG
+        if turns or stiff or loaded:
             return ORDER_ONE
     # Where Coulomb friction stops a body after a corner, errors fall by four on average only.
     stops = friction.model == "coulomb" and not (model.slider.rigid and not model.slider.free)

@@ -160,7 +160,7 @@ def answer(model: Model, run: Run) -> StaticResult:
         settled_by=standing.settled_by,
         normal=_least_load(body, ratio),
         seconds=time.perf_counter() - began,
-        notes=body.notes + notes + _remarks(model, creep, ratio),
+        notes=body.notes + notes + _remarks(model, creep, ratio, closed),
     )
 
 
@@ -229,7 +229,7 @@ def _bounded(pull: float) -> None:
         )
 
 
-def _remarks(model: Model, creep: Creep, ratio: float) -> tuple[str, ...]:
+def _remarks(model: Model, creep: Creep, ratio: float, closed: float | None) -> tuple[str, ...]:
     notes: tuple[str, ...] = ()
     if not creep.steady:
         notes += (
@@ -237,11 +237,11 @@ def _remarks(model: Model, creep: Creep, ratio: float) -> tuple[str, ...]:
             "itself",
         )
     friction = model.friction
-    most = (friction.static_mu or friction.mu) / friction.mu
-    if friction.model == "lugre" and most > 1.0 and ratio < most * (1.0 - _ABOVE):
+    early = closed is not None and ratio < closed * (1.0 - _ABOVE)
+    if early and friction.model == "lugre" and (friction.static_mu or 0.0) > friction.mu:
         notes += (
             "the pull is put on at once, and LuGre's static friction is left before it is reached: "
-            f"a body that is pulled up slowly may hold more, up to {most:.3g} of mu W unshaken",
+            f"a body that is pulled up slowly may hold more, up to {closed:.3g} of mu W",
         )
     if friction.model == "springs":
         notes += too_few_springs(model)

@@ -83,7 +83,7 @@ def falls(before: Rated, after: Rated) -> list[str]:
     """
     said = [
         f"{text} (--keep locking holds that)" if text.startswith("no longer") else text
-        for text in changed_words(before, after)
+        for text in changed_words(before, after, each=False)
     ]
     for path, asked, old, new in safety_rows(before, after):
         if new is None:
