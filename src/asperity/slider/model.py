@@ -159,7 +159,7 @@ class Model:
         given = self.vibration.start if self.vibration is not None else 0.0
         return round(given / self.step) * self.step if self.meets_corners else given
 
-    @property
+    @functools.cached_property
     def meets_corners(self) -> bool:
         """Whether there are corners in the wave, and steps end on them."""
         cornered = self.shape is not None and self.shape.cornered
