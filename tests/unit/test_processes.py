@@ -59,7 +59,6 @@ def test_where_there_are_no_locks_nothing_is_held(tmp_path, monkeypatch):
         pass
 
 
-@pytest.mark.slow
 def test_a_worker_that_could_not_begin_is_begun_at_the_next_question(tmp_path, monkeypatch):
     async def cannot(*_):
         raise OSError(11, "Resource temporarily unavailable")
