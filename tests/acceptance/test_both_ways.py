@@ -102,7 +102,8 @@ CALLING = sorted(
 @pytest.mark.parametrize("line", CALLING, ids=CALLING)
 def test_both_ways_answer_the_same_to_the_bit(line, tmp_path):
     by_library, by_numba = (seen(line, way, tmp_path / f"way-{way}") for way in ("1", "0"))
-    # They were two.
-    assert (by_library.pop("numba"), by_numba.pop("numba")) == (False, True)
+    # They were two. Exhibits of the thesis are made by workers, and Numba is loaded there.
+    loaded = by_library.pop("numba"), by_numba.pop("numba")
+    assert loaded == (False, not line.startswith("thesis"))
     found = [*places(as_told(by_library), as_told(by_numba))]
     assert not found, "\n".join([line, *found[:20], f"{len(found)} differences"])
