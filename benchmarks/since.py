@@ -187,8 +187,11 @@ def flanks(_folder):
     from asperity.flanks.mesh.tooth import tooth
     from asperity.flanks.meshing.analysis import analyse
     from asperity.flanks.meshing.transmission import transmission
-    from asperity.flanks.study.flank import prepare
 
+    try:
+        from asperity.flanks.study.flank import prepare
+    except ImportError:
+        from asperity.flanks.study import prepare
     case = read_case("gearset-3b", case_tables())
     wheel = prepare(case).wheel
     return {

@@ -23,11 +23,20 @@ def _noted(self, *arguments):
         types = types_of(arguments)
     except UnlistedTypeError:
         types = None
-    text = json.dumps([f"{self.__module__}.{self.__qualname__}", types])
+    text = _text(self, types)
     if text not in _seen:
         _seen.add(text)
         _write(text)
     return _plain(self, *arguments)
+
+
+def _text(kernel, types):
+    return json.dumps([f"{kernel.__module__}.{kernel.__qualname__}", types])
+
+
+def _is_called(self, *arguments):
+    # As where nothing is kept: what has been called before is there by then.
+    return _text(self, types_of(arguments)) in _seen
 
 
 def _write(text):
@@ -44,4 +53,5 @@ def _ends():
 # What makes kernels needs compilers and calls none.
 if "HARVEST" in os.environ and "asperity.kernels.building.worker" not in sys.orig_argv:
     compiled._Lazy.__call__ = _noted
+    compiled._Lazy.is_made = _is_called
     atexit.register(_ends)

@@ -131,7 +131,10 @@ def steady_ratio(model):
 
 
 def fitted(seed, folder, beside):
-    """Fit two parameters to what the plain way measures; yield what is wrong with the answer."""
+    """Fit two parameters to what the plain way measures; yield what is wrong with the answer.
+
+    A fit that is refused is none; predictions that the plain way takes too long for are not held.
+    """
     rng = np.random.default_rng(seed)
     lot, rows = measured(rng, folder)
     sd = 5e-3

@@ -116,8 +116,12 @@ def test_bodies_march_as_by_plain_means(tmp_path, part):
 
 
 def told_apart(periodic, marched):
-    """Whether one of two answers says that it may not be where the other is."""
-    return bool(periodic.notes) or not periodic.settled or not marched.settled
+    """Whether one of two answers says that it may not be where the other is.
+
+    That friction can give energy says nothing of that.
+    """
+    notes = [each for each in periodic.notes if not re.match("friction (gave|can give) ", each)]
+    return bool(notes) or not periodic.settled or not marched.settled
 
 
 def states_against_marches(seed, count, folder, **options):

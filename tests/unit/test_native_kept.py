@@ -69,6 +69,26 @@ def test_who_interrupts_the_wait_may_call_once_more(of_a_number, monkeypatch):
     assert call((3.0,)) == 6.0
 
 
+def test_an_entry_is_made_where_it_is_kept_or_loaded(of_a_number, tmp_path, monkeypatch):
+    monkeypatch.setattr(kept.keys, "key", lambda entry: "key")
+    monkeypatch.setattr(kept.kernel_folder, "kernels", lambda: tmp_path)
+    assert not of_a_number.is_made((3.0,))
+    # Of other types, or of none that a list holds, nothing is made in advance.
+    assert of_a_number.is_made((3,))
+    assert of_a_number.is_made(("text",))
+    (tmp_path / "key").mkdir()
+    assert of_a_number.is_made((3.0,))
+    monkeypatch.setattr(kept, "_obtained", lambda entry: Doubled())
+    assert of_a_number.entry("doubled")((3.0,)) == 6.0
+    (tmp_path / "key").rmdir()
+    assert of_a_number.is_made((3.0,))
+
+
+def test_where_nothing_can_be_kept_nothing_is_waited_for(of_a_number, monkeypatch):
+    monkeypatch.setattr(kept.kernel_folder, "kernels", lambda: None)
+    assert of_a_number.is_made((3.0,))
+
+
 def test_what_cannot_be_obtained_is_asked_for_once(of_a_number, monkeypatch):
     asked = []
     monkeypatch.setattr(kept, "_obtained", asked.append)

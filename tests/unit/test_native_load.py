@@ -287,6 +287,24 @@ def test_a_kernel_that_no_library_has_goes_to_numba(here, made, monkeypatch):
     assert here._native is compiled._not_here
 
 
+def test_a_kernel_is_made_where_a_library_has_it_or_numba_compiles_it(here, made, monkeypatch):
+    class NotYet:
+        def is_made(self, arguments):
+            return arguments != (3.0,)
+
+    monkeypatch.setattr(load, "_kept", lambda name: NotYet())
+    assert here.is_made(3.0)
+    (made / table.TABLE).unlink()
+    load._shipped.cache_clear()
+    assert not here.is_made(3.0)
+    assert here.is_made(3)
+    monkeypatch.setattr(load, "_kept", lambda name: None)
+    assert here.is_made(3.0)
+    monkeypatch.setattr(load, "_kept", lambda name: NotYet())
+    monkeypatch.setenv("ASPERITY_NATIVE", "0")
+    assert here.is_made(3.0)
+
+
 @pytest.mark.slow
 def test_kernels_called_from_a_library_do_not_load_numba(made):
     code = (

@@ -147,7 +147,7 @@ def test_the_jacobian_that_a_search_leaves_is_that_of_the_state_it_found():
     _, cycle = at_its_state("vibration.waveform=triangle", name="normal-pin")
     unknowns = len(cycle.jacobian)
     found = np.empty((unknowns + 1, unknowns))
-    step_error.at_state(
+    step_error.on_twice.at_state(
         cycle.body.kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments,
         cycle.rises, cycle.body.no_sums(), found, 0, step_error.on_twice.DIFFERENTIATE,
     )  # fmt: skip

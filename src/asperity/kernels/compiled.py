@@ -15,7 +15,8 @@ import contextlib
 import functools
 import hashlib
 import threading
-from collections.abc import Callable
+import types
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, overload
 
@@ -68,6 +69,15 @@ class _Lazy:
         name = f"{self.__module__}.{self.__qualname__}"
         self._native = load.entry(name) or _not_here
         return self._native(arguments)
+
+    def is_made(self, *arguments: Any) -> bool:
+        """Return whether a call with such arguments waits for nothing of a library.
+
+        Also where it is no library's but Numba's.
+        """
+        from asperity.kernels.native import load
+
+        return load.is_made(f"{self.__module__}.{self.__qualname__}", arguments)
 
     def __getattr__(self, name: str) -> Any:
         # To Numba, which asks for its type and options, it is what it stands for.
@@ -125,6 +135,31 @@ def made(function: Kernel, options: dict[str, Any], key: Callable[[], str]) -> A
         with contextlib.suppress(OSError):
             machine_code.keep(compiled, key())
     return compiled
+
+
+def as_python(kernel: Kernel, instead: Mapping[Kernel, Kernel]) -> Kernel:
+    """Return a kernel as a function of Python, with those that it calls, which gives the same.
+
+    Parameters
+    ----------
+    kernel : callable
+        The kernel. Its records are to be of a type whose fields are attributes, ``numpy.record``.
+    instead : mapping
+        Kernels with what is called in their place.
+    """
+    made = dict(instead)
+
+    def of(one: Any) -> Kernel:
+        if one not in made:
+            plain = one._function
+            names = dict(plain.__globals__)
+            made[one] = types.FunctionType(plain.__code__, names, plain.__name__)
+            for name in plain.__code__.co_names:
+                if isinstance(names.get(name), _Lazy):
+                    names[name] = of(names[name])
+        return made[one]
+
+    return of(kernel)
 
 
 @overload

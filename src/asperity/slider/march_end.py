@@ -15,11 +15,11 @@ import numpy as np
 
 from asperity.arrays import FloatArray
 from asperity.slider import at_corners, on_twice
+from asperity.slider.at_hand import done_at
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.from_rest import ratio_of
 from asperity.slider.integrators import Integrator, another_at
 from asperity.slider.model import Model
-from asperity.slider.on_twice import at_state
 from asperity.slider.orders import of_the_error, part_of_difference
 from asperity.slider.shooting import CLOSE, run_cycle
 from asperity.slider.step_error import (
@@ -131,13 +131,10 @@ def map_at(cycle: Cycle) -> tuple[FloatArray, FloatArray]:
 
     Of the mean drive force over mu F_N.
     """
-    unknowns, body = _unknowns(cycle), cycle.body
+    unknowns = _unknowns(cycle)
     found = np.zeros((unknowns + 1, unknowns))
     if unknowns:
-        at_state(
-            body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
-            body.no_sums(), found, 0, on_twice.DIFFERENTIATE,
-        )  # fmt: skip
+        done_at(cycle, cycle.body.no_sums(), found, 0, on_twice.DIFFERENTIATE)
     return found[:unknowns], found[unknowns]
 
 

@@ -22,9 +22,10 @@ from asperity.errors import AsperityError, ConvergenceError
 from asperity.results.ledger import NOTED as NOTED_OF_POWERS
 from asperity.results.settled import smaller_step
 from asperity.slider import at_corners, on_twice
+from asperity.slider.at_hand import done_at
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.model import Model
-from asperity.slider.on_twice import at_state, friction_on_twice, predicted_on_half
+from asperity.slider.on_twice import friction_on_twice, predicted_on_half
 from asperity.slider.orders import of_the_error, part_of_difference, power_of
 from asperity.slider.result import SlideResult
 from asperity.slider.scaled import COULOMB
@@ -225,11 +226,8 @@ def closed(cycle: Cycle, jacobian: FloatArray) -> tuple[float, float]:
 
     There is no such state where the defect is above `LEFT`.
     """
-    body = cycle.body
-    left, ratio = at_state(
-        body.kept["state"], cycle.springs, body.p, cycle.q, cycle.increments, cycle.rises,
-        body.kept["sums"], np.ascontiguousarray(jacobian), CLOSING, on_twice.CLOSE_HERE,
-    )  # fmt: skip
+    jacobian = np.ascontiguousarray(jacobian)
+    left, ratio = done_at(cycle, cycle.body.kept["sums"], jacobian, CLOSING, on_twice.CLOSE_HERE)
     return (left if math.isfinite(ratio) else math.inf), ratio
 
 
@@ -248,11 +246,8 @@ def closed_beside(
             return foreseen, hidden
         left, ratio = closed(_on_half(cycle), jacobian)
         return (ratio if left <= LEFT else None), hidden
-    kept = cycle.body.kept
-    left, ratio = at_state(
-        kept["state"], cycle.springs, cycle.body.p, cycle.q, cycle.increments, cycle.rises,
-        kept["sums"], jacobian, CLOSING, on_twice.CLOSE_ON_TWICE,
-    )  # fmt: skip
+    sums = cycle.body.kept["sums"]
+    left, ratio = done_at(cycle, sums, jacobian, CLOSING, on_twice.CLOSE_ON_TWICE)
     let_down = at_corners.ratio_let_down(cycle, jacobian, slopes)
     hidden = 0.0 if let_down is None else abs(let_down - here)
     return (ratio if left <= LEFT and math.isfinite(ratio) else None), hidden

@@ -57,6 +57,15 @@ class Kept:
         """Return the kernel as a function of a tuple."""
         return self._call
 
+    def is_made(self, arguments: tuple[Any, ...]) -> bool:
+        """Return whether a call with such arguments is answered without an entry being made."""
+        with contextlib.suppress(UnlistedTypeError, OSError, LookupError, ImportError):
+            types, kernels = types_of(arguments), kernel_folder.kernels()
+            with self._lock:
+                missing = [entry for entry in self._others if entry.arguments == types]
+            return kernels is None or all((kernels / keys.key(each)).exists() for each in missing)
+        return True
+
     def _call(self, arguments: tuple[Any, ...]) -> Any:
         # Asked before: another thread may load the last one while this one looks.
         is_whole = not self._others

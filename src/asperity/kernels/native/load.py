@@ -43,6 +43,23 @@ def entry(name: str) -> Native | None:
     return None
 
 
+def is_made(name: str, arguments: tuple[Any, ...]) -> bool:
+    """Return whether a kernel's machine code for such arguments is there, or is Numba's to make.
+
+    Parameters
+    ----------
+    name : str
+        Full name of the kernel.
+    arguments : tuple
+        What it is to be called with.
+    """
+    if not _is_wanted() or "<locals>" in name:
+        return True
+    shipped, kept = _shipped(), _kept(name)
+    is_shipped = shipped is not None and shipped.entry(name) is not None
+    return is_shipped or kept is None or kept.is_made(arguments)
+
+
 class Library:
     """Machine code that is loaded, with the table of what stands in it.
 
@@ -159,11 +176,9 @@ def _shipped() -> Library | None:
     return from_folder(_SHIPPED)
 
 
-def _kept(name: str) -> Library | None:
+def _kept(name: str) -> Any:
     # By its name, since what is kept is loaded from here.
-    kept = importlib.import_module("asperity.kernels.native.kept")
-    library: Library | None = kept.library(name)
-    return library
+    return importlib.import_module("asperity.kernels.native.kept").library(name)
 
 
 def is_for_here(made_for: str, features: Iterable[str]) -> bool:
