@@ -8,10 +8,13 @@ import sys
 
 import pytest
 import typer
+from observe import arguments
 
 from asperity.cli.application import app
 from asperity.cli.command_line import built
 from asperity.commands import COMMANDS
+from asperity.kernels.native import kept, load
+from asperity.kernels.native.target import FEATURES
 
 HEAVY = {
     "h5netcdf", "h5py", "jinja2", "llvmlite", "markdown_it", "matplotlib", "multiprocessing",
@@ -48,6 +51,47 @@ ROWS = (
         "flank gearset-3 --density coarse": WITH_KERNELS,
     },
 )  # fmt: skip
+# One line of each other command that answers by itself, each in a process of its own. What solves
+# many cases begins processes; what looks for a root or a least value needs SciPy's ways to it.
+RATES, SOLVES = {"numpy", "pydantic"}, {"numpy", "pydantic", "scipy"}
+MANY = {"multiprocessing"}
+RECORDING = SOLVES | {"h5py"}
+COMMANDS_ALONE = {
+    "block block-transverse BLOCK --set solve.duration='3 ms'": SOLVES,
+    "branches normal-pin --set vibration.frequency='1.7 kHz' --set vibration.elevation='90 deg' "
+    "--over vibration.displacement_amplitude='0.2:0.5:0.1 um'": RATES | MANY,
+    "control drive-actuator TEETH --set drive.stroke='16 deg' --set control.rise='1 ms' "
+    "--set control.failures=dead": RATES,
+    "crossed gearset-3": SOLVES,
+    "directions drive-screw TEETH --set vibration.frequency='20 kHz' "
+    "--set vibration.displacement_amplitude='5 um'": RATES | MANY,
+    "drive drive-actuator TEETH": RATES,
+    "fit RATIOS table-4.3 --free friction.max_deflection --law vector": SOLVES,
+    "flank gearset-3b --density coarse --set gearset.flank=ZA": RATES,
+    "locking drive-actuator TEETH": RATES | MANY,
+    "misalign drive-screw --set drive.teeth=1 --set drive.phases=2 "
+    "--over mount.axial_offset='-20,20 um' --over mount.shaft_angle_error='0,0.1 deg'": (
+        SOLVES | MANY
+    ),
+    "optimise gearset-3": SOLVES,
+    "relief drive-screw --set drive.teeth=1 --set drive.phases=2 "
+    "--over modification.tip_relief='0,20 um'": SOLVES | MANY,
+    "rexs gearset-3b": RATES,
+    "rig check RECORDING": RECORDING,
+    "rig import RECORDING rig-final": RECORDING,
+    "rig plan rig-final": SOLVES,
+    "rig reduce RECORDING --budget": RECORDING,
+    "roots drive-screw --set drive.teeth=1 --set drive.phases=2": SOLVES | {"skfem"},
+    "shafts actuator-shafts --set bearings.raises=clockwise": RATES,
+    "slide RIGID": RATES,
+    "slide normal-pin": RATES,
+    "static normal-pin": RATES,
+    "sweep table-4.4 --over vibration.direction='0 deg:90 deg:30 deg' "
+    "--set solve.method=homogenised": SOLVES | MANY,
+    "wear drive-screw --set drive.teeth=1 --set drive.phases=2 --revolutions 20": SOLVES,
+}
+# These work on the files of a run of the rig, or run it; `rig check` reads one like them.
+NOT_ALONE = {"rig look", "rig package", "rig report", "rig run"}
 PROGRAM = """
 import contextlib, io, json, shlex, sys
 from asperity.cli.main import main
@@ -71,6 +115,47 @@ def test_a_command_loads_nothing_heavy_that_it_does_not_need(row, tmp_path):
         assert HEAVY & found <= allowed, line
         # Of SciPy these take longer than all of a rating.
         assert not {"scipy.optimize", "scipy.interpolate"} & {*json.loads(loaded)}
+
+
+ALONE = """
+import contextlib, io, json, sys
+from asperity.cli.main import main
+with contextlib.redirect_stdout(io.StringIO()):
+    try:
+        main(sys.argv[1:])
+    except SystemExit as end:
+        assert not end.code, end.code
+print(json.dumps(sorted(sys.modules)))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(
+    not load.is_for_here(kept._MADE_HERE, FEATURES), reason="kernels are Numba's on this machine"
+)
+@pytest.mark.parametrize("line", COMMANDS_ALONE)
+def test_a_command_alone_loads_nothing_heavy_that_it_does_not_need(line, tmp_path, monkeypatch):
+    monkeypatch.delenv("ASPERITY_NATIVE", raising=False)
+    done = subprocess.run(
+        [sys.executable, "-c", ALONE, *arguments(line, tmp_path)],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert (
+        HEAVY & {name.partition(".")[0] for name in json.loads(done.stdout)}
+        == (COMMANDS_ALONE[line])
+    )
+
+
+def test_of_every_command_it_is_known_what_it_loads():
+    lines = [*COMMANDS_ALONE, *(line for row in ROWS for line in row)]
+    known = {
+        each.name
+        for each in COMMANDS
+        if any(f"{line} ".startswith(f"{each.name} ") for line in lines)
+    }
+    assert {each.name for each in COMMANDS} - known == NOT_ALONE
 
 
 def _helps(command, name):
