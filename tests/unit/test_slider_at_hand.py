@@ -1,5 +1,7 @@
 """A first march does not wait for what its step's error is told with: Python does the same."""
 
+import itertools
+
 import numpy as np
 import pytest
 from apparatus.bodies import draw
@@ -7,7 +9,7 @@ from apparatus.called import copied, words
 
 from asperity.casefile import read_case
 from asperity.kernels.native.entries import listed
-from asperity.slider import TABLES, Model, at_hand, march_end, on_twice, shooting, step_error
+from asperity.slider import TABLES, Model, at_hand, march_end, on_twice, step_error
 from asperity.slider.cycle_map import Cycle
 from asperity.slider.march import march
 from asperity.slider.periodic import cycle_steps
@@ -43,7 +45,7 @@ def test_python_does_the_same_to_the_last_bit(seed, task, tmp_path, monkeypatch)
     answers = []
     for is_there in (True, False):
         own, matrix = cycle.copied(), copied(jacobian)
-        monkeypatch.setattr(at_hand, "_is_at_hand", lambda *_, there=is_there: there)
+        monkeypatch.setattr(at_hand, "_is_made", lambda _, there=is_there: there)
         sums = own.body.no_sums()
         found = at_hand.done_at(own, sums, matrix, 4, task)
         answers.append(words((found, own.body.kept["state"], own.springs, sums, matrix)))
@@ -52,7 +54,7 @@ def test_python_does_the_same_to_the_last_bit(seed, task, tmp_path, monkeypatch)
 
 @pytest.fixture
 def called(monkeypatch):
-    """Have nothing but the march at hand; gives how often the rest is called."""
+    """Have the kernel made nowhere; gives what it is called for."""
     calls = []
 
     def at_state(*arguments):
@@ -71,15 +73,18 @@ def test_a_march_tells_the_same_error_and_waits_for_nothing_more(called, setting
     model = model_of("solve.method=march", *settings)
     by_python = march(model, history=False)
     assert not called
-    monkeypatch.setattr(at_hand, "_is_at_hand", lambda *_: True)
+    monkeypatch.setattr(at_hand, "_is_made", lambda _: True)
     assert march(model, history=False).step_error == by_python.step_error > 0.0
     assert called
 
 
-def test_where_the_march_is_not_there_either_it_is_waited_for(called, monkeypatch):
-    monkeypatch.setattr(type(shooting.run_cycle), "is_made", lambda *_: False)
-    march(model_of("solve.method=march"), history=False)
-    assert set(called) == set(TASKS)
+def test_who_asks_for_many_states_waits_for_it_after_a_while(called, tmp_path, monkeypatch):
+    monkeypatch.setattr(at_hand, "_TIMES", itertools.count(1))
+    monkeypatch.setattr(at_hand, "_MOST", 3)
+    cycle, _ = drawn(1, tmp_path)
+    for _ in range(5):
+        step_error.closed(cycle.copied(), np.zeros((most_unknowns(cycle.springs),) * 2))
+    assert called == [on_twice.CLOSE_HERE] * 2
 
 
 def test_it_is_asked_no_more_once_it_is_there(called, tmp_path):
@@ -91,10 +96,11 @@ def test_it_is_asked_no_more_once_it_is_there(called, tmp_path):
     assert asked == [1]
 
 
-def test_no_first_march_of_a_body_in_the_plane_is_listed_to_wait_for_it():
+def test_no_first_slide_of_a_body_in_the_plane_is_listed_to_wait_for_it():
     """So that the processes that compile do not begin with it, which takes longest."""
     held = listed()
-    whole = {each.number for each in held.entries if each.name.endswith("on_twice.at_state")}
-    (line,) = (line for line in held.lines if line == "slide table-4.3 --out OUT")
-    assert not whole.intersection(held.lines[line])
-    assert whole.intersection(held.lines["slide table-4.3 --set solve.method=periodic --out OUT"])
+    plane, _ = held.named("asperity.slider.on_twice.at_state")
+    lines = [called for line, called in held.lines.items() if line.startswith("slide table-4")]
+    assert not any(plane.number in called for called in lines)
+    # Many states are worth it.
+    assert any(plane.number in called for called in held.lines.values())

@@ -1,11 +1,13 @@
-"""What is done at a state where no more is compiled yet than cycles of a body in the plane.
+"""What is done at the states of bodies in the plane, before the kernel for it is compiled.
 
-A first march on an empty cache would wait for `at_state`, which takes longest to be compiled of all
-that it calls. Till that is there, Python goes through it: in a few cycles, which are compiled, so
-that all numbers are the same. It takes 2 ms.
+On an empty cache a first march would wait for `at_state`, which takes longest to be compiled of all
+that it calls, and half of that a periodic state. Till it is there Python goes through it, in a few
+cycles, which are compiled sooner: all numbers are the same. That takes a millisecond or two; who
+asks for many states waits for the kernel after a while.
 """
 
 import functools
+import itertools
 from typing import Any
 
 import numpy as np
@@ -17,6 +19,10 @@ from asperity.slider.cycle_map import Cycle
 from asperity.slider.on_twice import at_state
 from asperity.slider.scaled import STATE, SUMS
 
+_MOST = 200
+"""Times that Python does it in a process, which take as long as the kernel is compiled."""
+
+_TIMES = itertools.count(1)
 # What was there once stays so, and to ask takes as long as a cycle.
 _IS_MADE: list[bool] = []
 
@@ -38,8 +44,9 @@ def done_at(
     body = cycle.body
     state, here = body.kept["state"], (cycle.springs, body.p, cycle.q)
     waves, others = (cycle.increments, cycle.rises), (jacobian, most, task)
-    if cycle.q is not None or _is_at_hand(state, here, waves, sums, others):
-        left, ratio = at_state(state, *here, *waves, sums, *others)
+    arguments = state, *here, *waves, sums, *others
+    if cycle.q is not None or _is_made(arguments):
+        left, ratio = at_state(*arguments)
     else:
         # As machine code does; a body that is lost is told by the numbers it has.
         with np.errstate(all="ignore"):
@@ -48,21 +55,12 @@ def done_at(
     return float(left), float(ratio)
 
 
-def _is_at_hand(
-    state: np.ndarray,
-    here: tuple[Any, ...],
-    waves: tuple[FloatArray, FloatArray],
-    sums: np.ndarray,
-    others: tuple[Any, ...],
-) -> bool:
-    """Return whether `at_state` is there, or what Python would need is not there either."""
-    if not _IS_MADE:
-        whole: Any = at_state
-        cycles: Any = shooting.run_cycle
-        if not whole.is_made(state, *here, *waves, sums, *others):
-            return not cycles.is_made(state[0], *here, *waves, sums[0])
+def _is_made(arguments: tuple[Any, ...]) -> bool:
+    """Return whether the kernel is there, or worth waiting for."""
+    kernel: Any = at_state
+    if not _IS_MADE and (kernel.is_made(*arguments) or next(_TIMES) > _MOST):
         _IS_MADE.append(True)
-    return True
+    return bool(_IS_MADE)
 
 
 @functools.cache
