@@ -18,6 +18,7 @@ from numba.core.base import BaseContext
 
 from asperity.files.folders import cache_folder
 from asperity.friction.tangent import update
+from asperity.kernels import compiled
 from asperity.kernels import folder as kernel_folder
 from asperity.kernels.compiled import kernel, kernel_key
 
@@ -122,6 +123,29 @@ def test_a_change_in_a_called_module_gives_the_new_answer(run, package):
     inner = package / "inner.py"
     inner.write_text(inner.read_text().replace("1.0", "2.0"))
     assert run()[:2] == [40.0, 0]
+
+
+@pytest.mark.parametrize("changed", ["outer", "inner"])
+def test_what_is_changed_between_its_import_and_its_call_is_not_kept(
+    run, package, monkeypatch, changed
+):
+    """Numba compiles what was imported: under the new source's key it would be taken for that."""
+    source = package / f"{changed}.py"
+    begun = source.read_text()
+    before = compiled.made
+
+    def edited(*arguments):
+        source.write_text(begun.replace("1.0", "2.0").replace("10.0", "20.0"))
+        later = time.time() + 1.0
+        os.utime(source, (later, later))
+        return before(*arguments)
+
+    with monkeypatch.context() as patched:
+        patched.setattr("asperity.kernels.compiled.made", edited)
+        assert run()[0] == 30.0
+    past = time.time() - 1.0
+    os.utime(source, (past, past))
+    assert run()[:2] == [60.0 if changed == "outer" else 40.0, 0]
 
 
 def half(content):

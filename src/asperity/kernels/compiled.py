@@ -14,7 +14,9 @@ a change elsewhere, nor another place on the disk.
 import contextlib
 import functools
 import hashlib
+import math
 import threading
+import time
 import types
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -28,9 +30,26 @@ Kernel = Callable[..., Any]
 _LOCK = threading.Lock()
 
 
-def kernel_key(module: str, file: Path) -> str:
-    """Return what machine code follows from: a module and its imports, Numba, NumPy, processor."""
+def kernel_key(module: str, file: Path, since: float = math.inf) -> str:
+    """Return what machine code follows from: a module and its imports, Numba, NumPy, processor.
+
+    Parameters
+    ----------
+    module : str
+        Full name.
+    file : path
+        Where it stands.
+    since : float
+        When it was imported, s since 1970: what a source has come to hold later is not compiled.
+
+    Raises
+    ------
+    OSError
+        One of the sources is gone, or was changed after that.
+    """
     sources = closure(module, file=file)
+    if since < math.inf and max(source.stat().st_mtime for source in sources) > since:
+        raise OSError(f"{module}: a source was changed after it was imported")
     root = file.parents[module.count(".")] if "." in module else file.parent
     parts = (digest_of(sources, root), *machine())
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
@@ -53,6 +72,7 @@ class _Lazy:
         functools.update_wrapper(self, function)
         self._function = function
         self._options = options
+        self._since = time.time()
         self._compiled: Any = None
         # Answers from a library of machine code, NotImplemented where that has no such call.
         self._native: Callable[[tuple[Any, ...]], Any] = self._first
@@ -91,7 +111,7 @@ class _Lazy:
 
     def _key(self) -> str:
         file = Path(self._function.__code__.co_filename).absolute()
-        return kernel_key(self._function.__module__ or "", file)
+        return kernel_key(self._function.__module__ or "", file, self._since)
 
     @property
     def _dispatcher(self) -> Any:
@@ -131,7 +151,7 @@ def made(function: Kernel, options: dict[str, Any], key: Callable[[], str]) -> A
 
     compiled = numba.njit(nogil=True, error_model="numpy", **options)(function)
     if not numba.config.DISABLE_JIT:
-        # OSError: a function without a source file, as one typed at a prompt.
+        # OSError: a function without a source file, as one typed at a prompt, or of another by now.
         with contextlib.suppress(OSError):
             machine_code.keep(compiled, key())
     return compiled
