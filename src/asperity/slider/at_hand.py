@@ -19,8 +19,8 @@ from asperity.slider.cycle_map import Cycle
 from asperity.slider.on_twice import at_state
 from asperity.slider.scaled import STATE, SUMS
 
-_MOST = 200
-"""Times that Python does it in a process, which take as long as the kernel is compiled."""
+_MOST = 100
+"""Times that Python does it in a process: a tenth of a second, where the kernel takes seconds."""
 
 _TIMES = itertools.count(1)
 # What was there once stays so, and to ask takes as long as a cycle.
