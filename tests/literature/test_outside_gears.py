@@ -293,7 +293,8 @@ def test_surface_strength_by_jgma_is_a_public_programs():
     """Its zone factor and force are; of its speed factors neither shows that ours is right.
 
     Our factor of rotation at 500 and 600 rpm was taken over from this program's fit, so that its
-    agreement at 600 rpm is one of copying. Our factor of sliding, of a table, is 2.7 % below its curve.
+    agreement at 600 rpm is one of copying. Our factor of sliding, of a table, is 2.7 % below its
+    curve.
     """
     # 2 starts, 30 teeth, m 2.54 mm, a worm of 20 mm; its factors for 600 rpm are those of the worm.
     kgf, lead = 9.80665, math.atan(2 * 2.54 / 20.0)
