@@ -4,7 +4,8 @@ Sources: a catalogue of worm gearboxes of the NMRV kind (rated torques and effic
 rpm; its starts and teeth, and a worm of 0.43 centre distances, are from memory); the table of
 DKM Power Transmission's program that selects worm gearboxes (DKM025 to DKM150, of the same kind,
 with 4-pole motors, as of 20 August 2026); R. Mott, Machine Elements in Mechanical Design, 4th
-edition, examples 10-7 and 10-8 (pages 343, 437); U. C. Jindal, Machine Design, example 28-2.
+edition, examples 10-7 and 10-8 (pages 343, 437; only the latter is compared); U. C. Jindal,
+Machine Design, example 28-2.
 """
 
 import math

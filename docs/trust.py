@@ -1,7 +1,8 @@
 """How far the numbers of the package can be trusted, counted where they stand.
 
-Numbers of data files have a source each, formulas one together; of tables and limits in the package
-`LISTED` says where they stand and where their source does.
+Numbers of data files have a source each, formulas one together, those that stand in a rating's
+list of entries alone among them; of tables and limits in the package `LISTED` says where they
+stand and where their source does.
 """
 
 import ast
@@ -44,6 +45,9 @@ FORMULAS = {
     "formulas of a tribometer": ("tribometer",),
 }  # fmt: skip
 """Kinds of formulas, and the rooms or modules they stand in."""
+
+ENTRIES = Path("rating", "data", "entries.toml")
+"""What a rating says of each number; some of its equations stand there alone."""
 
 LIMITS = (
     "rating.iso14521.limits", "rating.bs721.limits", "rating.agma6034.limits", "gearset.oil",
@@ -100,7 +104,8 @@ def trust():
     for kind, model in DATA.items():
         yield _counted(kind, [s for thing in every(model) for s in _sources(model, thing)])
     for kind, rooms in FORMULAS.items():
-        yield _counted(kind, [f.source.confidence for f in _formulas(rooms) if f.source])
+        made = [formula.source.confidence for formula in _formulas(rooms) if formula.source]
+        yield _counted(kind, made + list(_of_entries(kind.removeprefix("formulas of "))))
     yield _counted("limits of validity, each end", _ends())
     yield _counted("safeties asked for", [demand.source.confidence for demand in DEMANDS])
     for kind in dict.fromkeys(kind for kind, *_ in LISTED):
@@ -115,6 +120,18 @@ def _tables_of_bs721():
         checked += sum(map(len, table.get("checked", {}).values()))
         all_ += _count_numbers({k: v for k, v in table.items() if k not in about})
     return Trust("tables of BS 721", 0, checked, 0, all_ - checked)
+
+
+def _of_entries(standard):
+    """Yield the trust of what a rating has by an equation of its list of entries alone.
+
+    What comes of a table is counted there, and a definition needs no document.
+    """
+    listed = tomllib.loads((PACKAGE / ENTRIES).read_text("utf-8"))
+    for values in listed.get(standard, {}).values():
+        source = values.get("from", "definition")
+        if not ("formula" in values or values.get("equation") == "table" or source == "definition"):
+            yield listed["source"][source]["confidence"]
 
 
 def _count_numbers(value):
@@ -195,7 +212,13 @@ def _formulas(rooms):
 
 
 def from_memory():
-    """Yield each source from memory that the package names, as module and what it says."""
+    """Yield each source from memory that the package names: module or data file, and words."""
+    for path in sorted(PACKAGE.rglob("*.toml")):
+        data = tomllib.loads(path.read_text("utf-8"))
+        named = data.get("source", {})
+        for name, values in {**data, **(named if isinstance(named, dict) else {})}.items():
+            if isinstance(values, dict) and values.get("confidence") == "from memory":
+                yield path.relative_to(PACKAGE).as_posix(), f"[{name}]"
     for path in sorted(PACKAGE.rglob("*.py")):
         text = path.read_text("utf-8")
         if "from memory" not in text:

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 
+import asperity.rating
 from asperity.drive.motor import Motor
 from asperity.flanks.measuring import measures
 from asperity.gearset import Gearset
@@ -25,6 +26,7 @@ from asperity.gearset.proportions import RULES
 from asperity.rating import Operation, RatingOptions, rate
 from asperity.rating.bs721 import torque
 from asperity.rating.bs721.tables import read_tables
+from asperity.rating.iso14521 import balance
 from asperity.shafts.dimensions import DIMENSIONS
 from asperity.thesis.drive import claims
 
@@ -190,7 +192,9 @@ def test_efficiency_and_loss_are_those_of_jindals_example():
     options = RatingOptions(friction=0.028, bs721_friction_angle="mu_over_cos")
     eta = rate(gearset, operation, options).bs721["eta"]
     assert eta == pytest.approx(0.865147, abs=1e-6)
-    assert 4000.0 * (1.0 - eta) / (16.0 * 1.8) == pytest.approx(18.7, abs=0.05)
+    lost = 4000.0 * (1.0 - eta)
+    heat = balance.conductance(16.0, 1.8)
+    assert balance.steady_rise(lost, heat) == pytest.approx(18.7, abs=0.05)
 
 
 def test_forces_and_power_are_those_of_jindals_examples():
@@ -286,6 +290,12 @@ def test_an_iron_wheel_on_a_hardened_worm_says_what_another_document_has():
 
 
 def test_surface_strength_by_jgma_is_a_public_programs():
+    """Its zone factor and force are; of its speed factors neither shows that ours is right.
+
+    Our factor of rotation at 500 and 600 rpm was taken over from this program's fit, so that its
+    agreement at 600 rpm is one of copying. Our factor of sliding, of a table, is 2.7 % below its
+    curve.
+    """
     # 2 starts, 30 teeth, m 2.54 mm, a worm of 20 mm; its factors for 600 rpm are those of the worm.
     kgf, lead = 9.80665, math.atan(2 * 2.54 / 20.0)
     assert math.degrees(lead) == pytest.approx(14.251708, abs=5e-5)  # its pi is 3.1416
@@ -295,7 +305,9 @@ def test_surface_strength_by_jgma_is_a_public_programs():
         0.358904, abs=2e-4
     )
     # Its sliding speed factor is a curve through a figure, ours a table.
-    assert tables.sliding_speed_factor("v_s", sliding, "m/s") == pytest.approx(0.601237, rel=0.03)
+    ours = tables.sliding_speed_factor("v_s", sliding, "m/s")
+    assert ours == pytest.approx(0.585, abs=5e-4)
+    assert ours / 0.601237 - 1.0 == pytest.approx(-0.027, abs=5e-4)
     found = torque.wear_torque(0.601237 * 0.358904, 0.67 * kgf, 1.564, 76.2, 2.54)
     # 0.00191 for 3.82/2000; theirs is the force on the pitch circle.
     assert found == pytest.approx(70.274341 * kgf * 0.5e-3 * 76.2, rel=1e-4)
@@ -316,6 +328,16 @@ def test_numbers_from_memory_are_counted_where_they_stand():
     assert found["hobs of DIN 3976"].from_memory == 24
     assert found["sizes of rolling bearings"].from_memory == 2 * sum(map(len, DIMENSIONS.values()))
     assert found["limits of validity, each end"].own == 8
+    # Both efficiencies of BS 721 stand in the list of entries alone.
+    inline = list(trust._of_entries("bs721"))
+    assert inline.count("from memory") == 2
+    assert found["formulas of bs721"].from_memory == 2 + sum(
+        one.source.confidence == "from memory" for one in trust._formulas(("rating.bs721",))
+    )
+    # A balance of power that one program has otherwise is a choice, not a document's.
+    assert (
+        asperity.rating.iso14521.losses.back_driving_meshing_loss.source.confidence == "own choice"
+    )
     papers = found["closed forms, wear and heat of a sliding body"]
     assert papers.from_memory >= 4
     text = "".join(
@@ -331,14 +353,20 @@ def test_no_source_from_memory_stands_outside_of_what_is_counted():
     counted = {place.partition(":")[0] for *_, place in trust.LISTED} | set(trust.LIMITS)
     rooms = tuple(room for rooms in trust.FORMULAS.values() for room in rooms)
     found = dict(trust.from_memory())
-    assert len(found) >= 18
-    assert not [name for name in found if name not in counted and not name.startswith(rooms)]
+    files = {name for name in found if name.endswith(".toml")}
+    # Things by name have a source a value, tables of BS 721 are counted one by one, and what stands
+    # in the list of entries alone is by its standard.
+    shelves = {f"gearset/data/{path.name}" for path in (trust.PACKAGE / "gearset/data").iterdir()}
+    assert files <= shelves | {"rating/data/bs721.toml", trust.ENTRIES.as_posix()}
+    assert {"gearset/data/materials.toml", trust.ENTRIES.as_posix()} <= files
+    assert len(found) - len(files) >= 18
+    assert not [
+        name for name in found.keys() - files if name not in counted and not name.startswith(rooms)
+    ]
 
 
 def test_what_is_said_to_be_checked_stands_in_its_table():
     import tomllib
-
-    import asperity.rating
 
     path = Path(asperity.rating.__file__).parent / "data" / "bs721.toml"
     for name, table in tomllib.loads(path.read_text("utf-8")).items():

@@ -72,14 +72,17 @@ def drawn(velocity, frequency, **vibration):
     return solve(body, history=False)
 
 
-@pytest.mark.parametrize(("direction", "published"), [(0.0, 0.05), (90.0, 0.10)])
+@pytest.mark.parametrize(
+    ("direction", "published", "lost"), [(0.0, 0.05, (0.968, 0.942)), (90.0, 0.10, (0.861, 0.920))]
+)
 def test_rigid_friction_and_bending_asperities_have_the_published_loss_at_20_between(
-    direction, published
+    direction, published, lost
 ):
     angle = math.radians(direction)
     rigid = float(closed_forms.directed_ratio(20.0, angle))
     bending = drawn(0.5e-3, 20e3, velocity_ratio=20.0, direction=angle).ratio
     assert min(rigid, bending) < published < max(rigid, bending)
+    assert (1.0 - rigid, 1.0 - bending) == pytest.approx(lost, abs=5e-4)
 
 
 def test_friction_falls_before_its_direction_changes_within_a_cycle():
@@ -92,7 +95,7 @@ def test_friction_falls_before_its_direction_changes_within_a_cycle():
     assert ratios[0] == pytest.approx(1.0, abs=1e-9)
     assert ratios[2] == pytest.approx(0.63329, abs=1e-4)
     assert least[2] == pytest.approx(0.24512, abs=1e-4)
-    assert least[3] < 0.0
+    assert (ratios[3], least[3]) == pytest.approx((0.46516, -0.13588), abs=1e-4)
 
 
 def tuned(velocity, share):
@@ -172,4 +175,6 @@ def test_in_contact_a_hertz_contact_loses_less_than_ten_percent_of_its_area():
     assert all(answer.normal.open_share == 0.0 for answer in found)
     thrown = pressed(3.8e-6)
     assert thrown.ratio == pytest.approx(0.609, abs=2e-3)
-    assert thrown.normal.open_share > 0.7
+    assert thrown.normal.open_share == pytest.approx(0.724, abs=5e-3)
+    # The orbit that just touches, beyond which no closed form goes.
+    assert closed_forms.orbit_mean_approach(1.5) == pytest.approx(0.876, abs=5e-4)

@@ -14,7 +14,7 @@ VERIFIED = Source(_STANDARD, "verified")
 ONE_SOURCE = Source(_STANDARD, "one source")
 SUMP = Source(_STANDARD, "one source", "with a fan, a + 32 as MITCalc 1.74 has it")
 BALANCE = Source(
-    "definition", "verified", "balance of power; MITCalc divides it by eta_z2_1 besides"
+    "definition", "own choice", "balance of power; MITCalc divides it by eta_z2_1 besides"
 )
 DEFINITION = Source("definition", "verified")
 
