@@ -101,15 +101,15 @@ def elastic(logs, end, approach):
 def fallen(exponent, b, w, limit, slip):
     r"""Advance asperities ``w`` of Dahl's law of another exponent by a slip of flank and teeth.
 
-    By :math:`\dot w = \rho^{i-1}(v - |v| w/m)`, :math:`\rho = |v/|v| - w/m|` that of the end of the
-    step, which is looked for by halves; teeth bend by ``b`` of what the asperities do.
+    The distance :math:`\rho = |v/|v| - w/m|` falls as :math:`\rho' = -\rho^i` over the own slip in
+    units of the limit, integrated along a straight slip; teeth bend by ``b`` of what the asperities
+    do. What :math:`\Delta w = C(t - |t| w/m)` takes for C is looked for by halves of its logarithm.
     """
     before = w.copy()
     own = np.zeros(3)
-    low, high = 0.0, 2.0
-    for _ in range(32):
-        rho = 0.5 * (low + high)
-        c = max(rho, 1e-12) ** (exponent - 1.0)
+    low, high = -14.0, 14.0
+    for _ in range(36):
+        c = math.exp(0.5 * (low + high))
         g = b * c / (1.0 + b * c)
         # The asperities' own slip t = d + g(|t| w/m - d): its size first.
         shares, along, way = 0.0, 0.0, 0.0
@@ -126,12 +126,17 @@ def fallen(exponent, b, w, limit, slip):
         off = 0.0
         for i in range(3):
             own[i] = (1.0 - g) * slip[i] + g * size * before[i] / limit
-            w[i] = (before[i] + c * own[i]) / (1.0 + c * size / limit)
-            off += (own[i] / size - w[i] / limit) ** 2
-        if math.sqrt(off) > rho:
-            low = rho
+            off += (own[i] / size - before[i] / limit) ** 2
+        far = math.sqrt(off) + 1e-300
+        rest = far ** (1.0 - exponent) + (exponent - 1.0) * size / limit
+        nearer = rest ** (1.0 / (1.0 - exponent)) if rest > 0.0 else 0.0
+        if c * size / limit < 1.0 - nearer / far:
+            low = math.log(c)
         else:
-            high = rho
+            high = math.log(c)
+        part = min(1.0, c * size / limit)
+        for i in range(3):
+            w[i] = before[i] + part * (limit * own[i] / size - before[i])
 
 
 @kernel
