@@ -3,7 +3,8 @@
 Worm rotation on the shaft's torsion, worm shift on its bearing, wheel inertia; one point of contact
 on each flank, as vectors in space (along the worm's surface motion, along its axis, radial); the
 normal force by powers between measured points; friction by the rate equations of Coulomb, Dahl
-(exponents 1 and 0) and LuGre, the teeth a spring behind the asperities (not of exponent 0).
+(any exponent) and LuGre (with Stribeck's effect), the teeth a spring behind the asperities (of
+Coulomb's and Dahl's, not of exponent 0).
 Leapfrog in steps far below the package's, forces from half a step before; nothing is imported from
 the package but how kernels are compiled.
 """
@@ -15,8 +16,8 @@ import numpy as np
 
 from asperity.kernels.compiled import kernel
 
-COULOMB, DAHL, LUGRE, BRITTLE = 0, 1, 2, 3
-SINE, TRIANGLE, SQUARE = 0, 1, 2
+COULOMB, DAHL, LUGRE, BRITTLE, POWER = 0, 1, 2, 3, 4
+SINE, TRIANGLE, SQUARE, SAMPLED = 0, 1, 2, 3
 
 
 class Plain(NamedTuple):
@@ -37,6 +38,9 @@ class Plain(NamedTuple):
     teeth: float  # what they give over what the asperities do
     rate: float
     viscous: float
+    exponent: float  # of Dahl's law, where it is another than 1 and 0
+    static: float  # static over kinetic friction
+    stribeck: float  # speed, m/s
     torsion: float
     torsion_damping: float
     worm_inertia: float
@@ -48,8 +52,15 @@ class Plain(NamedTuple):
     speed: float
     amplitudes: np.ndarray  # worm turn, worm shift, wheel shift, seat, motor
     wave: int
-    rise: float
+    rise: float  # of a square wave, in cycles; of a sampled one half its range
     frequency: float
+
+
+@kernel
+def overtones(phase):
+    """The wave that is given by samples, not normalised."""
+    turn = 2.0 * math.pi * phase
+    return math.sin(turn) + 0.3 * math.sin(2.0 * turn + 0.5) + 0.15 * math.sin(3.0 * turn + 2.0)
 
 
 @kernel
@@ -58,6 +69,8 @@ def wave_at(wave, rise, cycles):
     phase = cycles - math.floor(cycles)
     if wave == 0:
         return math.sin(2.0 * math.pi * phase)
+    if wave == SAMPLED:
+        return (overtones(phase) - overtones(0.0)) / rise
     saw = 4.0 * phase
     if phase > 0.75:
         saw = 4.0 * phase - 4.0
@@ -85,8 +98,53 @@ def elastic(logs, end, approach):
 
 
 @kernel
-def rub(plain, w, force, load, slip, dt):
-    """Advance a flank's asperities ``w`` and friction ``force`` on the worm by a slip in space."""
+def fallen(exponent, b, w, limit, slip):
+    r"""Advance asperities ``w`` of Dahl's law of another exponent by a slip of flank and teeth.
+
+    The distance :math:`\rho = |v/|v| - w/m|` falls as :math:`\rho' = -\rho^i` over the own slip in
+    units of the limit, integrated along a straight slip; teeth bend by ``b`` of what the asperities
+    do. What :math:`\Delta w = C(t - |t| w/m)` takes for C is looked for by halves of its logarithm.
+    """
+    before = w.copy()
+    own = np.zeros(3)
+    low, high = -14.0, 14.0
+    for _ in range(36):
+        c = math.exp(0.5 * (low + high))
+        g = b * c / (1.0 + b * c)
+        # The asperities' own slip t = d + g(|t| w/m - d): its size first.
+        shares, along, way = 0.0, 0.0, 0.0
+        for i in range(3):
+            bent = g * before[i] / limit
+            straight = (1.0 - g) * slip[i]
+            shares += bent * bent
+            along += bent * straight
+            way += straight * straight
+        left = max(1.0 - shares, 1e-12)
+        size = (along + math.sqrt(along * along + left * way)) / left
+        if size <= 0.0:
+            return
+        off = 0.0
+        for i in range(3):
+            own[i] = (1.0 - g) * slip[i] + g * size * before[i] / limit
+            off += (own[i] / size - before[i] / limit) ** 2
+        far = math.sqrt(off) + 1e-300
+        rest = far ** (1.0 - exponent) + (exponent - 1.0) * size / limit
+        nearer = rest ** (1.0 / (1.0 - exponent)) if rest > 0.0 else 0.0
+        if c * size / limit < 1.0 - nearer / far:
+            low = math.log(c)
+        else:
+            high = math.log(c)
+        part = min(1.0, c * size / limit)
+        for i in range(3):
+            w[i] = before[i] + part * (limit * own[i] / size - before[i])
+
+
+@kernel
+def rub(plain, w, force, load, earlier, slip, dt):
+    """Advance a flank's asperities ``w`` and friction ``force`` on the worm by a slip in space.
+
+    The normal force is ``load``, and was ``earlier`` a step before.
+    """
     limit = plain.mu * load / plain.stiffness
     if limit <= 0.0:
         for i in range(3):
@@ -120,6 +178,24 @@ def rub(plain, w, force, load, slip, dt):
             w[i] *= back
             force[i] = plain.stiffness * w[i]
         return
+    if plain.law == POWER:
+        fallen(plain.exponent, b, w, limit, slip)
+        size = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+        for i in range(3):
+            if size > limit:
+                w[i] *= limit / size
+            force[i] = plain.stiffness * w[i]
+        return
+    if plain.static > 1.0:
+        # Stribeck's share at the speed of the slip. What is above its limit by that alone relaxes.
+        speed2 = (slip[0] * slip[0] + slip[1] * slip[1] + slip[2] * slip[2]) / (dt * dt)
+        risen = 1.0 + (plain.static - 1.0) * math.exp(-speed2 / plain.stribeck**2)
+        limit *= risen
+        most = risen * plain.mu * earlier / plain.stiffness
+        start = math.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+        above = max(1.0, start / most) if most > 0.0 else 1.0
+    else:
+        above = 1.0
     way2 = 0.0
     along = 0.0
     share2 = 0.0
@@ -139,8 +215,8 @@ def rub(plain, w, force, load, slip, dt):
         size += w[i] * w[i]
     size = math.sqrt(size)
     for i in range(3):
-        if size > limit:
-            w[i] *= limit / size
+        if size > above * limit:
+            w[i] *= above * limit / size
         force[i] = plain.stiffness * w[i]
     if plain.law != 2:
         return
@@ -172,6 +248,7 @@ def march(plain, start, cycles, per_cycle, means):
     turning, shifting, rolling = plain.speed, 0.0, plain.speed * plain.lead / plain.arm
     w = np.zeros((2, 3))
     w[0] = start[3:6]
+    loads = np.zeros(2)
     force = np.zeros((2, 3))
     force[0] = plain.stiffness * w[0]
     slip = np.zeros(3)
@@ -218,13 +295,14 @@ def march(plain, start, cycles, per_cycle, means):
                     slip[1] = rel[1] - last[1] - n[1] * along
                     slip[2] = -side * n[2] * along
                     old0, old1, old2 = force[flank, 0], force[flank, 1], force[flank, 2]
-                    rub(plain, w[flank], force[flank], load, slip, dt)
+                    rub(plain, w[flank], force[flank], load, loads[flank], slip, dt)
                     sums[5] += 0.5 * (
                         (old0 + force[flank, 0]) * slip[0]
                         + (old1 + force[flank, 1]) * slip[1]
                         + (old2 + force[flank, 2]) * slip[2]
                     )
                     sums[6] += (load - spring) * nearing * dt
+                loads[flank] = load
                 push[0] -= side * load * n[0] + force[flank, 0]
                 push[1] -= side * load * n[1] + force[flank, 1]
             for i in range(2):

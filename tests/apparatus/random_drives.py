@@ -4,7 +4,10 @@ All are of gearset 3 (4 starts, 60 teeth, axial module 2.1538 mm, diameter facto
 a measured mesh. What follows from these is calculated here once more.
 """
 
+import functools
 import math
+import tempfile
+from pathlib import Path
 
 import numpy as np
 
@@ -15,18 +18,22 @@ from apparatus.plain_drive import (
     COULOMB,
     DAHL,
     LUGRE,
+    POWER,
+    SAMPLED,
     SINE,
     SQUARE,
     TRIANGLE,
     Plain,
     march,
+    overtones,
 )
 
 STARTS, TEETH, MODULE, FACTOR, PRESSURE = 4, 60, 2.1538e-3, 8.4, math.radians(20.0)
 RADIUS, BACKLASH, RATIO = 9.81e-3, 0.28e-3, 15.0
 LEAD, CIRCLE = 0.5 * MODULE * STARTS, 0.5 * MODULE * FACTOR
-LAWS = {"coulomb": COULOMB, "dahl": DAHL, "lugre": LUGRE, "brittle": BRITTLE}
-WAVES = {"sine": SINE, "triangle": TRIANGLE, "square": SQUARE}
+LAWS = {"coulomb": COULOMB, "dahl": DAHL, "lugre": LUGRE, "brittle": BRITTLE, "power": POWER}
+WAVES = {"sine": SINE, "triangle": TRIANGLE, "square": SQUARE, "sampled": SAMPLED}
+EXPONENTS = (1 / 3, 0.5, 1.5, 2.0, 3.0)
 PLACES = {
     "axial": ("worm", "seat"), "torsional": ("worm", "motor"), "wheel-axial": ("wheel",),
     "screw": ("worm", "seat"),
@@ -46,7 +53,7 @@ def drawn(rng):
     return {
         "mode": mode,
         "place": str(rng.choice(PLACES[mode])),
-        "wave": str(rng.choice(list(WAVES))),
+        "wave": str(rng.choice(["sine", "triangle", "square"])),
         "frequency": frequency,
         "amplitude": min(faster * speed * CIRCLE / (2.0 * math.pi * frequency), 1.2e-4),
         "law": law,
@@ -68,6 +75,48 @@ def drawn(rng):
     }
 
 
+def drawn_since(rng):
+    """Return a drive with what `drawn` never has: another exponent, Stribeck's effect, samples."""
+    since = rng.spawn(1)[0]
+    drive = drawn(rng)
+    law = str(since.choice(["brittle", "power", "power", "falling", "falling", "same"]))
+    if law == "same" or since.random() < 0.3:
+        drive["wave"] = "sampled"
+    if law in ("brittle", "power"):
+        rigid = law == "brittle" or since.random() < 0.5
+        drive |= {"law": law, "compliance": 0.0 if rigid else 2.9e-9, "rate": 0.0, "viscous": 0.0}
+    if law == "power":
+        drive["exponent"] = float(since.choice([*EXPONENTS, since.uniform(0.3, 4.0)]))
+    if law == "falling":
+        static = float(since.uniform(1.05, 2.0))
+        sliding = drive["speed"] * math.hypot(RADIUS, LEAD)
+        # Far from where more would be refused, since it would give energy.
+        fastest = 5.0 * (sliding + 20.0 * drive["frequency"] * drive["amplitude"])
+        most = static * drive["mu"] * drive["load"] / (RATIO * LEAD) / fastest / (static - 1.0)
+        drive |= {
+            "law": "lugre", "static": static, "compliance": 0.0,
+            "stribeck": sliding * float(10 ** since.uniform(-1.0, 0.5)),
+            "rate": min(float(since.choice([0.0, since.uniform(0.0, 40.0)])), most),
+            "viscous": float(since.choice([0.0, since.uniform(0.0, 20.0)])),
+        }  # fmt: skip
+    return drive
+
+
+def _half_range():
+    fine = np.array([overtones(phase) for phase in np.linspace(0.0, 1.0, 10_001)])
+    return 0.5 * float(np.ptp(fine))
+
+
+@functools.cache
+def _samples(frequency):
+    """A file of the wave that is given by samples, of a frequency in Hz."""
+    cycle = np.linspace(0.0, 1.0, 241).tolist()
+    rows = "".join(f"{phase / frequency!r},{overtones(phase)!r}\n" for phase in cycle)
+    path = Path(tempfile.mkdtemp(prefix="asperity-drives-")) / "wave.csv"
+    path.write_text(f"time,displacement\n{rows}")
+    return path
+
+
 def settings(drive):
     """Return a drive's settings for the package."""
     given = [
@@ -82,7 +131,7 @@ def settings(drive):
         f"vibration.waveform={drive['wave']}",
         f"vibration.frequency={drive['frequency']!r} Hz",
         f"vibration.displacement_amplitude={drive['amplitude']!r} m",
-        f"friction.model={drive['law'].replace('brittle', 'dahl')}",
+        f"friction.model={drive['law'].replace('brittle', 'dahl').replace('power', 'dahl')}",
         f"friction.mu={drive['mu']!r}",
         f"friction.max_deflection={drive['slip']!r} m",
         f"drive.contact_damping={drive['damping']!r} s/m",
@@ -96,8 +145,15 @@ def settings(drive):
     ]
     if drive["wave"] == "square":
         given.append(f"vibration.rise_time={0.1 / drive['frequency']!r} s")
+    if drive["wave"] == "sampled":
+        given.append(f"vibration.samples={_samples(drive['frequency'])}")
     if drive["law"] == "brittle":
         given.append("friction.exponent=0")
+    if drive["law"] == "power":
+        given.append(f"friction.exponent={drive['exponent']!r}")
+    if "static" in drive:
+        given.append(f"friction.static_mu={drive['static'] * drive['mu']!r}")
+        given.append(f"friction.stribeck_velocity={drive['stribeck']!r} m/s")
     if drive["law"] == "lugre":
         given.append(f"friction.contact_damping={drive['rate']!r} N s/m")
         given.append(f"friction.viscous_damping={drive['viscous']!r} N s/m")
@@ -121,10 +177,15 @@ def plain(drive):
     normal = np.array([along, axial, math.sqrt(1.0 - along**2 - axial**2)])
     arm, tilt = RATIO * LEAD, LEAD / length
     speed, load = drive["speed"], drive["load"]
-    # N = T/(i p (n_z - mu_e p/L)), with a viscous part h_v v/N in mu_e: solved for N.
+    # N = T/(i p (n_z - mu_e p/L)), with Stribeck's share and a viscous part h_v v/N in mu_e: solved
+    # for N.
     dragged = drive["viscous"] * speed * length
-    force = (load / arm + tilt * dragged) / (axial - drive["mu"] * tilt)
-    friction = drive["mu"] * force + dragged
+    static, stribeck = drive.get("static", 1.0), drive.get("stribeck", 0.0)
+    risen = 1.0
+    if stribeck:
+        risen += (static - 1.0) * math.exp(-((speed * length / stribeck) ** 2))
+    force = (load / arm + tilt * dragged) / (axial - risen * drive["mu"] * tilt)
+    friction = risen * drive["mu"] * force + dragged
     torque = RADIUS * (force * along + friction * RADIUS / length)
     torques, angles = np.array(POINTS).T
     unit = 1.0 / (arm * (axial - friction / force * tilt))
@@ -155,17 +216,19 @@ def plain(drive):
         damping=drive["damping"], backlash=BACKLASH,
         law=LAWS[drive["law"]], mu=drive["mu"], reference=force,
         stiffness=full / slip, teeth=teeth, rate=drive["rate"], viscous=drive["viscous"],
+        exponent=drive.get("exponent", 1.0), static=static, stribeck=stribeck,
         torsion=drive["torsion"],
         torsion_damping=2.0 * ratio * math.sqrt(drive["torsion"] * drive["worm_inertia"]),
         worm_inertia=drive["worm_inertia"], seat=seat,
         seat_damping=2.0 * ratio * math.sqrt(seat * mass), worm_mass=mass,
         wheel_inertia=drive["inertia"], load=load, speed=speed, amplitudes=places,
-        wave=WAVES[drive["wave"]], rise=0.1, frequency=drive["frequency"],
+        wave=WAVES[drive["wave"]],
+        rise=_half_range() if drive["wave"] == "sampled" else 0.1, frequency=drive["frequency"],
     )  # fmt: skip
     turn = -torque / drive["torsion"]
     shift = -load / arm / seat if seat else 0.0
     roll = (LEAD * turn + shift - approach / axial) / arm
-    sliding = slip * np.array([RADIUS, -LEAD, 0.0]) / length
+    sliding = risen * slip * np.array([RADIUS, -LEAD, 0.0]) / length
     return model, np.array([turn, shift, roll, *sliding]), torque
 
 
@@ -194,6 +257,16 @@ def solved(drive, cycles, judged):
     turned = RATIO * last[8] / drive["speed"] - 1.0
     off = max(np.ptp(blocks), abs(last[1] / drive["load"] - 1.0), abs(turned)) / 5e-3
     names = ("drive", "actuator", "load", "friction")
-    return {"ratio": last[0] / torque, "open": last[7], "off": off} | {
+    return {"ratio": last[0] / torque, "open": last[7], "off": off, "torque": torque} | {
         name: last[2 + n] / power for n, name in enumerate(names)
     }
+
+
+def unshaken(drive, seconds=0.12):
+    """Return the mean torque without vibration in the second half of so long."""
+    model, start, _ = plain(drive)
+    cycles, per_cycle = math.ceil(seconds * 1e3), math.ceil(1e-3 / _PER_STEP)
+    still = model._replace(amplitudes=np.zeros(5), frequency=1e3)
+    return kept.answer(
+        plain_drive.__file__, _marched, still, start, cycles, per_cycle, cycles // 6 * 3
+    )[0]

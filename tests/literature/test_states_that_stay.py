@@ -116,6 +116,31 @@ def test_a_state_of_a_contact_without_damping_is_one_of_many(ratio, law):
     assert any("one of many" in note for note in answer.notes)
 
 
+SPRINGS = "friction.model=springs", "normal.law=rough", "normal.damping_ratio=0"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("ratio", [2, 6, 12])
+def test_a_state_of_springs_on_a_rough_contact_without_damping_is_one_of_many(ratio):
+    answer = pin("solve.method=periodic", f"vibration.velocity_ratio={ratio}", *SPRINGS)
+    assert not answer.settled
+    assert "one of many" in answer.settled_by
+    assert any("one of many" in note for note in answer.notes)
+
+
+@pytest.mark.slow
+def test_a_march_of_springs_on_a_rough_contact_without_damping_says_that_it_shows_another():
+    state, marched = (
+        pin(f"solve.method={how}", "vibration.velocity_ratio=12", *SPRINGS)
+        for how in ("periodic", "march")
+    )
+    assert abs(marched.ratio - state.ratio) > 0.3
+    assert not state.settled
+    assert not marched.settled
+    assert "one of many" in marched.settled_by
+    assert any("rings as the vibration began" in note for note in marched.notes)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("ratio", [6, slow(12)])
 def test_a_march_of_a_contact_without_damping_shows_one_of_many_and_says_so(ratio):

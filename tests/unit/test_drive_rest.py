@@ -84,6 +84,18 @@ def test_a_drive_that_shakes_by_itself_is_what_its_ratios_refer_to(way, step):
 
 
 @pytest.mark.slow
+def test_at_full_speed_too_a_drive_that_shakes_by_itself_is_what_its_ratios_refer_to():
+    fast = "operation.worm_speed=1440 rpm", "friction.stribeck_velocity=1 m/s"
+    one = nothing("falling", "screw", "rigid", *fast)
+    assert one.settled
+    assert one.torque_ratio == pytest.approx(1.0, abs=5e-4)
+    assert one.energy_ratio == pytest.approx(1.0, abs=5e-4)
+    assert one.torque_static == pytest.approx(34.86, abs=0.05)
+    (note,) = [note for note in one.notes if "shakes by itself" in note]
+    assert "sliding would take 35.06 N m" in note
+
+
+@pytest.mark.slow
 def test_a_drive_that_shakes_by_itself_for_a_short_while_and_in_a_step_that_is_given():
     short = "vibration.frequency=4 kHz", "solve.step=0.5 us", "solve.duration=20 ms"
     one = nothing("falling", "screw", "rigid", *SLOW, *short)

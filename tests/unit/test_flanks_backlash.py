@@ -83,7 +83,7 @@ def test_play_is_the_least_of_many_places(seed):
 @pytest.mark.parametrize("seed", range(10, 34))
 def test_play_of_random_hobs_is_the_least_of_many_places(seed):
     # Two dips within one step, at a corner where teeth change, are looked into as one.
-    holds(seed, within=1e-7)
+    holds(seed, within=1e-8 if seed == 14 else RESOLVED)
 
 
 @pytest.mark.slow
