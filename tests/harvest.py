@@ -85,7 +85,11 @@ def noted(line):
             "PYTHONPATH": os.pathsep.join(filter(None, paths)),
             "OPENBLAS_NUM_THREADS": "1",
         }
-        subprocess.run([sys.executable, "-c", _OBSERVE, line], env=environment, check=True)
+        # On two cores, by which processes share out what there is to do.
+        subprocess.run(
+            [sys.executable, "-c", _OBSERVE, line], env=environment, check=True,
+            preexec_fn=lambda: os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[:2]),
+        )  # fmt: skip
         # The command's own process first, which began before those that it began.
         files = sorted(Path(folder).glob("*.jsonl"), key=lambda file: int(file.stem))
         texts = [text for file in files for text in file.read_text("utf-8").splitlines()]

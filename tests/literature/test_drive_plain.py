@@ -134,6 +134,34 @@ def test_a_light_drive_whose_flanks_hammer_is_that_of_the_plain_model(number):
     assert powers <= POWERS
 
 
+# Its flanks are thrown about for 0.17 s, in which three blocks agree to half a percent by chance.
+THROWN_ABOUT = {
+    "mode": "axial", "place": "worm", "wave": "sampled", "frequency": 1874.5599180451832,
+    "amplitude": 1.1950116485775651e-4, "law": "dahl", "mu": 0.19662430392264177,
+    "slip": 8.367516920793159e-07, "rate": 0.0, "viscous": 0.0, "compliance": 2.9e-9,
+    "damping": 0.03, "inertia": 6.770799474100953e-3, "worm_inertia": 2.2363733417752886e-05,
+    "worm_mass": 0.2360688975989697, "load": 467.376287637498, "speed": 231.1064575169174,
+    "torsion": 7998.478751733456, "bearing": 118987611.91396368, "damping_ratio": 0.03,
+}  # fmt: skip
+
+
+@pytest.mark.slow
+def test_a_drive_whose_push_fades_slowly_is_not_said_to_shake_by_itself():
+    """Ten parts of its march without vibration swing by 1.4e-2 N m at first, 4e-3 at last."""
+    drive = random_drives.drawn_since(np.random.default_rng([SEED, 4]))
+    answer = solved(*settings(drive), "solve.duration=5 ms")
+    assert not any("by itself" in note for note in answer.notes)
+
+
+@pytest.mark.slow
+def test_a_drive_whose_flanks_are_thrown_about_for_long_has_not_settled_by_chance():
+    answer, _, ratio, powers = compared(THROWN_ABOUT, longer=4)
+    assert answer.settled
+    assert answer.spread < 5e-4
+    assert ratio <= RATIO
+    assert powers <= POWERS
+
+
 DRIVE = {
     "mode": "axial", "place": "worm", "wave": "sine", "frequency": 10e3, "amplitude": 4e-6,
     "law": "coulomb", "mu": 0.2, "slip": 7e-8, "rate": 0.0, "viscous": 0.0, "compliance": 0.0,

@@ -238,7 +238,7 @@ MACHINED = (
 
 @pytest.mark.parametrize("count", [550, 1200, slow(4800)])
 def test_where_its_limit_falls_under_a_machine_its_error_falls_with_the_step_and_is_told(count):
-    """By a march of another hand: 0.41175 at 32,000 steps; here at ever more steps 0.411766."""
+    """Against where ever more steps come to; by a march of another hand 0.41175, of 32,000."""
     step = 1.0 / (MACHINED[2]["frequency"] * count)
     answer = solve(body(*MACHINED, step=step), history=False)
     error = answer.ratio - 0.411766

@@ -125,27 +125,52 @@ def test_a_change_in_a_called_module_gives_the_new_answer(run, package):
     assert run()[:2] == [40.0, 0]
 
 
+@pytest.mark.parametrize("older", [False, True])
 @pytest.mark.parametrize("changed", ["outer", "inner"])
 def test_what_is_changed_between_its_import_and_its_call_is_not_kept(
-    run, package, monkeypatch, changed
+    run, package, monkeypatch, changed, older
 ):
     """Numba compiles what was imported: under the new source's key it would be taken for that."""
     source = package / f"{changed}.py"
-    begun = source.read_text()
-    before = compiled.made
+    made = compiled.made
 
     def edited(*arguments):
-        source.write_text(begun.replace("1.0", "2.0").replace("10.0", "20.0"))
-        later = time.time() + 1.0
-        os.utime(source, (later, later))
-        return before(*arguments)
+        _edit(source, older=older)
+        return made(*arguments)
 
     with monkeypatch.context() as patched:
-        patched.setattr("asperity.kernels.compiled.made", edited)
+        patched.setattr(compiled, "made", edited)
         assert run()[0] == 30.0
-    past = time.time() - 1.0
-    os.utime(source, (past, past))
     assert run()[:2] == [60.0 if changed == "outer" else 40.0, 0]
+
+
+def test_what_a_later_module_calls_as_it_was_imported_is_not_kept(run, package, monkeypatch):
+    declared = compiled._note
+
+    def note(function):
+        declared(function)
+        if function.__name__ == "inner":
+            _edit(package / "inner.py")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(compiled, "_note", note)
+        assert run()[0] == 30.0
+    assert run()[:2] == [40.0, 0]
+
+
+def test_sources_of_the_future_are_kept(run, package):
+    for source in package.glob("*.py"):
+        os.utime(source, (time.time() + 7200.0,) * 2)
+    run()
+    assert run()[:2] == [30.0, 1]
+
+
+def _edit(source, *, older=False):
+    new = source.with_suffix(".new")
+    new.write_text(source.read_text().replace("+ 1.0", "+ 2.0").replace("* 10.0", "* 20.0"))
+    if older:
+        os.utime(new, (time.time() - 3600.0,) * 2)
+    new.replace(source)
 
 
 def half(content):

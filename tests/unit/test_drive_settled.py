@@ -215,7 +215,7 @@ class TestAMarch:
     """Of a wheel that comes into balance as slowly as is said, by nothing but its sums."""
 
     @staticmethod
-    def march(slow, *, off=0.3):
+    def march(slow, *, off=0.3, thrown=None):
         given = problem(*SHAKEN)
         model = ReducedModel(given, reduction(given, Run()))
         moving = system(given, model)
@@ -227,6 +227,8 @@ class TestAMarch:
             rows["time"] = length
             rows["wheel_torque"] = moving.load * length * (1.0 + off * np.exp(-at / slow))
             rows["torque"] = model.worm_torque * length
+            if thrown is not None:
+                rows["torque"] *= 1.0 + thrown(at)
             rows["turned"] = moving.speed * length
             rows["rolled"] = rows["turned"] / model.point.ratio
             return rows
@@ -284,3 +286,30 @@ class TestAMarch:
         assert not found.settled
         assert "a longer solve.duration may not do" in found.said("torque ratio")
         assert march.rows.size * march.cycle < 0.1
+
+    def test_whose_blocks_agree_by_chance_has_not_settled(self):
+        """They go up and down by 2 %, but the last three, which are within 0.4 % of one another."""
+        march, _ = self.march(1e-9)
+        end = longest_march(24, march.system.frequency, 40e-3) * march.cycle
+        block = 24 * march.cycle
+
+        def thrown(at):
+            places = np.floor(at / block)
+            last = places >= round(end / block) - 3
+            return np.where(last, 0.2, 1.0) * 0.01 * (-1.0) ** places
+
+        _, settle = self.march(1e-9, thrown=thrown)
+        found = settle(40e-3)
+        assert not found.settled
+        assert found.spread == pytest.approx(4e-3)
+        assert found.scatter == pytest.approx(1.2e-2, rel=1e-6)
+        said = found.said("torque ratio")
+        assert "agrees by chance: of twice as many it goes up and down by 1.2 %" in said
+        assert said.endswith("ms would do")
+
+    def test_that_comes_nearer_step_by_step_settles_by_three_blocks_as_it_did(self):
+        _, settle = self.march(1e-9, thrown=lambda at: 0.05 * np.exp(-at / 12e-3))
+        found = settle(40e-3)
+        assert found.settled
+        assert 1e-3 < found.spread < 5e-3
+        assert found.scatter == 0.0

@@ -69,7 +69,7 @@ def called(monkeypatch):
 
 
 @pytest.mark.parametrize("settings", [(), ("friction.law=vector", "vibration.waveform=triangle")])
-def test_a_march_tells_the_same_error_and_waits_for_nothing_more(called, settings, monkeypatch):
+def test_a_march_tells_the_same_error_without_the_kernel(called, settings, monkeypatch):
     model = model_of("solve.method=march", *settings)
     by_python = march(model, history=False)
     assert not called

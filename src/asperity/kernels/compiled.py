@@ -15,12 +15,13 @@ import contextlib
 import functools
 import hashlib
 import math
+import os
 import threading
 import time
 import types
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, overload
+from typing import Any, TypeAlias, overload
 
 from asperity.kernels.closure import closure, digest_of
 
@@ -41,18 +42,50 @@ def kernel_key(module: str, file: Path, since: float = math.inf) -> str:
         Where it stands.
     since : float
         When it was imported, s since 1970: what a source has come to hold later is not compiled.
+        Left out, it is not asked whether any has been changed.
 
     Raises
     ------
     OSError
-        One of the sources is gone, or was changed after that.
+        One of the sources is gone, or was changed after it was imported.
     """
     sources = closure(module, file=file)
-    if since < math.inf and max(source.stat().st_mtime for source in sources) > since:
+    if since < math.inf and any(_is_changed(source, since) for source in sources):
         raise OSError(f"{module}: a source was changed after it was imported")
     root = file.parents[module.count(".")] if "." in module else file.parent
     parts = (digest_of(sources, root), *machine())
     return hashlib.sha256("\0".join(parts).encode()).hexdigest()[:16]
+
+
+_Stamp: TypeAlias = tuple[int, int, int]
+
+# What stood on the disk when the first kernel of a file was declared, and that kernel's name.
+_DECLARED: dict[str, tuple[str, _Stamp]] = {}
+
+
+def _stamp(file: str | Path) -> _Stamp:
+    found = os.stat(file)
+    return found.st_mtime_ns, found.st_size, found.st_ino
+
+
+def _note(function: Kernel) -> None:
+    """Note what a file holds that is imported, or once more."""
+    file, name = os.path.abspath(function.__code__.co_filename), function.__qualname__
+    if file not in _DECLARED or _DECLARED[file][0] == name:
+        # OSError: none, as of one typed at a prompt.
+        with contextlib.suppress(OSError):
+            _DECLARED[file] = name, _stamp(file)
+
+
+def _is_changed(source: Path, since: float) -> bool:
+    """Return whether a source is another than what was imported, as far as can be told.
+
+    One without kernels is imported before those that import it, and is taken for changed where it
+    was written since; not where it is of the future, as on a disk with another clock.
+    """
+    if declared := _DECLARED.get(str(source)):
+        return declared[1] != _stamp(source)
+    return since < source.stat().st_mtime <= time.time()
 
 
 @functools.cache
@@ -73,6 +106,7 @@ class _Lazy:
         self._function = function
         self._options = options
         self._since = time.time()
+        _note(function)
         self._compiled: Any = None
         # Answers from a library of machine code, NotImplemented where that has no such call.
         self._native: Callable[[tuple[Any, ...]], Any] = self._first
@@ -158,7 +192,10 @@ def made(function: Kernel, options: dict[str, Any], key: Callable[[], str]) -> A
 
 
 def as_python(kernel: Kernel, instead: Mapping[Kernel, Kernel]) -> Kernel:
-    """Return a kernel as a function of Python, with those that it calls, which gives the same.
+    """Return a kernel as a function of Python, with those that it calls by their own names.
+
+    It gives the same to the last bit as long as nothing is divided by zero, which raises here, and
+    no number but a float is raised to a power.
 
     Parameters
     ----------
@@ -166,18 +203,25 @@ def as_python(kernel: Kernel, instead: Mapping[Kernel, Kernel]) -> Kernel:
         The kernel. Its records are to be of a type whose fields are attributes, ``numpy.record``.
     instead : mapping
         Kernels with what is called in their place.
+
+    Raises
+    ------
+    TypeError
+        A kernel that is called may break rules of floating point, or has defaults or a closure.
     """
-    made = dict(instead)
+    known = dict(instead)
 
     def of(one: Any) -> Kernel:
-        if one not in made:
+        if one not in known:
             plain = one._function
+            if one._options["fastmath"] or plain.__defaults__ or plain.__closure__:
+                raise TypeError(f"{plain.__module__}.{plain.__qualname__} is another as Python")
             names = dict(plain.__globals__)
-            made[one] = types.FunctionType(plain.__code__, names, plain.__name__)
+            known[one] = types.FunctionType(plain.__code__, names, plain.__name__)
             for name in plain.__code__.co_names:
                 if isinstance(names.get(name), _Lazy):
                     names[name] = of(names[name])
-        return made[one]
+        return known[one]
 
     return of(kernel)
 

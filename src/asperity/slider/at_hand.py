@@ -20,7 +20,7 @@ from asperity.slider.on_twice import at_state
 from asperity.slider.scaled import STATE, SUMS
 
 _MOST = 100
-"""Times that Python does it in a process: a tenth of a second, where the kernel takes seconds."""
+"""Times that Python does it in a process: 0.1 to 0.2 s, where the kernel takes seconds."""
 
 _TIMES = itertools.count(1)
 # What was there once stays so, and to ask takes as long as a cycle.

@@ -4,8 +4,9 @@ Of a state that repeats itself, the state on twice the step is found with the Ja
 in a few cycles; of a wave with corners that on half the step, which ends on the same corners, is
 foreseen from one cycle, and found where that may not be enough (`asperity.slider.march_end` has
 those of a march). Of order two the error is a third of the difference to twice the step (four
-thirds of that to half of it), of order one all of it (twice): with low exponents, and at the
-corners of a wave with LuGre friction or under a load that changes. An exponent of nothing and a
+thirds of that to half of it), of order one all of it (twice): with low exponents, at the
+corners of a wave with LuGre friction or under a load that changes, and with LuGre friction under
+such a load. An exponent of nothing and a
 slip that turns make it more than all of it. As of order one is told too what Coulomb friction makes
 that stops a body at corners, which falls by four on average only, and the two-phase scheme.
 """

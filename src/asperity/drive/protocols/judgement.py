@@ -42,6 +42,8 @@ class Judgement:
         not, NaN where it was too short to tell, 0 where that was not asked.
     waited : float
         Time that it was waited for, s.
+    scatter : float
+        Of twice as many blocks, where they agree by chance alone; 0 else.
     """
 
     settled: bool
@@ -53,6 +55,7 @@ class Judgement:
     cycles: int
     nearer: float = 0.0
     waited: float = 0.0
+    scatter: float = 0.0
 
     @property
     def off(self) -> float:
@@ -80,6 +83,11 @@ class Judgement:
                 f"{_percent(max(abs(self.balance), abs(self.turned)))}"
             )
         missing = []
+        if self.scatter > 0.0:
+            missing.append(
+                f"the {what} of three blocks of cycles agrees by chance: of twice as many it goes "
+                f"up and down by {_percent(self.scatter)}"
+            )
         if not self.spread <= PERIODIC:
             missing.append(
                 f"the {what} of three blocks of cycles spreads by {_percent(self.spread)}"

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from asperity.arrays import FloatArray
 from asperity.drive.interface import SOLVED
 from asperity.drive.motion.system import SUMS, System
-from asperity.drive.protocols.judgement import Judgement, steady_speed
+from asperity.drive.protocols.judgement import PERIODIC, Judgement, steady_speed
 from asperity.drive.reduced.mesh_model import MeshModel
 from asperity.errors import ConvergenceError
 from asperity.runs import Run, Stopped
@@ -249,7 +249,11 @@ class March:
         block, rest = asked[0], asked[1:]
         found = dataclasses.replace(self.judged(*asked, end=end), waited=(end - ramp) * self.cycle)
         if found.settled:
-            return found
+            scatter = self._scatter(*asked[:3], end=end, ramp=ramp)
+            if scatter <= PERIODIC:
+                return found
+            again = _BLOCKS * block * self.cycle
+            return dataclasses.replace(found, settled=False, scatter=scatter, nearer=again)
         apart, now, none = block * max(1, (end - ramp) // (2 * block)), found, math.inf
         if end - apart - _BLOCKS * block < ramp:
             # Blocks half as long, of which there are twice as many.
@@ -261,6 +265,19 @@ class March:
         if now.off < _NEARER * before.off:
             nearer = apart * self.cycle * math.log(found.off) / math.log(before.off / now.off)
         return dataclasses.replace(found, nearer=nearer)
+
+    def _scatter(self, block: int, measure: str, scale: float, *, end: int, ramp: int) -> float:
+        """Return how far means of twice as many blocks spread that go up and down; 0 else.
+
+        Where friction or chatter throws them about, three may agree by chance.
+        """
+        rows = self.rows[ramp:end][-2 * _BLOCKS * block :]
+        if measure == "rolled" or rows.size < 2 * _BLOCKS * block:
+            return 0.0
+        means = np.array([mean(one, measure) for one in rows.reshape(2 * _BLOCKS, block)])
+        ways = np.sign(np.diff(means))
+        turns = int(np.count_nonzero(ways[1:] != ways[:-1]))
+        return float(np.ptp(means)) / scale if turns > 1 else 0.0
 
     def judged(
         self, block: int, measure: str, scale: float, power: float, ratio: float | None,

@@ -61,8 +61,8 @@ class Kept:
         """Return whether a call with such arguments is answered without an entry being made."""
         with contextlib.suppress(UnlistedTypeError, OSError, LookupError, ImportError):
             types, kernels = types_of(arguments), kernel_folder.kernels()
-            with self._lock:
-                missing = [entry for entry in self._others if entry.arguments == types]
+            # Without the lock, which whoever waits for an entry holds.
+            missing = [entry for entry in list(self._others) if entry.arguments == types]
             return kernels is None or all((kernels / keys.key(each)).exists() for each in missing)
         return True
 
