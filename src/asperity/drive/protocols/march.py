@@ -28,6 +28,7 @@ _BLOCK_CYCLES = 12
 _LONGEST_SECONDS, _FEWEST_CYCLES = 60e-3, 60
 # Times that a march without a duration goes on, as long as what is missing has become so much less.
 _GOES_ON, _NEARER = 4, 0.7
+_SCATTER = 2.0  # times what three blocks may spread, that twice as many may go up and down
 # Of one call of the kernel, between which Ctrl-C is heard.
 _CALL_SECONDS = 0.06
 _CHANGING = ("rows", "states", "committed", "seconds", "finer", "off", "told")
@@ -250,7 +251,7 @@ class March:
         found = dataclasses.replace(self.judged(*asked, end=end), waited=(end - ramp) * self.cycle)
         if found.settled:
             scatter = self._scatter(*asked[:3], end=end, ramp=ramp)
-            if scatter <= PERIODIC:
+            if scatter <= _SCATTER * PERIODIC:
                 return found
             again = _BLOCKS * block * self.cycle
             return dataclasses.replace(found, settled=False, scatter=scatter, nearer=again)
